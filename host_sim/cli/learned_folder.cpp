@@ -17,13 +17,14 @@ tl::expected<LearnedMuscles, std::string> LearnedFolder::load() {
   return learned;
 }
 
-tl::expected<void, std::string> LearnedFolder::save(const Simulation& simulation) {
-  for (std::size_t i = 0; kept_ && i < stores_.size(); ++i) {
-    const auto& learned = simulation.learned(i);
-    if (!learned) continue;
-    if (auto saved = stores_[i].save(*learned); !saved) return tl::unexpected(saved.error());
-  }
-  return {};
+void LearnedFolder::store(std::size_t channel, const board::LearnedUpdate& update) {
+  if (!kept_) return;
+  storage::LearnedStore& its = stores_[channel];
+  const auto stored = update ? its.save(*update).map([](auto) {}) : its.forget();
+  if (stored) return;
+  complete_ = false;
+  std::fprintf(stderr, "supercoil-sim: channel %zu learned, but it is not stored: %s\n",
+               channel + 1, stored.error().c_str());
 }
 
 }  // namespace supercoil::host_sim

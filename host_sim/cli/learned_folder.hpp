@@ -1,12 +1,13 @@
 // What a simulated board learned, in a folder, as a board keeps it.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include <tl/expected.hpp>
 
-#include "runner/simulation.hpp"
+#include "scenario/scenario.hpp"
 #include "storage/posix_files.hpp"
 #include "storage/store.hpp"
 
@@ -24,11 +25,15 @@ class LearnedFolder {
   /// What is wrong with what was stored, beside that, is printed. The error says why nothing can be
   /// read.
   tl::expected<LearnedMuscles, std::string> load();
-  /// What identify or calibrate found. The error says what could not be kept.
-  tl::expected<void, std::string> save(const Simulation& simulation);
+  /// As a board stores it, at once: a run that is killed has it. Empty: forgets the muscle. What
+  /// cannot be stored is printed.
+  void store(std::size_t channel, const board::LearnedUpdate& update);
+  /// Nothing of what was learned is lost.
+  bool complete() const { return complete_; }
 
  private:
   bool kept_;
+  bool complete_ = true;
   storage::PosixFiles files_;
   std::vector<storage::LearnedStore> stores_;
 };

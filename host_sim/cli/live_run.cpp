@@ -57,6 +57,7 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
   const pid_t parent = getppid();
   auto nodes = Nodes::start(options, scenario, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
+  nodes->store_in(learned);
   std::unique_ptr<SocketcandServer> server;
   if (options.socketcand_port) {
     auto served = serve(*nodes, scenario.can.interface, *options.socketcand_port);

@@ -34,6 +34,7 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   Progress progress(scenario.name, options.quiet);
   auto nodes = Nodes::start(options, scenario, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
+  nodes->store_in(learned);
   std::optional<CanLog> can_log;
   if (options.can) {
     can_log.emplace(folder.temporary("can.log"), scenario.can.interface);
@@ -46,7 +47,8 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   progress.end();
   if (!complete) {
     return fail(exit_interrupted, "interrupted at " + reached(nodes->first(), scenario) +
-                                      "; nothing of this run is kept but recordings of faults");
+                                      "; nothing of this run is kept but recordings of faults" +
+                                      (options.learned.empty() ? "" : " and what was learned"));
   }
   if (can_log) {
     if (const auto finished = can_log->finish(); !finished)

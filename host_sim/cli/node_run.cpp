@@ -57,10 +57,9 @@ void NodeRun::warn() const {
   }
 }
 
-int NodeRun::conclude(double wall_s, LearnedFolder& learned) {
+int NodeRun::conclude(double wall_s, const LearnedFolder& learned) {
   if (!options_->real_time) warn();
-  if (const auto kept = keep(recorder_, simulation_, learned, *options_); !kept)
-    return fail(exit_failed, kept.error());
+  finish(recorder_, *options_);
   if (trace_) {
     if (const auto finished = trace_->finish(); !finished)
       return fail(exit_failed, (folder_->path() / finished.error()).string());
@@ -70,6 +69,7 @@ int NodeRun::conclude(double wall_s, LearnedFolder& learned) {
       host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
   if (!concluded) return fail(exit_failed, concluded.error());
   summary_json_ = std::move(*concluded);
+  if (!learned.complete()) return exit_failed;  // what is lost was told
   if (options_->real_time && !asks(scenario_)) return exit_done;
   return judge(summary_, scenario_, simulation_, *options_);
 }

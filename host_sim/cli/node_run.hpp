@@ -28,7 +28,7 @@ class NodeRun {
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
-  int conclude(double wall_s, LearnedFolder& learned);
+  int conclude(double wall_s, const LearnedFolder& learned);
   /// What summary.json holds; empty: it is not written.
   const std::string& summary_json() const { return summary_json_; }
 

@@ -27,6 +27,15 @@ tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const S
   return all;
 }
 
+void Nodes::store_in(LearnedFolder& learned) {
+  for (const auto& node : nodes_) {
+    node->simulation().on_learned(
+        [&learned](std::size_t channel, const board::LearnedUpdate& update) {
+          learned.store(channel, update);
+        });
+  }
+}
+
 void Nodes::join_bus(SharedBus::Listener listener) {
   std::vector<Simulation*> boards;
   for (const auto& node : nodes_)
@@ -50,7 +59,7 @@ void Nodes::print_json() const {
   std::puts((nodes_.size() == 1 ? text : "[" + text + "]").c_str());
 }
 
-int Nodes::conclude(double wall_s, LearnedFolder& learned) {
+int Nodes::conclude(double wall_s, const LearnedFolder& learned) {
   int status = exit_done;
   for (const auto& node : nodes_)
     status = std::max(status, node->conclude(wall_s, learned));

@@ -19,6 +19,8 @@ class Nodes {
   static tl::expected<Nodes, std::string> start(const RunOptions& options, const Scenario& scenario,
                                                 const Window& window, OutputFolder& folder);
 
+  /// What boards learn from now on; learned outlives the steps.
+  void store_in(LearnedFolder& learned);
   void join_bus(SharedBus::Listener listener);
   /// After join_bus(): a frame of another program.
   void deliver(const hal::CanFrame& frame) { bus_->deliver(frame); }
@@ -27,7 +29,7 @@ class Nodes {
   const Simulation& first() const { return nodes_.front()->simulation(); }
   void step();
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
-  int conclude(double wall_s, LearnedFolder& learned);
+  int conclude(double wall_s, const LearnedFolder& learned);
 
  private:
   Nodes(const RunOptions& options, OutputFolder& folder) : options_(&options), folder_(&folder) {}

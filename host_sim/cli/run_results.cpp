@@ -148,15 +148,12 @@ std::string prefix(const RunOptions& options, const Scenario& scenario) {
   return options.nodes > 1 ? scenario.name + ": " : "";
 }
 
-tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
-                                     const Simulation& simulation, LearnedFolder& learned,
-                                     const RunOptions& options) {
+void finish(recorder::FlightRecorder& recorder, const RunOptions& options) {
   recorder.finish();
   for (const recorder::RecorderNote& note : recorder.take_notes()) {
     if (note.problem || !options.quiet)
       std::fprintf(note.problem ? stderr : stdout, "%s\n", note.text.c_str());
   }
-  return learned.save(simulation);
 }
 
 tl::expected<std::string, std::string> conclude(const Summary& summary, const Scenario& scenario,

@@ -24,11 +24,8 @@ std::string reached(const Simulation& simulation, const Scenario& scenario);
 /// What a message about one of several nodes begins with.
 std::string prefix(const RunOptions& options, const Scenario& scenario);
 
-/// All that happened: the recorder's last file, its notes, what the board learned.
-/// The error says what could not be kept.
-tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
-                                     const Simulation& simulation, LearnedFolder& learned,
-                                     const RunOptions& options);
+/// All that happened: the recorder's last file; tells its notes.
+void finish(recorder::FlightRecorder& recorder, const RunOptions& options);
 
 /// summary.json in the folder, which is then committed; prints its figures unless quiet. Returns
 /// what it holds.

@@ -78,6 +78,7 @@ void Simulation::housekeep() {
   if (link_) link_->poll(board_.now());
   for (std::size_t i = 0; i < static_cast<std::size_t>(scenario_->channels()); ++i) {
     while (loop_.channel(i).take_learned_update(learned_[i])) {
+      if (on_learned_) on_learned_(i, learned_[i]);
     }
   }
 }

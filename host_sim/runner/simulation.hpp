@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "loop/executive.hpp"
 #include "recorder/flight_recorder.hpp"
@@ -106,6 +107,9 @@ class Simulation {
   /// Keeps what happens from now on; must outlive the simulation's steps.
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
   const Loop& loop() const { return loop_; }
+  /// Called with a channel, and with what it learned, in the tick in which it did.
+  using OnLearned = std::function<void(std::size_t channel, const board::LearnedUpdate&)>;
+  void on_learned(OnLearned store) { on_learned_ = std::move(store); }
   /// Puts the board on a CAN bus from now on; the listener hears every frame that it sends.
   void join_bus(std::function<void(const hal::CanFrame&)> listener);
   /// Empty before join_bus().
@@ -161,6 +165,7 @@ class Simulation {
   std::optional<SimulatedCanBus> bus_;
   std::optional<telemetry::CanEndpoint> link_;
   LearnedMuscles learned_;
+  OnLearned on_learned_;
   std::optional<FirstMotionRun> first_motion_;
 };
 

@@ -107,7 +107,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
         self.assertIn("supercoil: scale 0.005: refused: out_of_range", done.stderr)
-        simulator.end()
+        simulator.end(signal.SIGKILL)
         simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
         self.addCleanup(simulator.end)
         bus = f"socketcand:{simulator.port}"

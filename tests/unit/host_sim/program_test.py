@@ -102,6 +102,33 @@ class Results(ProgramCase):
                 self.assertAlmostEqual(summary[told]["stiffness_N_per_m"], 32.0, delta=3.0)
         self.assertEqual(stored["version"], 2)
 
+    def test_what_was_learned_outlives_a_run_that_is_killed_or_interrupted(self):
+        self.scenario("simulation.duration_s = 200000.0\noperator.action = 'calibrate'\n")
+        for end in (signal.SIGKILL, signal.SIGINT, signal.SIGTERM):
+            memory = self.path / f"memory-{end}"
+            memory.mkdir()
+            with subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--learned", memory, "--no-plot", "--no-trace", "--no-can",
+                                   "--quiet"], cwd=self.path, stderr=subprocess.PIPE, text=True) as running:
+                while not (memory / "learned-1.toml").exists():
+                    self.assertIsNone(running.poll(), "it ended before it had learned")
+                    time.sleep(0.01)
+                running.send_signal(end)
+                errors = running.communicate()[1]
+            self.assertEqual(running.returncode, -9 if end == signal.SIGKILL else 130)
+            if end != signal.SIGKILL:
+                self.assertTrue(errors.endswith("; nothing of this run is kept but recordings of faults and what was learned\n"), errors)
+            self.assertEqual(tomllib.loads((memory / "learned-1.toml").read_text())["version"], 1)
+
+    def test_a_run_that_cannot_store_what_was_learned_says_so_and_fails(self):
+        memory = self.path / "memory"
+        memory.mkdir()
+        (memory / "learned-1.toml.new").mkdir()
+        text = "simulation.duration_s = 60.0\noperator.action = 'calibrate'\n"
+        done = self.run_program("run", self.scenario(text), "--out", "out", "--learned", memory, "--no-plot", "--no-trace", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("supercoil-sim: channel 1 learned, but it is not stored: ", done.stderr)
+        self.assertTrue((self.path / "out/summary.json").exists())
+
     def test_run_writes_trace_summary_and_plot(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

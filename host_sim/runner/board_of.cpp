@@ -161,6 +161,7 @@ void set_known(ChannelSettings& channel, const KnownBefore& known) {
   channel.muscle_identified = known.muscle_identified;
   channel.response_ratio = known.response_ratio;
   channel.unexplained_ratio = known.unexplained_ratio;
+  channel.identification = known.identification;
   channel.calibration = known.calibration;
 }
 

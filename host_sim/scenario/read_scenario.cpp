@@ -157,6 +157,7 @@ KnownBefore known_before(const std::optional<board::Learned>& learned,
   known.muscle_identified = !(learned->muscle == configured);
   known.response_ratio = learned->response_ratio;
   known.unexplained_ratio = learned->unexplained_ratio;
+  known.identification = learned->identification;
   return known;
 }
 

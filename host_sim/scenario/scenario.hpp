@@ -30,6 +30,7 @@ struct KnownBefore {
   bool muscle_identified = false;  ///< not only believed
   double response_ratio = 0.0;     ///< of small motions
   double unexplained_ratio = 0.0;  ///< by the linear model
+  board::Identification identification{};
   board::Calibration calibration;  ///< its resistance is the plant's unless learned
 };
 

@@ -26,7 +26,7 @@ IDENTIFIED = """const { Identified } = await import("/identified.js");
 
 class Told(ModulesCase):
     def test_since_when_is_told_by_how_identify_ended(self):
-        told = self.ask(IDENTIFIED + """const values = (deviation) => ({ stiffness_N_per_m: 16, theta1_deviation_ratio: deviation });
+        told = self.ask(IDENTIFIED + """const values = (deviation) => ({ stiffness_N_per_m: 16, theta4_deviation_ratio: deviation });
             const told = [shown(0)];
             status(1, "rest", "none"); muscle(1, values(null)); told.push(shown(2));
             status(3, "identify", "running"); status(4, "rest", "found"); muscle(4.1, values(0.02)); status(5, "rest", "found"); told.push(shown(5));
@@ -37,8 +37,14 @@ class Told(ModulesCase):
                                 "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s."])
 
     def test_an_identification_before_the_page_is_told_as_such(self):
-        self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "found"); muscle(1, { stiffness_N_per_m: 16, theta1_deviation_ratio: 0.02 });
+        self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "found"); muscle(1, { stiffness_N_per_m: 16, theta4_deviation_ratio: 0.02 });
             return shown(2);"""), "Identified since the board started, before what this page has heard.")
+
+    def test_an_identification_before_the_board_started_has_its_date(self):
+        self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "none");
+            muscle(1, { stiffness_N_per_m: 16, theta4_deviation_ratio: 0.02, identified_s: 1795219200 });
+            return [shown(2), card.rows.get("theta4")[1].textContent];"""),
+            ["Identified 2026-11-21 00:00 UTC, before the board started.", "± 2.00 %"])
 
     def test_theta_follows_from_what_the_board_goes_by(self):
         self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { thermal_mass_J_per_K: 2, heat_transfer_W_per_K: 3, stiffness_N_per_m: 5, damping_Ns_per_m: 7,
@@ -62,7 +68,7 @@ class OnThePage(PageCase):
         page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(5) td"), SLACK_S, "the first quantity")
         self.assertEqual(page.errors(), [])
         answer = page.run("return fetch('/api/muscle/1').then((answer) => answer.json())")
-        self.assertEqual(len(answer), 36)
+        self.assertEqual(len(answer), 37)
         self.assertIsNone(answer["theta1_deviation_ratio"])
         self.assertIsNone(answer["joint_lever_m"])
         self.assertFalse(page.run("return [...document.querySelectorAll('.joint')].some((card) => card.checkVisibility())"))

@@ -110,7 +110,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   STRCMP_CONTAINS("theta1 was kept: each of these rests on the file's values", of_kept.c_str());
   STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % ", of_kept.c_str());
 
-  // A board that was started again does not know them any more.
+  // A muscle that was stored before its deviations were.
   KnownMuscle known = known_of(muscle);
   for (std::size_t i = 0; i < 4; ++i)
     known[known_theta1_deviation + i] = NAN;

@@ -9,7 +9,8 @@ namespace supercoil::board {
 bool same_content(const Learned& a, const Learned& b) {
   return a.muscle == b.muscle && a.calibration == b.calibration && a.senses == b.senses &&
          a.has_muscle == b.has_muscle && a.heat == b.heat && a.response_ratio == b.response_ratio &&
-         a.unexplained_ratio == b.unexplained_ratio && a.tuning == b.tuning;
+         a.unexplained_ratio == b.unexplained_ratio && a.identification == b.identification &&
+         a.tuning == b.tuning;
 }
 
 namespace {
@@ -42,7 +43,8 @@ std::optional<control::Violation> check(const Learned& learned) {
   const SenseComparison& s = learned.senses;
   constexpr double year_9999_s = 253'402'300'799.0;
   const ThermalFacts& h = learned.heat;
-  const std::array<control::Violation, 15> rules{{
+  const Identification& i = learned.identification;
+  const std::array<control::Violation, 20> rules{{
       {"position_offset_m", c.position_offset_m, -1.0, 1.0},
       {"position_scale", c.position_scale, 0.1, 10.0},
       {"cold_resistance_Ohm", c.cold_resistance_Ohm, 1e-2, 1e4},
@@ -58,6 +60,11 @@ std::optional<control::Violation> check(const Learned& learned) {
       {"steady_max_W", h.steady_max_W, 0.0, 1e3},
       {"response_ratio", learned.response_ratio, 0.0, 10.0},
       {"unexplained_ratio", learned.unexplained_ratio, 0.0, 1.0},
+      {"theta1_deviation_ratio", i.deviation_ratio[0], 0.0, 10.0},
+      {"theta2_deviation_ratio", i.deviation_ratio[1], 0.0, 10.0},
+      {"theta3_deviation_ratio", i.deviation_ratio[2], 0.0, 10.0},
+      {"theta4_deviation_ratio", i.deviation_ratio[3], 0.0, 10.0},
+      {"identified_s", i.identified_s, 0.0, year_9999_s},
   }};
   for (const control::Violation& rule : rules) {
     // Written so that a NaN fails.

@@ -47,6 +47,17 @@ struct ThermalFacts {
   friend bool operator==(const ThermalFacts&, const ThermalFacts&) = default;
 };
 
+/// How sure identify was of the muscle that it found, and when.
+struct Identification {
+  /// Standard, of θ1 to θ4, up to 10; 0: kept as it was, or not known.
+  std::array<double, 4> deviation_ratio{};
+  double identified_s = 0.0;  ///< in seconds since 1970; 0: not known
+
+  /// identify always knows the deviation of θ4.
+  bool found() const { return deviation_ratio[3] > 0.0; }
+  friend bool operator==(const Identification&, const Identification&) = default;
+};
+
 /// A std::optional<double> of half the size, as every channel keeps thousands in locked memory.
 /// What is put in is no NaN.
 class OptionalNumber {
@@ -122,6 +133,7 @@ struct Learned {
   double response_ratio = 0.0;
   /// Of the power's variance, by the linear model that identify found, up to 1; 0: not measured.
   double unexplained_ratio = 0.0;
+  Identification identification{};  ///< LearnedStore sets its date
   StoredTuning tuning;
 
   friend bool operator==(const Learned&, const Learned&) = default;

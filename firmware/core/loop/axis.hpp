@@ -243,6 +243,7 @@ class Axis {
   board::Calibration calibration_;
   double response_ratio_;     ///< of small motions, as ProofSettings has it; 0: not measured
   double unexplained_ratio_;  ///< by that muscle, when identify found it; 0: not measured
+  board::Identification identification_;  ///< without a date: since the start
   board::StoredTuning stored_tuning_;
   std::uint32_t knowledge_ = 0;     ///< counts what was learned of the motion
   std::uint32_t knows_from_ = -1U;  ///< of the leader's, as it was taken over

@@ -1,5 +1,6 @@
 // What an axis knows of its muscle, and hands to whoever stores it.
 #include <cmath>
+#include <utility>
 
 #include "loop/axis.hpp"
 
@@ -21,14 +22,14 @@ Refusal Axis::refusal_of(ModeResult kept) {
 }
 
 board::Learned Axis::known() const {
-  return {muscle_,         calibration_,       heater_.senses(), 0, has_muscle_, heater_.facts(),
-          response_ratio_, unexplained_ratio_, stored_tuning_};
+  return {muscle_,         calibration_,    heater_.senses(), 0,
+          has_muscle_,     heater_.facts(), response_ratio_,  unexplained_ratio_,
+          identification_, stored_tuning_};
 }
 
 void Axis::publish_muscle() {
   published_muscle_.set(known_muscle(
-      muscle_, calibration_, response_ratio_,
-      {identify_.quality().deviation_ratio, unexplained_ratio_ > 0.0 ? unexplained_ratio_ : NAN},
+      muscle_, calibration_, response_ratio_, unexplained_ratio_, identification_,
       configured_muscle(settings_, -max_reverse_travel_m_)));
 }
 
@@ -121,7 +122,11 @@ Refusal Axis::store(const Command& command) {
   if (what != 1.0) return Refusal::out_of_range;
   if (!estimation_.trusted()) return Refusal::not_ready;
   const auto muscle = estimation_.trusted_muscle(muscle_);
-  return muscle ? refusal_of(keep(*muscle, calibration_)) : Refusal::out_of_range;
+  if (!muscle) return Refusal::out_of_range;
+  const board::Identification before = std::exchange(identification_, {});
+  const ModeResult kept = keep(*muscle, calibration_);
+  if (kept == ModeResult::implausible) identification_ = before;
+  return refusal_of(kept);
 }
 
 /// The values of controllers and estimators, and which are chosen; to clear, neither.

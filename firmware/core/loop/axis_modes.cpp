@@ -1,10 +1,27 @@
 // What an axis finds out about its muscle when it is asked to: identify and calibrate.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "loop/axis.hpp"
 
 namespace supercoil {
+
+namespace {
+
+/// Without a date, which whoever stores it knows.
+board::Identification identification_of(const modes::Identify::Quality& quality) {
+  constexpr double most = 10.0;
+  board::Identification of;
+  for (std::size_t i = 0; i < of.deviation_ratio.size(); ++i) {
+    const double ratio = quality.deviation_ratio[static_cast<Eigen::Index>(i)];
+    of.deviation_ratio[i] = std::isnan(ratio) ? 0.0 : std::fmin(ratio, most);
+  }
+  return of;
+}
+
+}  // namespace
 
 bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
@@ -43,8 +60,11 @@ bool Axis::step_small_signal() {
 
 /// What is expected of the muscle is so from now on, as it will be at the next start.
 ModeResult Axis::keep_identified() {
+  const auto before = std::pair(unexplained_ratio_, identification_);
   unexplained_ratio_ = identify_.quality().unexplained_ratio;
+  identification_ = identification_of(identify_.quality());
   const ModeResult kept = keep(identify_.found(), calibration_);
+  if (kept == ModeResult::implausible) std::tie(unexplained_ratio_, identification_) = before;
   if (kept == ModeResult::found || kept == ModeResult::not_stored) {
     heater_.believe(muscle_);
     inputs_.expected_anew = true;

@@ -11,13 +11,12 @@
 
 #include "board/learned.hpp"
 #include "loop/settings.hpp"
-#include "modes/identify.hpp"
 
 namespace supercoil {
 
-/// In the order of Muscle.quantity in the DBC. The deviations are NaN until identify has found a
-/// muscle since the start, unexplained_ratio until it ever has found the one that is known.
-inline constexpr std::array<std::string_view, 42> known_quantities{
+/// In the order of Muscle.quantity in the DBC. Deviations and unexplained_ratio are NaN until
+/// identify has found the muscle that is known.
+inline constexpr std::array<std::string_view, 43> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -37,6 +36,7 @@ inline constexpr std::array<std::string_view, 42> known_quantities{
     "bundle_leader_node_offset",  ///< minus this node; NaN: it leads, or there is no bundle
     // Between which a position may be commanded.
     "min_set_point_m", "max_set_point_m",
+    "identified_s",  ///< since 1970; NaN: since the start, or not known
     // By the board's file as well: its limits, and the bounds of [thermal].
     "configured_max_W", "configured_trip_C", "configured_min_mass_J_per_K",
     "configured_max_mass_J_per_K", "configured_min_transfer_W_per_K",
@@ -59,6 +59,7 @@ enum KnownPlace : std::uint8_t {
   known_bundle_leader_node_offset = known_lever_points + control::Lever::max_points,
   known_min_set_point,
   known_max_set_point,
+  known_identified,
   known_configured_limits,                                ///< the first of two
   known_configured_bounds = known_configured_limits + 2,  ///< the first of four
 };
@@ -122,9 +123,11 @@ inline PlaceInJoint told_joint(const KnownMuscle& known) {
 }
 
 inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const board::Calibration& c,
-                                double response_ratio, const modes::Identify::Quality& q,
+                                double response_ratio, double unexplained_ratio,
+                                const board::Identification& identification,
                                 const ConfiguredMuscle& configured) {
   const control::PhysicalParameters& file = configured.muscle;
+  const auto told = [](double value) { return value > 0.0 ? value : NAN; };
   KnownMuscle known{m.thermal_mass_J_per_K,
                     m.heat_transfer_W_per_K,
                     m.stiffness_N_per_m,
@@ -135,11 +138,11 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                     c.position_offset_m,
                     c.position_scale,
                     response_ratio,
-                    q.deviation_ratio[0],
-                    q.deviation_ratio[1],
-                    q.deviation_ratio[2],
-                    q.deviation_ratio[3],
-                    q.unexplained_ratio,
+                    told(identification.deviation_ratio[0]),
+                    told(identification.deviation_ratio[1]),
+                    told(identification.deviation_ratio[2]),
+                    told(identification.deviation_ratio[3]),
+                    told(unexplained_ratio),
                     file.thermal_mass_J_per_K,
                     file.heat_transfer_W_per_K,
                     file.stiffness_N_per_m,
@@ -153,6 +156,7 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
   known[known_bundle_leader_node_offset] = configured.bundle.leader_offset;
   known[known_min_set_point] = configured.min_set_point_m;
   known[known_max_set_point] = configured.max_set_point_m;
+  known[known_identified] = told(identification.identified_s);
   const control::ThermalBounds& b = configured.bounds;
   const std::array limits{configured.max_W,   configured.trip_C,      b.min_mass_J_per_K,
                           b.max_mass_J_per_K, b.min_transfer_W_per_K, b.max_transfer_W_per_K};

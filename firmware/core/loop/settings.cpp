@@ -196,6 +196,7 @@ void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   channel.calibration = learned.calibration;
   channel.response_ratio = learned.response_ratio;
   channel.unexplained_ratio = learned.unexplained_ratio;
+  channel.identification = learned.identification;
 }
 
 std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,

@@ -86,9 +86,10 @@ struct ChannelSettings {
   board::ThermalFacts heat;        ///< found out before, as stored
   double response_ratio = 0.0;     ///< likewise, of small motions; 0: not measured
   double unexplained_ratio = 0.0;  ///< likewise, by the linear model; 0: not measured
-  board::StoredTuning tuning;      ///< as stored; controllers have it already
-  PlaceInJoint joint;              ///< by add_joint()
-  PlaceInBundle bundle;            ///< by add_bundle()
+  board::Identification identification{};  ///< likewise, of the muscle
+  board::StoredTuning tuning;              ///< as stored; controllers have it already
+  PlaceInJoint joint;                      ///< by add_joint()
+  PlaceInBundle bundle;                    ///< by add_bundle()
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

@@ -15,7 +15,7 @@ struct Field {
 };
 
 /// In the order of the file; the fields of a table stand together.
-inline constexpr std::array<Field, 21> fields{{
+inline constexpr std::array<Field, 26> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](board::Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
     {"muscle", "heat_transfer_W_per_K",
@@ -50,6 +50,16 @@ inline constexpr std::array<Field, 21> fields{{
      [](board::Learned& l) -> double& { return l.response_ratio; }},
     {"linear_model", "unexplained_ratio",
      [](board::Learned& l) -> double& { return l.unexplained_ratio; }},
+    {"identification", "theta1_deviation_ratio",
+     [](board::Learned& l) -> double& { return l.identification.deviation_ratio[0]; }},
+    {"identification", "theta2_deviation_ratio",
+     [](board::Learned& l) -> double& { return l.identification.deviation_ratio[1]; }},
+    {"identification", "theta3_deviation_ratio",
+     [](board::Learned& l) -> double& { return l.identification.deviation_ratio[2]; }},
+    {"identification", "theta4_deviation_ratio",
+     [](board::Learned& l) -> double& { return l.identification.deviation_ratio[3]; }},
+    {"identification", "identified_s",
+     [](board::Learned& l) -> double& { return l.identification.identified_s; }},
 }};
 
 /// The key as a file of that format has it.
@@ -61,7 +71,7 @@ constexpr std::string_view key_in(const Field& field, unsigned format) {
 /// have none of them.
 inline constexpr bool may_lack(std::string_view table) {
   return table == "senses" || table == "heat" || table == "small_motions" ||
-         table == "linear_model";
+         table == "linear_model" || table == "identification";
 }
 /// A set without a muscle has no other table.
 inline bool is_stored(const Field& field, const board::Learned& learned) {
@@ -69,6 +79,8 @@ inline bool is_stored(const Field& field, const board::Learned& learned) {
   if (field.table == "heat") return learned.heat != board::ThermalFacts{};
   if (field.table == "small_motions") return learned.has_muscle && learned.response_ratio != 0.0;
   if (field.table == "linear_model") return learned.has_muscle && learned.unexplained_ratio != 0.0;
+  if (field.table == "identification")
+    return learned.has_muscle && learned.identification != board::Identification{};
   return learned.has_muscle;
 }
 

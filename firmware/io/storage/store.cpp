@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <ctime>
 #include <limits>
 #include <utility>
 
@@ -24,14 +25,15 @@ std::uint32_t version_after(const Examined& current, const Examined& previous) {
 
 }  // namespace
 
-LearnedStore::LearnedStore(std::string folder, int channel, Files& files)
+LearnedStore::LearnedStore(std::string folder, int channel, Files& files, Clock clock)
     : folder_(std::move(folder)),
       path_(folder_ + "/learned-" + std::to_string(channel) + ".toml"),
       previous_path_(path_ + ".previous"),
       new_path_(path_ + ".new"),
       previous_new_path_(previous_path_ + ".new"),
       cleared_path_(path_ + ".cleared"),
-      files_(&files) {
+      files_(&files),
+      clock_(std::move(clock)) {
   assert(channel >= 1 && channel <= 16);
 }
 
@@ -53,10 +55,28 @@ tl::expected<Loaded, std::string> LearnedStore::load() {
   return Loaded{};
 }
 
+double LearnedStore::system_clock() {
+  return static_cast<double>(std::time(nullptr));
+}
+
+/// The muscle that is stored already keeps its date.
+void LearnedStore::date(board::Learned& learned, const Examined& current,
+                        const Examined& previous) const {
+  board::Identification& identification = learned.identification;
+  if (!identification.found() || identification.identified_s != 0.0) return;
+  const auto& before = current.learned ? current.learned : previous.learned;
+  if (before && before->muscle == learned.muscle &&
+      before->identification.deviation_ratio == identification.deviation_ratio)
+    identification.identified_s = before->identification.identified_s;
+  if (identification.identified_s == 0.0) identification.identified_s = clock_();
+}
+
 tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned& learned) {
   const Examined current = examine(*files_, path_);
   const Examined previous = examine(*files_, previous_path_);
-  if (current.learned && board::same_content(*current.learned, learned)) {
+  board::Learned next = learned;
+  date(next, current, previous);
+  if (current.learned && board::same_content(*current.learned, next)) {
     // An earlier save may have failed, or a process ended, just before this.
     if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
       return tl::unexpected(synced.error().text);
@@ -64,7 +84,6 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
     synced_ = true;
     return current.learned->version;
   }
-  board::Learned next = learned;
   next.version = version_after(current, previous);
   const std::string content = encode(next);
   // What could not be read back must not replace what can be.

@@ -1,6 +1,7 @@
 // Where a channel's learned set is kept, so that neither a power cut nor a damaged file loses it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,17 +42,20 @@ struct Loaded {
 /// One store a channel, used by one thread at a time, which is not the control loop's: calls block.
 class LearnedStore {
  public:
+  using Clock = std::function<double()>;  ///< in seconds since 1970
+
   /// channel: 1 to 16, as the configuration has checked. files must outlive the store. Touches
   /// nothing yet.
-  LearnedStore(std::string folder, int channel, Files& files);
+  LearnedStore(std::string folder, int channel, Files& files, Clock clock = system_clock);
 
   /// The best set there is. The error says why there is none though something was stored, or that
   /// the folder is not there: what was learned may be on a disk that is not mounted. Changes
   /// nothing on the disk.
   tl::expected<Loaded, std::string> load();
 
-  /// Stores a set and returns the version that it got, one more than the last that is whole. The
-  /// same content again writes nothing. A set that fails check() is refused. After an error the set
+  /// Stores a set and returns the version that it got, one more than the last that is whole. What
+  /// identify found gets the date of its first save, as the loop has no calendar. The same content
+  /// again writes nothing. A set that fails check() is refused. After an error the set
   /// may be stored or not, and load() says which; saving again is always allowed.
   tl::expected<std::uint32_t, std::string> save(const board::Learned& learned);
 
@@ -62,6 +66,8 @@ class LearnedStore {
   tl::expected<void, std::string> forget();
 
  private:
+  static double system_clock();
+  void date(board::Learned& learned, const Examined& current, const Examined& previous) const;
   /// Makes the current file a file of this content, and a good current file the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);
@@ -80,6 +86,7 @@ class LearnedStore {
   std::string previous_new_path_;
   std::string cleared_path_;
   Files* files_;
+  Clock clock_;
   /// What this store sees by its name is also what a power cut would leave.
   bool synced_ = false;
 };

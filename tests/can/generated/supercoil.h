@@ -516,12 +516,13 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
 #define SUPERCOIL_MUSCLE_QUANTITY_MIN_SET_POINT_M_CHOICE (34u)
 #define SUPERCOIL_MUSCLE_QUANTITY_MAX_SET_POINT_M_CHOICE (35u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_W_CHOICE (36u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_TRIP_C_CHOICE (37u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MIN_MASS_J_PER_K_CHOICE (38u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (39u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (40u)
-#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (41u)
+#define SUPERCOIL_MUSCLE_QUANTITY_IDENTIFIED_S_CHOICE (36u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_W_CHOICE (37u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_TRIP_C_CHOICE (38u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MIN_MASS_J_PER_K_CHOICE (39u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (40u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (41u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (42u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -624,12 +625,13 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_MIN_SET_POINT_M_CHOICE (34u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_MAX_SET_POINT_M_CHOICE (35u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_W_CHOICE (36u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_TRIP_C_CHOICE (37u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MIN_MASS_J_PER_K_CHOICE (38u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (39u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (40u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (41u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_IDENTIFIED_S_CHOICE (36u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_W_CHOICE (37u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_TRIP_C_CHOICE (38u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MIN_MASS_J_PER_K_CHOICE (39u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (40u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (41u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (42u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1966,14 +1968,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..41 (0..41 -)
+     * Range: 0..42 (0..42 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) are of the last identify since the start that found a muscle; unexplained_ratio is stored with what it found. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last six are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last six are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2128,7 +2130,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..41 (0..41 -)
+     * Range: 0..42 (0..42 -)
      * Scale: 1
      * Offset: 0
      */

@@ -58,6 +58,19 @@ TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
   }
 }
 
+/// And tells it, until another muscle is stored.
+TEST(Axis, StillKnowsAfterAStartHowSureIdentifyWas) {
+  const board::Identification stored{{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
+  settings.firmware.channels[0].identification = stored;
+  const Channel& channel = rig().loop.channel(0);
+  CHECK_TRUE(std::isnan(channel.known(known_theta1_deviation)));
+  DOUBLES_EQUAL(0.05, channel.known(known_theta1_deviation + 3), 0.0);
+  DOUBLES_EQUAL(1795219200.0, channel.known(known_identified), 0.0);
+  rig().arm();
+  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
+  CHECK(update()->identification == stored);
+}
+
 /// Not only at the next start. The muscle was believed to move half as far again.
 TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
   control::ThermalBounds& bounds = settings.firmware.channels[0].thermal.bounds;

@@ -115,6 +115,8 @@ TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
     STRCMP_CONTAINS("poor_fit", ended.notes.c_str());
     CHECK(ended.unexplained_ratio > 0.06);  // of the full strokes
     DOUBLES_EQUAL(ended.unexplained_ratio, ended.learned->unexplained_ratio, 0.0);
+    CHECK(ended.learned->identification.found());
+    DOUBLES_EQUAL(0.0, ended.learned->identification.identified_s, 0.0);  // no calendar
     control::PhysicalParameters softened;
     softened.stiffness_N_per_m = 11.0;
     const control::Theta truth = control::theta_from(softened);

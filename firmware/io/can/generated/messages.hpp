@@ -132,7 +132,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 42> names_of_quantity{{
+inline constexpr std::array<ValueName, 43> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -169,12 +169,13 @@ inline constexpr std::array<ValueName, 42> names_of_quantity{{
     {33, "bundle_leader_node_offset"},
     {34, "min_set_point_m"},
     {35, "max_set_point_m"},
-    {36, "configured_max_W"},
-    {37, "configured_trip_C"},
-    {38, "configured_min_mass_J_per_K"},
-    {39, "configured_max_mass_J_per_K"},
-    {40, "configured_min_transfer_W_per_K"},
-    {41, "configured_max_transfer_W_per_K"},
+    {36, "identified_s"},
+    {37, "configured_max_W"},
+    {38, "configured_trip_C"},
+    {39, "configured_min_mass_J_per_K"},
+    {40, "configured_max_mass_J_per_K"},
+    {41, "configured_min_transfer_W_per_K"},
+    {42, "configured_max_transfer_W_per_K"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

@@ -169,12 +169,13 @@ class Quantity(Named):
     bundle_leader_node_offset = 33
     min_set_point_m = 34
     max_set_point_m = 35
-    configured_max_W = 36
-    configured_trip_C = 37
-    configured_min_mass_J_per_K = 38
-    configured_max_mass_J_per_K = 39
-    configured_min_transfer_W_per_K = 40
-    configured_max_transfer_W_per_K = 41
+    identified_s = 36
+    configured_max_W = 37
+    configured_trip_C = 38
+    configured_min_mass_J_per_K = 39
+    configured_max_mass_J_per_K = 40
+    configured_min_transfer_W_per_K = 41
+    configured_max_transfer_W_per_K = 42
 
 
 class Refusal(Named):

@@ -130,6 +130,7 @@ TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
   learned[1]->calibration.cold_resistance_Ohm = 7.5;
   learned[1]->response_ratio = 0.8;
   learned[1]->unexplained_ratio = 0.02;
+  learned[1]->identification = {{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
   const auto known = parse_scenario(text, "s.toml", learned);
   CHECK(known.has_value());
   const BoardSettings board = firmware_of(*known);
@@ -141,6 +142,7 @@ TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
   DOUBLES_EQUAL(7.0, board.channels[1].heater.cold_resistance_Ohm, 0.0);
   DOUBLES_EQUAL(0.8, board.channels[1].response_ratio, 0.0);
   DOUBLES_EQUAL(0.02, board.channels[1].unexplained_ratio, 0.0);
+  CHECK(board.channels[1].identification == learned[1]->identification);
 }
 
 TEST(JointScenario, ItsLeverMayDependOnTheAngle) {

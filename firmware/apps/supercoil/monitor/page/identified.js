@@ -20,6 +20,9 @@ const THETA = {
 
 const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NONE);
 
+/** "2026-11-28 07:15 UTC" of seconds since 1970. */
+const minute = (since_1970_s) => `${new Date(1e3 * since_1970_s).toISOString().slice(0, 16).replace("T", " ")} UTC`;
+
 /** When what is in use was identified: the time, "before" when it was earlier than what is remembered, null: never. */
 function identified_since(store, node, now_s) {
   let later = null;
@@ -72,7 +75,7 @@ export class Identified {
       show(configured, significant(known[`configured_${name}`]));
     }
     // The search goes back far: only when something has changed.
-    const key = [result, known.stiffness_N_per_m, known.theta1_deviation_ratio, this.problem, this.may_ask || Math.floor(now_s)].join();
+    const key = [result, known.stiffness_N_per_m, known.theta4_deviation_ratio, known.identified_s, this.problem, this.may_ask || Math.floor(now_s)].join();
     if (key !== this.key) show(this.since, this.problem || this.#since(known, now_s));
     this.key = key;
   }
@@ -81,7 +84,8 @@ export class Identified {
     if (known.stiffness_N_per_m === undefined) return this.may_ask ? "being asked for …" : "Nobody asked the board for it in this log.";
     const since_s = identified_since(this.store, this.node, now_s);
     if (since_s !== null) return `Identified; in use since ${bus_time(since_s)}.`;
-    if (known.theta1_deviation_ratio >= 0) return "Identified since the board started, before what this page has heard.";
+    if (known.identified_s > 0) return `Identified ${minute(known.identified_s)}, before the board started.`;
+    if (known.theta4_deviation_ratio >= 0) return "Identified since the board started, before what this page has heard.";
     return "Not identified since the board started: configured, or stored from before.";
   }
 }

@@ -38,18 +38,24 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   LONGS_EQUAL(control::Lever::max_points, known_bundle_leader_node_offset - known_lever_points);
   CHECK(known_quantities[known_min_set_point] == "min_set_point_m");
   CHECK(known_quantities[known_max_set_point] == "max_set_point_m");
+  CHECK(known_quantities[known_identified] == "identified_s");
   CHECK(known_quantities[known_configured_limits] == "configured_max_W");
   CHECK(known_quantities[known_configured_bounds] == "configured_min_mass_J_per_K");
   LONGS_EQUAL(4, known_quantities.size() - known_configured_bounds);
   const KnownMuscle known = known_muscle(
-      {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
-      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}, NAN, NAN});
-  modes::Identify::Quality quality;
-  quality.deviation_ratio << 0.1, 0.2, 0.3, 0.4;
-  quality.unexplained_ratio = 0.5;
-  const KnownMuscle identified = known_muscle({}, {}, 0.0, quality, {{}, 8.0, {}});
+      {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, 0.0,
+      {}, {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}, NAN, NAN});
+  const board::Identification quality{{0.1, 0.2, 0.3, 0.4}, 1795219200.0};
+  const KnownMuscle identified = known_muscle({}, {}, 0.0, 0.5, quality, {{}, 8.0, {}});
+  DOUBLES_EQUAL(1795219200.0, identified[known_identified], 0.0);
   for (std::size_t i = 0; i < 5; ++i)
     DOUBLES_EQUAL(0.1 * static_cast<double>(i + 1), identified[known_theta1_deviation + i], 1e-15);
+  // Of θ1 that was kept, and of a muscle that nobody identified.
+  const KnownMuscle kept = known_muscle({}, {}, 0.0, 0.5, {{0.0, 0.2, 0.3, 0.4}}, {{}, 8.0, {}});
+  for (const std::size_t unknown : {known_theta1_deviation, known_identified})
+    CHECK(std::isnan(kept[unknown]));
+  for (std::size_t i = 0; i < 5; ++i)
+    CHECK(std::isnan(known[known_theta1_deviation + i]));
   DOUBLES_EQUAL(9.0, known[known_cold_resistance], 0.0);
   DOUBLES_EQUAL(0.25, known[known_position_offset], 0.0);
   DOUBLES_EQUAL(1.5, known[known_position_scale], 0.0);
@@ -60,9 +66,9 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(-1.0, known[known_joint_other_node_offset], 0.0);
   CHECK(known_quantities[known_bundle_leader_node_offset] == "bundle_leader_node_offset");
   CHECK(std::isnan(known[known_bundle_leader_node_offset]));
-  const KnownMuscle third = known_muscle({}, {}, 0.0, {}, {{}, 8.0, {}, {true, -2.0}});
+  const KnownMuscle third = known_muscle({}, {}, 0.0, 0.0, {}, {{}, 8.0, {}, {true, -2.0}});
   DOUBLES_EQUAL(-2.0, third[known_bundle_leader_node_offset], 0.0);
-  const KnownMuscle ranged = known_muscle({}, {}, 0.0, {}, {{}, 8.0, {}, {}, -0.005, 0.02});
+  const KnownMuscle ranged = known_muscle({}, {}, 0.0, 0.0, {}, {{}, 8.0, {}, {}, -0.005, 0.02});
   DOUBLES_EQUAL(-0.005, ranged[known_min_set_point], 0.0);
   DOUBLES_EQUAL(0.02, ranged[known_max_set_point], 0.0);
   const KnownMuscle bounded = known_muscle({}, {}, 0.0, {},
@@ -87,7 +93,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
 namespace {
 
 KnownMuscle known_in(const PlaceInJoint& joint) {
-  return known_muscle({}, {}, 0.0, {}, {{}, 8.0, joint});
+  return known_muscle({}, {}, 0.0, 0.0, {}, {{}, 8.0, joint});
 }
 
 }  // namespace

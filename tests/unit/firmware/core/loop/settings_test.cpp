@@ -216,6 +216,7 @@ TEST_GROUP(AppliedSettings) {
     learned.heat.time_constant_s = 1.75;
     learned.response_ratio = 0.5;
     learned.unexplained_ratio = 0.25;
+    learned.identification = {{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
     learned.tuning.estimator = 1.0;
   }
 };
@@ -232,6 +233,7 @@ TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
   CHECK(channel.tuning == learned.tuning);
   DOUBLES_EQUAL(0.5, channel.response_ratio, 0.0);
   DOUBLES_EQUAL(0.25, channel.unexplained_ratio, 0.0);
+  CHECK(channel.identification == learned.identification);
 }
 
 TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
@@ -243,6 +245,7 @@ TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
   CHECK(channel.calibration == before.calibration);
   DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
   DOUBLES_EQUAL(0.0, channel.unexplained_ratio, 0.0);
+  CHECK(channel.identification == board::Identification{});
   CHECK(channel.senses == learned.senses);
   CHECK(channel.heat == learned.heat);
   CHECK(channel.tuning == learned.tuning);

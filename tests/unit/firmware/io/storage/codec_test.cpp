@@ -30,6 +30,7 @@ board::Learned full_set() {
   set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
   set.response_ratio = 0.375;
   set.unexplained_ratio = 0.03125;
+  set.identification = {{0.0, 0.25, 0.125, 0.0625}, 1795219201.0};
   return set;
 }
 
@@ -189,10 +190,24 @@ TEST(Codec, WhatTheLinearModelLeavesHasATableOfItsOwnWhereIdentifyToldIt) {
   CHECK(decode(encode(set)) == set);
 }
 
+TEST(Codec, HowSureIdentifyWasHasATableOfItsOwn) {
+  board::Learned set = full_set();
+  STRCMP_CONTAINS(
+      "\n[identification]\ntheta1_deviation_ratio = 0.0\ntheta2_deviation_ratio = 0.25\n"
+      "theta3_deviation_ratio = 0.125\ntheta4_deviation_ratio = 0.0625\n"
+      "identified_s = 1795219201.0\n",
+      encode(set).c_str());
+  CHECK(decode(encode(set)) == set);
+  set.identification = {};
+  CHECK(encode(set).find("identification") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
 TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   board::Learned set = full_set();
   set.has_muscle = false;
   set.response_ratio = set.unexplained_ratio = 0.0;
+  set.identification = {};
   set.version = 1;
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);

@@ -37,6 +37,29 @@ TEST(LearnedStore, CountsTheVersionsWhateverItIsGiven) {
   LONGS_EQUAL(2, store.load()->learned->version);
 }
 
+TEST(LearnedStore, DatesWhatIdentifyFoundByItsFirstSave) {
+  double now_s = 1.7e9;
+  LearnedStore dated("/d", 3, files, [&] { return now_s; });
+  const auto identified_s = [&](const board::Learned& set) {
+    CHECK(dated.save(set).has_value());
+    return dated.load()->learned->identification.identified_s;
+  };
+  board::Learned set = nth_set(1);
+  DOUBLES_EQUAL(0.0, identified_s(set), 0.0);
+  set.identification.deviation_ratio = {0.0, 0.2, 0.1, 0.05};
+  DOUBLES_EQUAL(1.7e9, identified_s(set), 0.0);
+  // A later calibration stores the muscle again, as the loop has it: without a date.
+  now_s += 60.0;
+  DOUBLES_EQUAL(1.7e9, identified_s(set), 0.0);
+  LONGS_EQUAL(2, dated.load()->learned->version);
+  set.calibration.position_scale = 1.25;
+  DOUBLES_EQUAL(1.7e9, identified_s(set), 0.0);
+  set.identification.deviation_ratio[3] = 0.04;
+  DOUBLES_EQUAL(1.7e9 + 60.0, identified_s(set), 0.0);
+  set.identification.identified_s = 1.6e9;
+  DOUBLES_EQUAL(1.6e9, identified_s(set), 0.0);
+}
+
 TEST(LearnedStore, ForgetsAllAndBeginsAnew) {
   save(1);
   save(2);

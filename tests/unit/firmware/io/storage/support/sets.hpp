@@ -76,13 +76,25 @@ inline rc::Gen<board::ThermalFacts> heat_facts() {
           any_magnitude(1e-3, 100.0), any_magnitude(1e-3, 900.0)));
 }
 
+/// None, or one with a date.
+inline rc::Gen<board::Identification> identifications() {
+  return rc::gen::oneOf(
+      rc::gen::just(board::Identification{}),
+      rc::gen::apply(
+          [](double theta1, double theta2, double theta3, double theta4, double time_s) {
+            return board::Identification{{theta1, theta2, theta3, theta4}, time_s};
+          },
+          any_magnitude(1e-9, 10.0), any_magnitude(1e-9, 10.0), any_magnitude(1e-9, 10.0),
+          any_magnitude(1e-9, 10.0), any_magnitude(1.0, 2e11)));
+}
+
 /// Any set that passes check(), the ends of the ranges among them.
 inline rc::Gen<board::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, const board::SenseComparison& senses,
          const board::ThermalFacts& heat, double response_ratio, double unexplained_ratio,
-         std::uint32_t version) {
+         const board::Identification& identification, std::uint32_t version) {
         return board::Learned{{psi, eta, rho, mu, mass, gamma},
                               {offset, scale, resistance},
                               senses,
@@ -91,13 +103,14 @@ inline rc::Gen<board::Learned> learned_sets() {
                               heat,
                               response_ratio,
                               unexplained_ratio,
+                              identification,
                               {}};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
       any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(), heat_facts(),
       rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-3, 10.0)),
-      rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-6, 1.0)),
+      rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-6, 1.0)), identifications(),
       rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
 }
 

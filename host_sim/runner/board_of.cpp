@@ -157,6 +157,17 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
   return m;
 }
 
+/// Of the whole joint's stiffness, that of each muscle.
+std::array<double, 2> stiffness_ratios_of(const SimulatedBoardSettings& simulated) {
+  const JointPlantSettings& joint = simulated.joints[0].plant;
+  const double q = joint.antagonist_lever_ratio;
+  const double radius_m = joint.lever.zero_radius_m();
+  const double first = simulated.channels[0].plant.stiffness_N_per_m;
+  const double second = q * q * simulated.channels[1].plant.stiffness_N_per_m;
+  const double all = first + second + joint.spring_Nm_per_rad / (radius_m * radius_m);
+  return {first / all, second / all};
+}
+
 void set_known(ChannelSettings& channel, const KnownBefore& known) {
   channel.muscle_identified = known.muscle_identified;
   channel.response_ratio = known.response_ratio;
@@ -305,7 +316,9 @@ BoardSettings firmware_of(const Scenario& scenario) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
     JointSettings joint{.lever = c.joint->plant.lever,
                         .co_contraction_W = antagonist->co_contraction_W,
-                        .antagonist_lever_ratio = c.joint->plant.antagonist_lever_ratio};
+                        .antagonist_lever_ratio = c.joint->plant.antagonist_lever_ratio,
+                        .pretension_N = c.joint->plant.pretension_N,
+                        .stiffness_ratio = stiffness_ratios_of(simulated)};
     joint.max_co_contraction_W =
         std::max(max_co_contraction_W(scenario),
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));

@@ -60,7 +60,7 @@ OTHERWISE = {"Tracking": {"error_m"},
              "Estimate": {*MULTIPLEXED, "parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
                           "damping_Ns_per_m"},
              "Timing": {"late_s", "execution_s", "overruns", "dropped_frames"},
-             "Status": {"leased", "counter", "protocol_version", "proof_off", "oscillated", "friction"},
+             "Status": {"leased", "counter", "protocol_version", "proof_off", "oscillated", "friction", "slack"},
              "Boot": {"version_major", "version_minor", "version_patch", "commit"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")

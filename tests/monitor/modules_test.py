@@ -219,6 +219,16 @@ class ModulesTest(ModulesCase):
         self.assertEqual(told[:2], [True, True])
         self.assertIn("its feedback is slower now", told[2])
 
+    def test_a_muscle_that_is_slack_is_told(self):
+        told = self.ask(CARD + """const shown = (time_s, row) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
+                card.update(time_s);
+                return card.slack.hidden || card.slack.textContent;
+            };
+            return [shown(1, {}), shown(2, { slack: [0] }), shown(3, { slack: [1] })];""")
+        self.assertEqual(told[:2], [True, True])
+        self.assertIn("this muscle is slack where the joint stands", told[2])
+
     def test_every_reason_of_a_refused_identify_is_told(self):
         told = self.ask(CARD + """const shown = (time_s, result, identify_notes, friction = 0) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], result: [result], friction: [friction] },

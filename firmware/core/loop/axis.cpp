@@ -43,6 +43,7 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
       step_s_(board.step_s()),
       sensor_(devices.position),
       heater_(settings, board, devices),
+      pull_(settings.joint),
       tracking_(settings.controllers, settings.muscle, step_s_),
       estimation_(settings.estimators, step_s_),
       ticks_per_s_(std::llround(board.rate_Hz)),
@@ -87,6 +88,7 @@ void Axis::sample(hal::Time now) {
 
 void Axis::observe(double supply_V, const board::Measured* air, std::int64_t periods) {
   heater_.observe(supply_V, air, periods);
+  pull_.step(heater_.acting().power_W, static_cast<double>(periods) * step_s_, muscle_);
   prove(periods);
   // Where this muscle alone would be.
   const double alone_m = inputs_.position.value + other_.expected_m[0];
@@ -252,6 +254,7 @@ void Axis::publish(std::uint32_t selector, Snapshot& s) const {
   s.position_m = inputs_.position.present ? inputs_.position.value : std::nan("");
   s.demanded_W = demanded_.demanded_power_W;
   s.proof_off = !settings_.supervision.proof_of_response;
+  s.slack = pull_N() <= 0.0;
   s.oscillation_period_s = demanded_.oscillation_period_s;
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()

@@ -15,6 +15,7 @@
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
 #include "loop/known_muscle.hpp"
+#include "loop/modelled_pull.hpp"
 #include "loop/playback.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
@@ -142,6 +143,16 @@ class Axis {
   /// As other_ of the other muscle's axis. gain_ratio: of this one's gain over its; lever_ratio: of
   /// its lever over this one's.
   Opposition opposition(double gain_ratio, double lever_ratio) const;
+  /// In a joint, by the model; NaN: not known, as of the next.
+  double pull_N() const {
+    return inputs_.position.present ? pull_.at_N(inputs_.position.value, muscle_) : NAN;
+  }
+  /// In a joint: the steady power with which this muscle is taut where the joint stands.
+  double taut_W() const {
+    return inputs_.position.present ? pull_.taut_W(inputs_.position.value, muscle_) : NAN;
+  }
+  /// In a joint: as ModelledPull has it.
+  double heat_W() const { return pull_.heat_W(); }
   /// Of the muscle as it is known.
   double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
   /// Another number whenever something else is known of the muscle's motion.
@@ -230,6 +241,7 @@ class Axis {
   AxisInputs inputs_;
   Heater heater_;
   Opposition other_;
+  ModelledPull pull_;
   std::optional<WholeBundle> bundle_;  ///< that it leads
   Tracking tracking_;
   Estimation estimation_;

@@ -43,6 +43,15 @@ void Joint::observe() {
   antagonist_.limit_pull(known.max_antagonist_W);
 }
 
+/// What each muscle needs, less what the effort gives it: its heat tells that more smoothly than
+/// the controller. A demand for co-contraction hardly moves the joint, so this asks for no more.
+double Joint::taut_W(double gain_ratio) const {
+  const double half_W = 0.5 * (agonist_.heat_W() - gain_ratio * antagonist_.heat_W());
+  const double wanted_W =
+      std::max(agonist_.taut_W() - half_W, gain_ratio * antagonist_.taut_W() + half_W);
+  return wanted_W > 0.0 ? wanted_W : 0.0;  // or it is NaN
+}
+
 /// The antagonist's reference is what it is to pull with while the joint asks for no effort.
 void Joint::follow_co_contraction(bool active, double gain_ratio) {
   if (!active) {
@@ -53,7 +62,8 @@ void Joint::follow_co_contraction(bool active, double gain_ratio) {
   was_active_ = active;
   if (!active) return;
   // What was commanded may be more than the limit once the muscles are known better.
-  const double wanted_W = std::min(gain_ratio * antagonist_.reference(), max_W_);
+  const double wanted_W =
+      std::min(std::max(gain_ratio * antagonist_.reference(), taut_W(gain_ratio)), max_W_);
   nearly_W_ += lag_ratio_ * (wanted_W - nearly_W_);
   co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
 }

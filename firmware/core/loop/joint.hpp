@@ -36,6 +36,8 @@ class Joint {
   Gains calculated_gains() const;
   /// Of the muscles as they are known.
   const Gains& gains();
+  /// Of co-contraction, that keeps both muscles taut; 0: any does, or it is not known.
+  double taut_W(double gain_ratio) const;
   void follow_co_contraction(bool active, double gain_ratio);
   void limit_each(double max_antagonist_W);
 

@@ -28,10 +28,10 @@ Row row_of(const Snapshot& s) {
   row.fault = static_cast<std::uint8_t>(s.fault);
   row.limited_by = static_cast<std::uint8_t>(s.limited_by);
   row.controller = s.controller;
-  row.flags =
-      static_cast<std::uint8_t>((s.probing ? row_probing : 0) | (s.trusted ? row_trusted : 0) |
-                                (s.limited ? row_limited : 0) | (s.proof_off ? row_proof_off : 0) |
-                                (s.oscillation_period_s > 0.0 ? row_oscillated : 0));
+  row.flags = static_cast<std::uint8_t>(
+      (s.probing ? row_probing : 0) | (s.trusted ? row_trusted : 0) |
+      (s.limited ? row_limited : 0) | (s.proof_off ? row_proof_off : 0) |
+      (s.oscillation_period_s > 0.0 ? row_oscillated : 0) | (s.slack ? row_slack : 0));
   row.margin_selector = static_cast<std::uint8_t>(s.margin_selector);
   row.reference = narrow(s.reference);
   row.model_m = narrow(s.model_m);

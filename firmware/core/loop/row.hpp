@@ -15,7 +15,8 @@ enum RowFlag : std::uint8_t {
   row_trusted = 2,
   row_limited = 4,
   row_proof_off = 8,
-  row_oscillated = 16
+  row_oscillated = 16,
+  row_slack = 32
 };
 
 /// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the

@@ -159,8 +159,10 @@ double feasible_co_contraction_W(const BoardSettings& board, const JointSettings
 
 PlaceInJoint JointSettings::place_of(std::size_t channel) const {
   const double apart = static_cast<double>(antagonist) - static_cast<double>(agonist);
-  if (channel == agonist) return {1, lever, apart};
-  if (channel == antagonist) return {-1, antagonist_lever(), -apart};
+  const auto [first, second] = stiffness_ratios();
+  if (channel == agonist) return {1, lever, apart, pretension_N, first};
+  if (channel == antagonist)
+    return {-1, antagonist_lever(), -apart, pretension_N / antagonist_lever_ratio, second};
   return {};
 }
 

@@ -1,6 +1,7 @@
 // All that the loop needs to know of a board, in SI units, checked before it starts.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -49,9 +50,18 @@ struct PlaceInJoint {
   control::Lever lever{};
   /// From this one: 1 is the next. NaN: none but a spring turns the joint as well.
   double other_channel_offset = NAN;
+  double pretension_N = NAN;     ///< its pull, cold and at the angle 0; NaN: not known
+  double stiffness_ratio = 0.5;  ///< its own share of the stiffness that its muscle describes
 
   bool turns() const { return direction != 0; }
   bool has_other() const { return std::isfinite(other_channel_offset); }
+
+  bool knows_pull() const { return std::isfinite(pretension_N); }
+  /// What is left of the cold muscle's pull where it has contracted so far; < 0: it is slack.
+  /// stiffness_N_per_m: that its muscle describes.
+  double cold_pull_N(double position_m, double stiffness_N_per_m) const {
+    return pretension_N - stiffness_ratio * stiffness_N_per_m * position_m;
+  }
 
   /// Of the joint; position_m: how far this muscle has contracted.
   double angle_rad(double position_m) const { return lever.angle_rad(direction * position_m); }
@@ -118,7 +128,15 @@ struct JointSettings {
   /// That may be commanded, likewise in watts of the agonist.
   double max_co_contraction_W = std::numeric_limits<double>::infinity();
   double antagonist_lever_ratio = 1.0;  ///< of its lever to the agonist's, at every angle
+  double pretension_N = NAN;  ///< of the agonist, both cold, at the angle 0; NaN: not known
+  /// Of the joint's stiffness, that of the agonist and of the antagonist; a spring has the rest.
+  /// Empty: they are alike.
+  std::optional<std::array<double, 2>> stiffness_ratio{};
 
+  std::array<double, 2> stiffness_ratios() const {
+    const double q2 = antagonist_lever_ratio * antagonist_lever_ratio;
+    return stiffness_ratio.value_or(std::array{1.0 / (1.0 + q2), q2 / (1.0 + q2)});
+  }
   control::Lever antagonist_lever() const { return lever.scaled(antagonist_lever_ratio); }
   /// By so much a watt of the antagonist turns the joint further than one of the agonist; of their
   /// DC gains, each in metres of its own.

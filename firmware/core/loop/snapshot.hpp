@@ -64,6 +64,7 @@ struct Snapshot {
   bool trusted = false;    ///< the estimates
   bool limited = false;    ///< the acting power is not the one that was wanted
   bool proof_off = false;  ///< proof_of_response = false
+  bool slack = false;      ///< by its model, a joint's muscle pulls no more
   /// With which the controller that follows has seen its loop oscillate by itself; 0: it has not.
   double oscillation_period_s = 0.0;
   double reference = 0.0;  ///< in m, or in W in open loop

@@ -6,6 +6,7 @@
 
 #include "config/describe.hpp"
 #include "loop/feasibility.hpp"
+#include "loop/modelled_pull.hpp"
 
 namespace supercoil::config {
 
@@ -114,6 +115,29 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
   return out.str();
 }
 
+/// From where on each muscle is slack when it gets no power, and what keeps it taut at the ends of
+/// the range, whatever holds the joint there.
+std::string slack_text(const BoardSettings& board, const JointSettings& joint) {
+  if (!std::isfinite(joint.pretension_N)) return "not told: pretension_N is not configured";
+  std::ostringstream out;
+  for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
+    const ChannelSettings& c = board.channels[channel];
+    const double own_N_per_m = c.joint.stiffness_ratio * c.muscle.stiffness_N_per_m;
+    const double end_m = c.supervision.max_travel_m;
+    const bool first = channel == joint.agonist;
+    out << (first ? "by the model, without power: the agonist " : "; the antagonist ");
+    if (!(c.joint.cold_pull_N(end_m, c.muscle.stiffness_N_per_m) <= 0.0)) {
+      out << "nowhere within its travel";
+      continue;
+    }
+    const double from_m = c.joint.pretension_N / own_N_per_m;
+    out << "from " << to_tenth(degrees(c.joint.angle_rad(from_m))) << "° on, taut at "
+        << to_tenth(degrees(c.joint.angle_rad(end_m))) << "° with "
+        << up_to_hundredth(ModelledPull(c.joint).taut_W(end_m, c.muscle)) << " W";
+  }
+  return out.str();
+}
+
 }  // namespace
 
 std::string describe_joint(const BoardConfig& config, std::size_t index) {
@@ -142,7 +166,8 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << greatest_pull(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
                        hottest_pull_N(antagonist, joint.max_co_contraction_W / gain_ratio))
       << "\n"
-      << "  stiffness   " << stiffness_text(joint, agonist.muscle.stiffness_N_per_m) << "\n";
+      << "  stiffness   " << stiffness_text(joint, agonist.muscle.stiffness_N_per_m) << "\n"
+      << "  slack       " << slack_text(board, joint) << "\n";
   return out.str();
 }
 

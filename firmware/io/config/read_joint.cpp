@@ -130,7 +130,8 @@ void JointReader::finish(BoardConfig& config) {
       continue;
     }
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
-    section.allow({"co_contraction_W", "max_co_contraction_W", "max_pull_N", "pretension_N"});
+    section.allow({"co_contraction_W", "max_co_contraction_W", "max_pull_N", "pretension_N",
+                   "stiffness_ratio"});
     if (joint.pair) {
       JointLabel label;
       label.name = name;

@@ -14,7 +14,7 @@ namespace supercoil::config {
 
 /// max_pull_N and pretension_N. Refuses a joint whose co-contraction may exceed what a muscle
 /// bears. joint: with its co-contraction.
-void read_pull(Section& section, const BoardSettings& board, const JointSettings& joint,
+void read_pull(Section& section, const BoardSettings& board, JointSettings& joint,
                JointLabel& label);
 
 /// Read in two steps: which channels a joint has must be known before they are read, and what their

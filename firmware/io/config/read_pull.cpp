@@ -51,9 +51,21 @@ std::string excess(const Puller& p, const JointSettings& joint, double allowed_W
 
 }  // namespace
 
-void read_pull(Section& section, const BoardSettings& board, const JointSettings& joint,
+void read_stiffness_ratio(Section& section, JointSettings& joint) {
+  constexpr const char* key = "stiffness_ratio";
+  const auto ratios = section.numbers(key, {}, {0.0, 1.0}, 2, 2);
+  if (ratios.empty()) return;
+  constexpr double rounding = 1e-9;
+  if (ratios[0] + ratios[1] > 1.0 + rounding)
+    return section.wrong(key, "must not be more than 1 together: a spring has the rest");
+  joint.stiffness_ratio = {ratios[0], ratios[1]};
+}
+
+void read_pull(Section& section, const BoardSettings& board, JointSettings& joint,
                JointLabel& label) {
   label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.highest});
+  if (section.has("pretension_N")) joint.pretension_N = label.pretension_N;
+  read_stiffness_ratio(section, joint);
   if (!section.has("max_pull_N")) return;
   label.max_pull_N = section.number("max_pull_N", INFINITY, pull_range_N);
   const double antagonist_N = label.pretension_N / joint.antagonist_lever_ratio;

@@ -74,6 +74,7 @@ inline constexpr std::array quantities{
 inline constexpr std::array signals_only{
     Quantity{"proof_off", flag_of<row_proof_off>},
     Quantity{"oscillated", flag_of<row_oscillated>},
+    Quantity{"slack", flag_of<row_slack>},
 };
 
 /// Null: a row has none of this name.

@@ -26,7 +26,7 @@ _ROW = numpy.dtype([
     ("controller", "u1"), ("flags", "u1"), ("margin_selector", "u1"), *((name, "<f4") for name in _FLOATS),
     ("gain_selector", "u1"), ("result", "u1"), ("multiplexed_selector", "u1"), ("identify_notes", "u1"),
     ("multiplexed_value", "<f4")])
-_FLAGS = {"probing": 1, "trusted": 2, "limited": 4, "proof_off": 8, "oscillated": 16}
+_FLAGS = {"probing": 1, "trusted": 2, "limited": 4, "proof_off": 8, "oscillated": 16, "slack": 32}
 _NAMES: dict[str, type[IntEnum]] = {
     "state": State, "mode": Mode, "fault": Fault, "limited_by": LimitedBy, "margin_selector": Fault,
     "gain_selector": Gain, "result": Result}

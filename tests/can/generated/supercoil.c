@@ -4255,6 +4255,7 @@ int supercoil_status_pack(
     dst_p[7] |= pack_left_shift_u8(src_p->proof_off, 4u, 0x10u);
     dst_p[7] |= pack_left_shift_u8(src_p->oscillated, 5u, 0x20u);
     dst_p[7] |= pack_left_shift_u8(src_p->friction, 6u, 0x40u);
+    dst_p[7] |= pack_left_shift_u8(src_p->slack, 7u, 0x80u);
 
     return (8);
 }
@@ -4284,6 +4285,7 @@ int supercoil_status_unpack(
     dst_p->proof_off = unpack_right_shift_u8(src_p[7], 4u, 0x10u);
     dst_p->oscillated = unpack_right_shift_u8(src_p[7], 5u, 0x20u);
     dst_p->friction = unpack_right_shift_u8(src_p[7], 6u, 0x40u);
+    dst_p->slack = unpack_right_shift_u8(src_p[7], 7u, 0x80u);
 
     return (0);
 }
@@ -4619,6 +4621,26 @@ bool supercoil_status_friction_is_in_range(uint8_t value)
 }
 
 bool supercoil_status_friction_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_status_slack_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_status_slack_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_status_slack_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_status_slack_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 1.0));
 }

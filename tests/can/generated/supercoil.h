@@ -983,6 +983,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_PROOF_OFF_NAME "proof_off"
 #define SUPERCOIL_STATUS_OSCILLATED_NAME "oscillated"
 #define SUPERCOIL_STATUS_FRICTION_NAME "friction"
+#define SUPERCOIL_STATUS_SLACK_NAME "slack"
 #define SUPERCOIL_BOOT_VERSION_MAJOR_NAME "version_major"
 #define SUPERCOIL_BOOT_VERSION_MINOR_NAME "version_minor"
 #define SUPERCOIL_BOOT_VERSION_PATCH_NAME "version_patch"
@@ -2360,6 +2361,15 @@ struct supercoil_status_t {
      * Offset: 0
      */
     uint8_t friction;
+
+    /**
+     * 1: by the models of both muscles and the pretension that is configured, this muscle of a joint pulls no more where the joint stands. Nothing measures it. 0 also where the pretension is not configured.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t slack;
 };
 
 /**
@@ -8468,6 +8478,46 @@ bool supercoil_status_friction_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_friction_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_status_slack_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_status_slack_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_slack_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_slack_is_in_phys_range(double value);
 
 /**
  * Pack message Boot.

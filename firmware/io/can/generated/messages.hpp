@@ -489,7 +489,7 @@ inline constexpr std::array<SignalInfo, 7> signals_of_Tuning{{
     {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
+inline constexpr std::array<SignalInfo, 17> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
     {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
@@ -506,6 +506,7 @@ inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"proof_off", "", 60, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"oscillated", "", 61, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"slack", "", 63, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
 inline constexpr std::array<SignalInfo, 4> signals_of_Boot{{

@@ -293,6 +293,7 @@ class Status(NamedTuple):
     proof_off: bool
     oscillated: bool
     friction: bool
+    slack: bool
 
 
 class Boot(NamedTuple):
@@ -496,6 +497,7 @@ LAYOUTS = (
         Signal("proof_off", "", 60, 1, Raw.unsigned, 1.0, None, None, bool),
         Signal("oscillated", "", 61, 1, Raw.unsigned, 1.0, None, None, bool),
         Signal("friction", "", 62, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("slack", "", 63, 1, Raw.unsigned, 1.0, None, None, bool),
     )),
     Layout(Boot, 0x740, 8, 1000, True, (
         Signal("version_major", "", 0, 8, Raw.unsigned, 1.0, None, None, int),

@@ -79,9 +79,11 @@ export class StateCard {
       "proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle: nothing proves that this muscle still reaches its sensor, and it may overheat unseen.");
     this.oscillated = element("p", { class: "foreign", hidden: true },
       "The control loop oscillated by itself: its feedback is slower now. Identify the muscle, or lower the controller's bandwidth or gains.");
+    this.slack = element("p", { class: "foreign", hidden: true },
+      "By its model this muscle is slack where the joint stands: the other one, or the load, moves it alone. More co-contraction makes it taut.");
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
-      element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.fault, this.progress, this.result, this.facts);
+      element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.slack, this.fault, this.progress, this.result, this.facts);
   }
 
   /** Returns the status in words, or null while there is none. */
@@ -103,6 +105,7 @@ export class StateCard {
     this.#show_fault(status, row, now_s);
     this.unproven.hidden = row?.proof_off !== 1;
     this.oscillated.hidden = row?.oscillated !== 1;
+    this.slack.hidden = row?.slack !== 1;
     this.foreign.hidden = !row || row.protocol_version === this.version;
     if (!this.foreign.hidden) {
       show(this.foreign, `It speaks version ${row.protocol_version} of the protocol, this page ${this.version}: ` +

@@ -117,7 +117,7 @@ TEST(FirstValues, OfASnapshotAreThoseOfABoardThatDoesNothing) {
   LONGS_EQUAL(0, s.channel);
   CHECK(s.state == State::disarmed && s.mode == Mode::rest && s.fault == Fault::none);
   CHECK(s.limited_by == LimitedBy::nothing && s.result == ModeResult::none);
-  CHECK_FALSE(s.probing || s.trusted || s.limited || s.proof_off);
+  CHECK_FALSE(s.probing || s.trusted || s.limited || s.proof_off || s.slack);
   check_all_0({s.oscillation_period_s, s.reference, s.model_m, s.position_m, s.demanded_W,
                s.applied_W, s.duty, s.supply_V, s.current_A, s.resistance_Ohm, s.resistance_age_s,
                s.coldest_C, s.hottest_C, s.error_bound, s.bias_W, s.bias_deviation_W});

@@ -12,7 +12,8 @@ using namespace supercoil;
 TEST_GROUP(RowOf){};
 
 TEST(RowOf, HasAFlagOfItsOwnForEach) {
-  constexpr std::array flags{row_probing, row_trusted, row_limited, row_proof_off, row_oscillated};
+  constexpr std::array flags{row_probing,   row_trusted,    row_limited,
+                             row_proof_off, row_oscillated, row_slack};
   unsigned all = 0;
   for (const RowFlag flag : flags) {
     LONGS_EQUAL(1, std::popcount(static_cast<unsigned>(flag)));
@@ -29,6 +30,7 @@ TEST(RowOf, HasAFlagOfItsOwnForEach) {
   LONGS_EQUAL(row_trusted, flags_of(&Snapshot::trusted));
   LONGS_EQUAL(row_limited, flags_of(&Snapshot::limited));
   LONGS_EQUAL(row_proof_off, flags_of(&Snapshot::proof_off));
+  LONGS_EQUAL(row_slack, flags_of(&Snapshot::slack));
   Snapshot oscillating;
   oscillating.oscillation_period_s = 0.6;
   LONGS_EQUAL(row_oscillated, row_of(oscillating).flags);

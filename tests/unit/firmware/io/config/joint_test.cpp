@@ -209,6 +209,32 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
     STRCMP_CONTAINS(part, text.c_str());
 }
 
+TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
+  STRCMP_CONTAINS("  slack       not told: pretension_N is not configured\n",
+                  describe(read_joint_board(board_with_joint)).c_str());
+  const BoardConfig alike = read_joint_board(board_with_joint + "pretension_N = 0.02\n");
+  const JointSettings& joint = alike.settings.joints[0];
+  DOUBLES_EQUAL(0.02, joint.pretension_N, 0.0);
+  for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
+    const PlaceInJoint& place = alike.settings.channels[channel].joint;
+    DOUBLES_EQUAL(0.02, place.pretension_N, 0.0);
+    DOUBLES_EQUAL(0.5, place.stiffness_ratio, 0.0);
+  }
+  // 0.02 N over 8 N/m are 2.5 mm.
+  STRCMP_CONTAINS("  slack       by the model, without power: the agonist from 9.5° on, taut at ",
+                  describe(alike).c_str());
+  STRCMP_CONTAINS("; the antagonist from -9.5° on, taut at ", describe(alike).c_str());
+  const BoardConfig told =
+      read_joint_board(board_with_joint + "pretension_N = 0.02\nstiffness_ratio = [0.25, 0.0]\n");
+  STRCMP_CONTAINS("the agonist from 19.1° on", describe(told).c_str());
+  STRCMP_CONTAINS("the antagonist nowhere within its travel\n", describe(told).c_str());
+  check_answer(
+      "joint[1].stiffness_ratio = [0.5, 0.6]: must not be more than 1 together: a spring has the "
+      "rest",
+      board_with_joint + "stiffness_ratio = [0.5, 0.6]\n");
+  check_answer("joint[1].stiffness_ratio", board_with_joint + "stiffness_ratio = [0.5]\n");
+}
+
 TEST(JointConfig, ALeverMayDependOnTheAngle) {
   const BoardConfig c = read_joint_board(
       replaced(board_with_joint, "lever_m = 0.015\n",
@@ -361,7 +387,7 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
       "lever_range_deg, lever_m, antagonist_lever_m, range_deg, name, co_contraction_W, "
       "max_co_contraction_W, "
       "max_pull_N, "
-      "pretension_N\n",
+      "pretension_N, stiffness_ratio\n",
       board_with_joint + "speed = 3\n");
   check_answer(
       "is already channel 1's position: input voltage1 of adc; two muscles that turn one "

@@ -214,6 +214,9 @@ TEST(Frames, AStatusSaysThatTheProofOfResponseIsOff) {
   LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
   row.flags = row_proof_off;
   LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
+  LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).slack);
+  row.flags = row_slack;
+  LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).slack);
 }
 
 TEST(Frames, AStatusReportsFrictionAsAnEstimateHasNoBitLeft) {

@@ -237,7 +237,7 @@ inline Values status(const hal::CanFrame& frame) {
        supercoil_status_protocol_version_decode(m.protocol_version),
        supercoil_status_result_decode(m.result), supercoil_status_proof_off_decode(m.proof_off),
        supercoil_status_oscillated_decode(m.oscillated),
-       supercoil_status_friction_decode(m.friction)});
+       supercoil_status_friction_decode(m.friction), supercoil_status_slack_decode(m.slack)});
 }
 
 struct CodecMessage {

@@ -19,9 +19,9 @@ inline constexpr int exit_interrupted = 130;  ///< by a signal; nothing is kept
 int fail(int status, const std::string& message);
 
 struct RunOptions {
-  std::string scenario;
-  std::string out;     ///< empty: supercoil-out/NAME
-  std::string window;  ///< "FROM:TO" in seconds, either may be empty
+  std::vector<std::string> scenarios;  ///< each of a board of its own, on one bus
+  std::string out;                     ///< empty: supercoil-out/NAME
+  std::string window;                  ///< "FROM:TO" in seconds, either may be empty
   std::int64_t every = 1;
   bool trace = true;
   TraceFormat trace_format = TraceFormat::csv;
@@ -35,9 +35,12 @@ struct RunOptions {
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure
   std::string learned;       ///< folder; empty: nothing is remembered
-  std::string board;         ///< file of the firmware's configuration; empty: the scenario's own
-  int channel = 1;           ///< of the board, from 1
-  int nodes = 1;             ///< boards on one bus
+  /// Files of the firmware's configuration, one a scenario; empty: the scenario's own.
+  std::vector<std::string> boards;
+  std::vector<int> channels;  ///< of these, from 1; those that lack are 1
+  int nodes = 1;              ///< boards on one bus, of a single scenario
+
+  bool several_boards() const { return nodes > 1 || scenarios.size() > 1; }
 };
 int run_command(const RunOptions& options);
 

@@ -51,11 +51,13 @@ std::string in_seconds(const Simulation& simulation, const Scenario& scenario) {
 
 }  // namespace
 
-int live_run(const RunOptions& options, const Scenario& scenario, const Window& window,
+int live_run(const RunOptions& options, const std::vector<Scenario>& boards, const Window& window,
              OutputFolder& folder, LearnedFolder& learned) {
+  const Scenario& scenario = boards.front();  // of what all have in common
+  const std::string name = name_of(boards);
   catch_interrupts();  // before the first line tells others that it runs
   const pid_t parent = getppid();
-  auto nodes = Nodes::start(options, scenario, window, folder);
+  auto nodes = Nodes::start(options, boards, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
   nodes->store_in(learned);
   std::unique_ptr<SocketcandServer> server;
@@ -64,9 +66,9 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
     if (!served) return fail(exit_wrong_input, served.error());
     server = std::move(*served);
   }
-  if (!options.quiet) std::printf("%s in real time; Ctrl-C ends it\n", scenario.name.c_str());
+  if (!options.quiet) std::printf("%s in real time; Ctrl-C ends it\n", name.c_str());
   std::fflush(stdout);
-  Progress progress(scenario.name, options.quiet);
+  Progress progress(name, options.quiet);
   Pace pace(scenario.step_s());
   const Simulation& first = nodes->first();
   const auto is_orphan = [&] { return options.end_with_parent && getppid() != parent; };

@@ -29,10 +29,12 @@ bool simulate(Nodes& nodes, Progress& progress) {
 
 }  // namespace
 
-int lockstep_run(const RunOptions& options, const Scenario& scenario, const Window& window,
-                 OutputFolder& folder, LearnedFolder& learned) {
-  Progress progress(scenario.name, options.quiet);
-  auto nodes = Nodes::start(options, scenario, window, folder);
+int lockstep_run(const RunOptions& options, const std::vector<Scenario>& boards,
+                 const Window& window, OutputFolder& folder, LearnedFolder& learned) {
+  const Scenario& scenario = boards.front();  // of what all have in common
+  const std::string name = name_of(boards);
+  Progress progress(name, options.quiet);
+  auto nodes = Nodes::start(options, boards, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
   nodes->store_in(learned);
   std::optional<CanLog> can_log;

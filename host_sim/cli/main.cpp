@@ -37,7 +37,9 @@ std::uint16_t port_of(const std::string& where) {
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate a scenario; write trace, summary, plot and CAN log");
-  run->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
+  run->add_option("SCENARIO", options.scenarios,
+                  "A TOML file, or a name from supercoil-sim list; of several, each is a board of "
+                  "its own on one CAN bus")
       ->required();
   run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
   run->add_option(
@@ -54,13 +56,15 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->capture_default_str()
       ->excludes(learned);
   CLI::Option* board =
-      run->add_option("--board", options.board,
+      run->add_option("--board", options.boards,
                       "Run the firmware as this board's file configures it, over the scenario's "
-                      "muscle [as the scenario does]")
-          ->type_name("FILE");
-  run->add_option("--channel", options.channel, "Channel of that board, from 1")
+                      "muscle; of several scenarios, once for each [as the scenario does]")
+          ->type_name("FILE")
+          ->allow_extra_args(false);
+  run->add_option("--channel", options.channels,
+                  "Channel of that board, from 1; likewise once for each [1]")
       ->check(CLI::Range(1, 16))
-      ->capture_default_str()
+      ->allow_extra_args(false)
       ->needs(board);
   CLI::Option* no_trace = run->add_flag("!--no-trace", options.trace, "Write no trace");
   run->add_flag_callback(

@@ -6,15 +6,14 @@
 
 namespace supercoil::host_sim {
 
-tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const Scenario& scenario,
+tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options,
+                                              const std::vector<Scenario>& boards,
                                               const Window& window, OutputFolder& folder) {
   Nodes all(options, folder);
-  for (int i = 0; i < options.nodes; ++i) {
-    Scenario its = scenario;
-    its.seed += static_cast<std::uint64_t>(i * scenario.channels());
-    its.can.first_node = static_cast<can::Node>(scenario.can.first_node + i * scenario.channels());
+  for (const Scenario& board : boards) {
+    Scenario its = board;
     OutputFolder* its_folder = &folder;
-    if (options.nodes > 1) {
+    if (boards.size() > 1) {
       const std::string number = std::to_string(int{its.can.first_node});
       its.name += ", node " + number;
       auto opened = OutputFolder::open(folder.path() / ("node-" + number));

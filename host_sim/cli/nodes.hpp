@@ -1,4 +1,4 @@
-// All nodes of a run: boards on one CAN bus, each with a muscle of its own, in lockstep.
+// All boards of a run on one CAN bus, each with muscles of its own, in lockstep.
 #pragma once
 
 #include <memory>
@@ -14,9 +14,11 @@ namespace supercoil::host_sim {
 
 class Nodes {
  public:
-  /// Results of a single node go to the folder itself, those of several to one below it for each.
-  /// The error says which folder cannot be written to. Options and folder outlive it.
-  static tl::expected<Nodes, std::string> start(const RunOptions& options, const Scenario& scenario,
+  /// boards: as on_one_bus() has them. Results of a single one go to the folder itself, those of
+  /// several to one below it for each. The error says which folder cannot be written to. Options
+  /// and folder outlive it.
+  static tl::expected<Nodes, std::string> start(const RunOptions& options,
+                                                const std::vector<Scenario>& boards,
                                                 const Window& window, OutputFolder& folder);
 
   /// What boards learn from now on; learned outlives the steps.

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/forecast.hpp"
 #include "cli/learned_folder.hpp"
+#include "cli/one_bus.hpp"
 #include "cli/runs.hpp"
 #include "config/board_config.hpp"
 #include "report/output_folder.hpp"
@@ -66,33 +67,64 @@ int refuse(const RunOptions& options, const Problems& problems) {
   return exit_wrong_input;
 }
 
-/// Of --board, if there is one.
-OrProblems use_own_board(const RunOptions& options, const LearnedMuscles& learned,
-                         Scenario& scenario) {
-  if (options.board.empty()) return {};
-  const auto config = config::read_board_config(options.board);
+/// Of --board, if there is one for this scenario.
+OrProblems use_own_board(const RunOptions& options, std::size_t place,
+                         const LearnedMuscles& learned, Scenario& scenario) {
+  if (options.boards.empty()) return {};
+  const std::string& board = options.boards[place];
+  const auto config = config::read_board_config(board);
   if (!config) return tl::unexpected(config.error());
   const auto channels = static_cast<int>(config->settings.channels.size());
-  if (options.channel > channels) {
-    return tl::unexpected(wrong_option("--channel", std::to_string(options.channel),
-                                       options.board + " has " + std::to_string(channels)));
+  const int channel = place < options.channels.size() ? options.channels[place] : 1;
+  if (channel > channels) {
+    return tl::unexpected(wrong_option("--channel", std::to_string(channel),
+                                       board + " has " + std::to_string(channels)));
   }
-  const auto used =
-      use_board(scenario, *config, static_cast<std::size_t>(options.channel) - 1, learned);
+  const auto used = use_board(scenario, *config, static_cast<std::size_t>(channel) - 1, learned);
   if (used) return {};
-  return tl::unexpected(Problems{{options.scenario + " on " + options.board, 0, "", used.error()}});
+  return tl::unexpected(Problems{{options.scenarios[place] + " on " + board, 0, "", used.error()}});
 }
 
-/// The scenario with the board that the options want.
-tl::expected<Scenario, Problems> read_input(const RunOptions& options,
-                                            LearnedFolder& folder_of_learned) {
+/// What of the options goes together, before any file is read.
+OrProblems check_together(const RunOptions& options) {
+  const std::size_t scenarios = options.scenarios.size();
+  const std::string of_scenarios = std::to_string(scenarios) + " scenarios";
+  if (scenarios > 1 && options.nodes > 1)
+    return tl::unexpected(wrong_option("--nodes", std::to_string(options.nodes),
+                                       "is for one scenario, and there are " + of_scenarios));
+  if (scenarios > 1 && !options.learned.empty())
+    return tl::unexpected(wrong_option("--learned", options.learned,
+                                       "is for one board, and there are " + of_scenarios));
+  const auto once_for_each = [&](const char* option, std::size_t given) -> OrProblems {
+    if (given <= scenarios) return {};
+    return tl::unexpected(wrong_option(
+        option, "",
+        "is given " + std::to_string(given) + " times: at most once for each SCENARIO"));
+  };
+  if (const std::size_t given = options.boards.size(); given > 0 && given < scenarios)
+    return tl::unexpected(wrong_option("--board", options.boards.back(),
+                                       "is given " + std::to_string(given) + " times for " +
+                                           of_scenarios + ": once for each, or not at all"));
+  if (auto board = once_for_each("--board", options.boards.size()); !board) return board;
+  return once_for_each("--channel", options.channels.size());
+}
+
+/// The scenarios with the boards that the options want, on one bus.
+tl::expected<std::vector<Scenario>, Problems> read_input(const RunOptions& options,
+                                                         LearnedFolder& folder_of_learned) {
+  if (auto together = check_together(options); !together)
+    return tl::unexpected(std::move(together.error()));
   const auto learned = folder_of_learned.load();
   if (!learned) return tl::unexpected(wrong_option("--learned", "", learned.error()));
-  auto scenario = read_scenario(options.scenario, *learned);
-  if (!scenario) return scenario;
-  if (auto used = use_own_board(options, *learned, *scenario); !used)
-    return tl::unexpected(std::move(used.error()));
-  return scenario;
+  std::vector<Scenario> scenarios;
+  for (std::size_t i = 0; i < options.scenarios.size(); ++i) {
+    auto scenario = read_scenario(options.scenarios[i], *learned);
+    if (!scenario) return tl::unexpected(std::move(scenario.error()));
+    if (auto used = use_own_board(options, i, *learned, *scenario); !used)
+      return tl::unexpected(std::move(used.error()));
+    scenarios.push_back(std::move(*scenario));
+  }
+  return on_one_bus(options, std::move(scenarios));
 }
 
 tl::expected<Window, Problems> window_of(const RunOptions& options, const Scenario& scenario) {
@@ -103,44 +135,53 @@ tl::expected<Window, Problems> window_of(const RunOptions& options, const Scenar
                                          number_text(scenario.duration_s, 9)));
 }
 
-OrProblems check_nodes(const RunOptions& options, const Scenario& scenario) {
-  const int most = (can::max_nodes + 1 - scenario.can.first_node) / scenario.channels();
-  if (options.nodes <= most) return {};
-  return tl::unexpected(wrong_option("--nodes", std::to_string(options.nodes),
-                                     "must be 1 to " + std::to_string(most) +
-                                         ", as the first is node " +
-                                         std::to_string(int{scenario.can.first_node})));
+/// Copies of one board can do the same. JSON of several scenarios is a list.
+void check_only(const RunOptions& options, const std::vector<Scenario>& boards) {
+  const std::size_t scenarios = options.scenarios.size();
+  if (options.json) {
+    nlohmann::ordered_json all;
+    for (std::size_t i = 0; i < scenarios; ++i)
+      all.push_back(forecast_json(boards[i]));
+    std::puts((scenarios == 1 ? all[0] : all).dump(2).c_str());
+    return;
+  }
+  for (std::size_t i = 0; i < scenarios; ++i) {
+    std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenarios[i].c_str(),
+                boards[i].ticks(), boards[i].events.size());
+    print_forecast(boards[i]);
+  }
 }
 
 }  // namespace
+
+std::string name_of(const std::vector<Scenario>& boards) {
+  std::string name = boards.front().name;
+  for (std::size_t i = 1; i < boards.size(); ++i) {
+    if (boards[i].name != boards[i - 1].name) name += "+" + boards[i].name;
+  }
+  return name;
+}
 
 int run_command(const RunOptions& given) {
   RunOptions options = given;
   options.quiet = options.quiet || options.json;
   LearnedFolder folder_of_learned(options.learned);
-  const auto scenario = read_input(options, folder_of_learned);
-  if (!scenario) return refuse(options, scenario.error());
-  const auto window = window_of(options, *scenario);
+  const auto boards = read_input(options, folder_of_learned);
+  if (!boards) return refuse(options, boards.error());
+  const auto window = window_of(options, boards->front());
   if (!window) return refuse(options, window.error());
-  if (const auto checked = check_nodes(options, *scenario); !checked)
-    return refuse(options, checked.error());
-  if (options.check && options.json) {
-    std::puts(forecast_json(*scenario).dump(2).c_str());
-    return exit_done;
-  }
   if (options.check) {
-    std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),
-                scenario->ticks(), scenario->events.size());
-    print_forecast(*scenario);
+    check_only(options, *boards);
     return exit_done;
   }
   auto folder =
-      OutputFolder::open(options.out.empty() ? "supercoil-out/" + scenario->name : options.out);
+      OutputFolder::open(options.out.empty() ? "supercoil-out/" + name_of(*boards) : options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
 
-  if (options.real_time) return live_run(options, *scenario, *window, *folder, folder_of_learned);
-  if (!options.quiet) print_forecast(*scenario);
-  return lockstep_run(options, *scenario, *window, *folder, folder_of_learned);
+  if (options.real_time) return live_run(options, *boards, *window, *folder, folder_of_learned);
+  for (std::size_t i = 0; !options.quiet && i < options.scenarios.size(); ++i)
+    print_forecast((*boards)[i]);
+  return lockstep_run(options, *boards, *window, *folder, folder_of_learned);
 }
 
 }  // namespace supercoil::host_sim

@@ -145,7 +145,7 @@ std::string reached(const Simulation& simulation, const Scenario& scenario) {
 }
 
 std::string prefix(const RunOptions& options, const Scenario& scenario) {
-  return options.nodes > 1 ? scenario.name + ": " : "";
+  return options.several_boards() ? scenario.name + ": " : "";
 }
 
 void finish(recorder::FlightRecorder& recorder, const RunOptions& options) {

@@ -21,7 +21,7 @@ bool interrupted();
 /// How much was simulated: "12.3 s of 200 s".
 std::string reached(const Simulation& simulation, const Scenario& scenario);
 
-/// What a message about one of several nodes begins with.
+/// What a message about one of several boards begins with.
 std::string prefix(const RunOptions& options, const Scenario& scenario);
 
 /// All that happened: the recorder's last file; tells its notes.

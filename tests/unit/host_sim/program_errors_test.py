@@ -62,6 +62,23 @@ class Errors(ProgramCase):
                            "--out", "/proc/none")
         self.check_refused("/proc/none: cannot be made", "reproduce", "--out", "/proc/none")
 
+    def test_scenarios_that_cannot_share_a_bus(self):
+        (self.path / "a.toml").write_text(SHORT)
+        for text, told in (("simulation.duration_s = 3.0\n", "b.toml: simulation.duration_s = 3: must be 2, as a has it"),
+                           (SHORT + "simulation.rate_Hz = 500.0\n", "b.toml: simulation.rate_Hz = 500: must be 1000, as a has it")):
+            (self.path / "b.toml").write_text(text)
+            self.check_refused(told, "run", "a.toml", "b.toml", "--out", "out")
+        (self.path / "b.toml").write_text(SHORT)
+        both = ("run", "a.toml", "b.toml", "--out", "out")
+        self.check_refused("--nodes 2: is for one scenario, and there are 2 scenarios", *both, "--nodes", 2)
+        self.check_refused("--learned .: is for one board, and there are 2 scenarios", *both, "--learned", ".")
+        example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        self.check_refused("is given 1 times for 2 scenarios: once for each, or not at all", *both, "--board", example)
+        self.check_refused("--board: is given 2 times: at most once for each SCENARIO", "run", "a.toml", "--out", "out", "--board", example,
+                           "--board", example)
+        self.check_refused("can.first_node = 1: is node 1, and ", *both, "--board", example, "--board", example)
+        self.check_refused("would be node 64, and the last there may be is 63", "run", *["a.toml"] * 64, "--out", "out")
+
     def test_a_board_and_a_scenario_that_do_not_go_together(self):
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
         for text, options, told in (

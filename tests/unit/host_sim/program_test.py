@@ -184,6 +184,47 @@ class Results(ProgramCase):
             shortest_s = (47 + 4 * len(data)) / 500e3  # two frames on one wire
             self.assertGreaterEqual(float(time_s) - float(before_s), shortest_s - 2e-6)
 
+    def test_several_scenarios_are_boards_of_their_own_on_one_bus(self):
+        noisy = SHORT + "sensor.position.noise_rms_m = 1e-5\n"
+        kinds = {"single": noisy, "elbow": noisy + "[joint]\n", "lifter": noisy + "[bundle]\n"}
+        for name, text in kinds.items():
+            (self.path / f"{name}.toml").write_text(text)
+        done = self.run_program("run", *(f"{name}.toml" for name in kinds), "--no-plot")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        out = self.path / "supercoil-out/single+elbow+lifter"
+        self.assertEqual({path.name for path in out.iterdir()}, {"can.log", "node-1", "node-2", "node-4"})
+        for name, node, before in (("single", 1, 0), ("elbow", 2, 1), ("lifter", 4, 3)):
+            # As if it were alone with a seed of its own.
+            (self.path / "alone.toml").write_text(f"simulation.seed = {1 + before}\n" + kinds[name])
+            self.run_program("run", "alone.toml", "--out", f"alone-{node}", "--no-plot")
+            self.assertEqual((out / f"node-{node}/trace.csv").read_bytes(), (self.path / f"alone-{node}/trace.csv").read_bytes())
+            summary = json.loads((out / f"node-{node}/summary.json").read_text())
+            self.assertEqual(summary["scenario"], f"{name}, node {node}")
+        identifiers = re.findall(r" can0 (\w{3})#", (out / "can.log").read_text())
+        lifter_channels = len({int(identifier, 16) & 0x3F for identifier in identifiers}) - 3
+        self.assertEqual({int(identifier, 16) & 0x3F for identifier in identifiers}, set(range(1, 4 + lifter_channels)))
+        self.assertGreater(lifter_channels, 1)
+
+    def test_several_boards_files_have_the_nodes_that_they_say(self):
+        example = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
+        joint = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
+        (self.path / "a.toml").write_text(re.sub(r"first_node = \d+", "first_node = 5", example))
+        (self.path / "b.toml").write_text(re.sub(r"first_node = \d+", "first_node = 20", joint))
+        text = "simulation.rate_Hz = 100.0\n" + SHORT
+        (self.path / "one.toml").write_text(text)
+        (self.path / "two.toml").write_text(text + "[joint]\n")
+        done = self.run_program("run", "one.toml", "two.toml", "--board", "a.toml", "--board", "b.toml", "--out", "out", "--no-plot")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual({path.name for path in (self.path / "out").iterdir()}, {"can.log", "node-5", "node-20"})
+
+    def test_check_of_several_scenarios_tells_each(self):
+        for name in "ab":
+            (self.path / f"{name}.toml").write_text(SHORT)
+        done = self.run_program("run", "a.toml", "b.toml", "--check")
+        self.assertEqual(re.findall("(.*): in order", done.stdout), ["a.toml", "b.toml"])
+        told = json.loads(self.run_program("run", "a.toml", "b.toml", "--check", "--json").stdout)
+        self.assertEqual([each["scenario"] for each in told], ["a", "b"])
+
     def test_one_node_is_a_run_as_ever(self):
         for name, options in (("a", ()), ("b", ("--nodes", 1))):
             self.run_program("run", self.scenario(SHORT), "--out", name, *options)

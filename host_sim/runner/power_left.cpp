@@ -22,7 +22,7 @@ double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
   const double armable_s = feasibility(channel, board).armable_s;
   const double cooled_s = armable_s > boot_s ? armable_s + boot_s : boot_s;
   return channel.thermal.boot_rise_K *
-         std::exp(-cooled_s * bounds.min_transfer_W_per_K / bounds.max_mass_J_per_K);
+         std::exp(-cooled_s / control::slowest_s(bounds));
 }
 
 }  // namespace

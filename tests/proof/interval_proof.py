@@ -146,6 +146,29 @@ def refute_both_lower_bounds(paths):
     sys.exit("an observer with both lower bounds was not refuted")
 
 
+def prove_slowest():
+    """With the mass that RiseIntervalObserver::no_slower gives, the hot end is passed by no muscle whose mass over heat
+    transfer is at most tau: at each rise its rate is at least the muscle's, which is what the comparison principle asks."""
+    g = GIVEN
+    tau, rise, power = z3.Reals("tau rise power")
+    bounded = g["transfer_l"] * tau
+    slowest = z3.If(bounded < g["mass_l"], g["mass_l"], z3.If(bounded > g["mass_u"], g["mass_u"], bounded))
+    flow = power - g["transfer_l"] * rise
+    heating = flow > 0
+    solver = z3.Solver()
+    solver.set("timeout", 60_000)
+    solver.add(0 < g["mass_l"], g["mass_l"] <= MASS, MASS <= g["mass_u"], 0 < tau, MASS <= tau * TRANSFER,
+               0 < g["transfer_l"], g["transfer_l"] <= TRANSFER, 0 <= rise, 0 <= power)
+    if solver.check() != z3.sat:
+        sys.exit("no muscle is within bounds of its time constant: the proof would be of nothing")
+    # (P - eta rise)/psi <= flow/mass, without the divisions.
+    faster = (power - TRANSFER * rise) * z3.If(heating, g["mass_l"], slowest) > flow * MASS
+    solver.add(faster)
+    if solver.check() != z3.unsat:
+        sys.exit(f"a muscle is faster than the hot end: {solver.model()}")
+    print("a bound of the time constant holds the hot end's cooling")
+
+
 def step_exactly(paths, values):
     """The traced formulas with 50 digits: (lowest, highest)."""
     for path in paths:
@@ -188,6 +211,7 @@ def main():
     prove(traced["paths"])
     refute_monotony_alone(traced["paths"])
     refute_both_lower_bounds(traced["paths"])
+    prove_slowest()
     bound_rounding(traced["paths"], traced["runs"])
 
 

@@ -24,7 +24,7 @@ class Air {
  public:
   Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
       : settings_(settings),
-        stays_(std::exp(-step_s * bounds.min_transfer_W_per_K / bounds.max_mass_J_per_K)),
+        stays_(std::exp(-step_s / control::slowest_s(bounds))),
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 

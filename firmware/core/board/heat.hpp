@@ -34,7 +34,7 @@ class Heat {
     by_reading_.reset(settings.boot_rise_K);
     const control::ThermalBounds& b = settings.bounds;
     expected_[1].learn(-b.max_transfer_W_per_K / b.min_mass_J_per_K);
-    expected_[2].learn(-b.min_transfer_W_per_K / b.max_mass_J_per_K);
+    expected_[2].learn(-1.0 / control::slowest_s(b));
   }
 
   /// What was found out of the muscle, from now on. true_over_measured: power, by the senses.
@@ -73,7 +73,7 @@ class Heat {
     const control::ThermalBounds& b = settings_.bounds;
     learned_.learn(
         std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
-                  std::fmin(-b.min_transfer_W_per_K / b.max_mass_J_per_K, pole_rad_per_s)));
+                  std::fmin(-1.0 / control::slowest_s(b), pole_rad_per_s)));
   }
 
   /// Where such a muscle moves to is expected from now on, as of a cold one.

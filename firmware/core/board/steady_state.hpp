@@ -17,8 +17,7 @@ class SteadyState {
  public:
   SteadyState(const ThermalSettings& settings, double step_s)
       : settings_(settings),
-        slowest_s_(with_weighed_mass(settings).max_mass_J_per_K /
-                   settings.bounds.min_transfer_W_per_K),
+        slowest_s_(control::slowest_s(with_weighed_mass(settings))),
         steady_ticks_(std::llround(slowest_constants * slowest_s_ / step_s)),
         smoothing_(-std::expm1(-2.0 * step_s / slowest_s_)) {}
 

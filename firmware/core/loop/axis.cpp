@@ -17,7 +17,7 @@ board::MeterComparison::Settings comparison_settings(const ChannelSettings& chan
 /// Every time constant that the configured bounds allow.
 control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
   const control::ThermalBounds b = board::with_weighed_mass(channel.thermal);
-  return {b.min_mass_J_per_K / b.max_transfer_W_per_K, b.max_mass_J_per_K / b.min_transfer_W_per_K,
+  return {b.min_mass_J_per_K / b.max_transfer_W_per_K, control::slowest_s(b),
           channel.limiter.max_W};
 }
 

@@ -89,8 +89,7 @@ void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility
   const control::ThermalBounds b = board::known_thermal_bounds(t, c.heat).bounds;
   const double allowed_K = c.limiter.derate_from_C - t.air.warmest_C;
   f.armable_s = allowed_K <= 0.0 ? INFINITY
-                                 : std::max(0.0, b.max_mass_J_per_K / b.min_transfer_W_per_K *
-                                                     std::log(t.boot_rise_K / allowed_K));
+                                 : std::max(0.0, control::slowest_s(b) * std::log(t.boot_rise_K / allowed_K));
 }
 
 std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& controller,

@@ -48,6 +48,16 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
   }
 }
 
+void read_slowest(Section& section, control::ThermalBounds& b) {
+  b.max_time_constant_s =
+      section.number("max_time_constant_s", b.max_time_constant_s, {1e-3, 1e5});
+  const double quickest_s = b.min_mass_J_per_K / b.max_transfer_W_per_K;
+  if (b.max_time_constant_s >= quickest_s) return;
+  std::ostringstream message;
+  message << "must not be less than min_mass_J_per_K / max_transfer_W_per_K = " << quickest_s;
+  section.wrong("max_time_constant_s", message.str());
+}
+
 /// What narrows the bounds, each with its error.
 void read_heat_errors(Section& section, bool weighed, board::ThermalSettings& t) {
   t.mass_error_ratio = section.number("weighed_mass_error_ratio", 0.0, {0.0, 0.5});
@@ -68,6 +78,7 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
   board::ThermalSettings& t = c.thermal;
   for (const Bound& bound : thermal_bounds)
     read_bound(thermal, bound, c.muscle, t.bounds);
+  read_slowest(thermal, t.bounds);
   thermal.allow({"power_part"});
   if (thermal.has("power_part")) {
     thermal.wrong(

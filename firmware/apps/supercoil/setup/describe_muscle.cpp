@@ -19,6 +19,10 @@ constexpr double specific_heat_J_per_gK = 1.65;
 /// A swing that dies away within one period, as most muscles with a hanging load do.
 constexpr double usual_damping_ratio = 0.7;
 
+/// Free convection, up to 0.7 of what cools a muscle, falls with the fourth root of its rise: below
+/// an eighth of the rise at which half_cooling_s was taken a muscle cools by so much more slowly.
+constexpr double nearly_cold_ratio = 1.25;
+
 /// What follows from answers has no more digits than they; an answer keeps its own.
 constexpr int digits_that_follow = 4;
 constexpr int digits_of_answers = 9;
@@ -45,11 +49,13 @@ struct Heat {
   double transfer_W_per_K = 0.0;
   Spread mass;
   Spread transfer;
+  double max_time_constant_s = 0.0;
 };
 
 Heat heat_of(const MuscleAnswers& a, double error) {
   const double tau_s = a.of(Asked::half_cooling_s) / std::numbers::ln2;
   Heat heat;
+  heat.max_time_constant_s = nearly_cold_ratio * tau_s / (1.0 - error);
   if (a.of(Asked::thread_g) > 0.0) {
     heat.mass_J_per_K = a.of(Asked::thread_g) * specific_heat_J_per_gK;
     heat.transfer_W_per_K = heat.mass_J_per_K / tau_s;
@@ -90,6 +96,8 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
   add("max_mass_J_per_K", h.mass_J_per_K * h.mass.high, all);
   add("min_transfer_W_per_K", h.transfer_W_per_K * h.transfer.low, all);
   add("max_transfer_W_per_K", h.transfer_W_per_K * h.transfer.high, all);
+  add("max_time_constant_s", h.max_time_constant_s,
+      "half_cooling_s, and a quarter more for a muscle that is nearly cold");
   if (!(a.of(Asked::thread_g) > 0.0)) return;
   add("weighed_mass_J_per_K", h.mass_J_per_K, "the thread's weight");
   add("weighed_mass_error_ratio", std::min(0.5, std::max(0.2, error)),

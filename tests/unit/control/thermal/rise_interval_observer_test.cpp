@@ -69,6 +69,42 @@ TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
   }));
 }
 
+/// Bounds of mass and heat transfer alone would allow 0.20 / 0.03 = 6.7 s.
+TEST(RiseIntervalObserver, HoldsAMuscleThatIsNoSlowerThanItsSlowestTimeConstant) {
+  ThermalBounds bounds = wide_bounds;
+  bounds.max_time_constant_s = 4.5;
+  CHECK(rc::check("random muscles of time constants up to 4.5 s, under random powers", [&] {
+    const double step_s = *rc::gen::element(1e-3, 1e-2, 0.2);
+    const double mass = any_between(bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);
+    const double transfer =
+        any_between(std::fmax(bounds.min_transfer_W_per_K, mass / bounds.max_time_constant_s),
+                    bounds.max_transfer_W_per_K);
+    const double stays = std::exp(-transfer / mass * step_s);
+    double rise_K = any_between(0.0, 100.0);
+    RiseIntervalObserver observer(bounds, step_s);
+    observer.reset(100.0);
+    for (int stretch = 0; stretch < 10; ++stretch) {
+      const double power_W = *rc::gen::element(0.0, any_between(0.0, 12.0));
+      for (int tick = 0; tick < 60; ++tick) {
+        rise_K = power_W / transfer + (rise_K - power_W / transfer) * stays;
+        observer.step(power_W, power_W);
+        RC_ASSERT(observer.min_K() <= rise_K + 1e-9);
+        RC_ASSERT(observer.max_K() >= rise_K - 1e-9);
+      }
+    }
+  }));
+}
+
+TEST(RiseIntervalObserver, CoolsNoSlowerThanTheSlowestTimeConstant) {
+  ThermalBounds bounds = wide_bounds;
+  bounds.max_time_constant_s = 4.5;
+  RiseIntervalObserver observer(bounds, 1e-2);
+  observer.reset(100.0);
+  for (int tick = 0; tick < 450; ++tick)
+    observer.step(0.0, 0.0);
+  DOUBLES_EQUAL(100.0 / std::exp(1.0), observer.max_K(), 1e-6);
+}
+
 TEST(RiseIntervalObserver, WithoutSpansIsThePlainOneToTheLastBit) {
   CHECK(rc::check("any power", [] {
     RiseIntervalObserver observer(wide_bounds, 0.01);

@@ -2,18 +2,26 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace supercoil::control {
 
-/// Bounds that are known to hold of the muscle's ψ and η.
+/// Bounds that are known to hold of the muscle's ψ and η, and of ψ/η together.
 template <class Real>
 struct BasicThermalBounds {
   Real min_mass_J_per_K;
   Real max_mass_J_per_K;
   Real min_transfer_W_per_K;
   Real max_transfer_W_per_K;
+  Real max_time_constant_s = std::numeric_limits<double>::infinity();
 };
 using ThermalBounds = BasicThermalBounds<double>;
+
+/// The slowest time constant that they allow, in s.
+inline double slowest_s(const ThermalBounds& bounds) {
+  return std::fmin(bounds.max_time_constant_s,
+                   bounds.max_mass_J_per_K / bounds.min_transfer_W_per_K);
+}
 
 /// One end of an interval. Exact over the tick: it comes nearer to its rest value and never passes
 /// it, so the heat flow keeps its sign.

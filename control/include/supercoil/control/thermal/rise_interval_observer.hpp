@@ -52,7 +52,7 @@ class RiseIntervalObserver {
         if (i + 1 < bands) highest = std::min(highest, span.highest(from_K + band_K));
       }
       highest = std::max(highest, bounds.min_transfer_W_per_K);
-      hot_[i] = hot_end(lowest, bounds, step_s_);
+      hot_[i] = hot_end(lowest, no_slower(bounds, lowest), step_s_);
       cold_[i] = cold_end(highest, bounds, step_s_);
     }
   }
@@ -89,6 +89,14 @@ class RiseIntervalObserver {
   static constexpr std::size_t bands = 100;
   static constexpr double band_K = 2.0;
 
+  /// The greatest mass with which this least heat transfer keeps ψ/η within its bound. One with
+  /// more mass has more heat transfer too, and cools no slower (docs/safety.md).
+  static ThermalBounds no_slower(ThermalBounds bounds, double lowest_W_per_K) {
+    bounds.max_mass_J_per_K =
+        std::clamp(lowest_W_per_K * bounds.max_time_constant_s, bounds.min_mass_J_per_K,
+                   bounds.max_mass_J_per_K);
+    return bounds;
+  }
   static std::size_t band(double rise_K) {
     constexpr auto last = static_cast<double>(bands - 1);
     return static_cast<std::size_t>(std::clamp(rise_K / band_K, 0.0, last));

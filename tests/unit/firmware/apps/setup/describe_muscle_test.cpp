@@ -63,6 +63,8 @@ TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
   DOUBLES_EQUAL(0.089 * 0.5 / 1.5, bound(*d, "min_transfer_W_per_K"), 1e-5);
   DOUBLES_EQUAL(0.089 * 1.5 / 0.5, bound(*d, "max_transfer_W_per_K"), 1e-4);
   DOUBLES_EQUAL(0.5, bound(*d, "weighed_mass_error_ratio"), 0.0);
+  // The time in which it cools by half is one answer, and tells of both together.
+  DOUBLES_EQUAL(1.25 * 0.162 / 0.089 / 0.5, bound(*d, "max_time_constant_s"), 0.01);
 }
 
 TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {

@@ -138,6 +138,12 @@ TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
                  "weighed_mass_J_per_K: an assumed mass narrows nothing");
 }
 
+TEST(WrongBoard, ATimeConstantThatNoMuscleWithinTheBoundsHas) {
+  check_replaced("min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.13\nmax_time_constant_s = 0.5",
+                 "b.toml:36: channel[1].thermal.max_time_constant_s = 0.5: must not be less than "
+                 "min_mass_J_per_K / max_transfer_W_per_K = ");
+}
+
 TEST(WrongBoard, TextForANumber) {
   check_replaced("max_W = 4.5", "max_W = '4.5 W'",
                  "b.toml:40: channel[1].limits.max_W = '4.5 W': must be a number, 0.001 to 1000");

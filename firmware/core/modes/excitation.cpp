@@ -11,7 +11,7 @@ bool Excitation::stalled() {
   const double late_m = towards * (position_m_ - check_m_);
   check_s_ *= 1.5;
   check_m_ = position_m_;
-  if (phase_s_ < min_phase_s) return false;
+  if (phase_s_ < std::max(min_phase_s, min_phase_ratio * longest_s_)) return false;
   const bool never_moved = phase_ == Phase::rest && all_m < min_m();
   return never_moved || late_m < 0.05 * all_m;
 }
@@ -69,7 +69,9 @@ double Excitation::next_W(double position_m, double max_W) {
       }
       return power_W_ * (0.87 + 0.13 * sines());
     case Phase::cool:
-      if (still || ahead_m <= level_m(lows)) {
+      if (cycle_ == 0)
+        slow_ = phase_s_ > slow_s && ahead_m <= cold_m_ + slow_low * reach_m_;
+      if (still || (slow_ && cycle_ == 0) || ahead_m <= level_m(lows)) {
         ++cycle_;
         begin(Phase::heat);
       }

@@ -61,8 +61,12 @@ class Excitation {
   bool too_little_motion() const { return too_still_; }
   /// Of those: it moved by as much as is needed, away from where heat should draw it.
   bool moved_backwards() const { return too_still_ && reach_m_ <= -min_m(); }
-  /// From 0; the first one searches for the power, and teaches little.
+  /// From 0; the first one searches for the power, and teaches little of a quick muscle.
   std::size_t cycle() const { return cycle_; }
+  /// The search has begun.
+  bool heated() const { return phase_ != Phase::rest; }
+  /// The muscle takes so long that its first stroke counts, and need not end at a low.
+  bool slow() const { return slow_; }
   double risen_m() const { return position_m_ - cold_m_; }
   /// Of these strokes, 0 to 1.
   float progress() const {
@@ -97,11 +101,18 @@ class Excitation {
   static constexpr double shorter_ratio = 0.7;
   static constexpr double first_check_s = 0.4;
   static constexpr double min_phase_s = 2.0;
+  /// Of the longest phase before: one that is as slow turns round as slowly, by play and creep.
+  static constexpr double min_phase_ratio = 0.2;
+  /// A muscle that has not cooled from its reach to its lows after that is slow: of time constants
+  /// of some 12 s and more.
+  static constexpr double slow_s = 25.0;
+  static constexpr double slow_low = 0.5;  ///< where its first stroke may end
   static constexpr double max_still_s = 25.0;
 
   double next_W(double position_m, double max_W);
 
   void begin(Phase phase) {
+    if (phase_ != Phase::rest) longest_s_ = std::fmax(longest_s_, phase_s_);
     phase_ = phase;
     phase_s_ = 0.0;
     check_s_ = first_check_s;
@@ -128,9 +139,11 @@ class Excitation {
   Phase phase_ = Phase::rest;
   std::size_t cycle_ = 0;
   bool goes_on_ = false;
+  bool slow_ = false;
   bool too_still_ = false;
   double time_s_ = 0.0;
   double phase_s_ = 0.0;
+  double longest_s_ = 0.0;   ///< of the phases that heated or cooled, and have ended
   double position_m_ = 0.0;  ///< smoothed
   double speed_m_per_s_ = 0.0;
   double cold_m_ = 0.0;

@@ -22,7 +22,7 @@ namespace supercoil::modes {
 class Identify {
  public:
   struct Settings {
-    double max_s = 1200.0;  ///< then what there is must do: five cycles of a time constant of 60 s
+    double max_s = 2400.0;  ///< then what there is must do
     /// From then on the muscle is judged after each stroke, as soon as these can be fitted.
     double patience_s = 100.0;
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
@@ -73,10 +73,12 @@ class Identify {
     elapsed_s_ += step_s_;
     const std::size_t cycle = excitation_.cycle();
     fit_.step(position_m, applied_power_W,
-              cycle > 0 ? std::optional(cycle - 1) : std::optional<std::size_t>());
+              excitation_.heated() ? std::optional(block_of(cycle)) : std::nullopt);
     power_W_ = excitation_.step(position_m, max_W);
     const bool ends = excitation_.done() || elapsed_s_ >= settings_.max_s;
     const bool stroke_ended = excitation_.cycle() != cycle;
+    // A quick muscle's first stroke teaches little.
+    if (stroke_ended && cycle == 0 && !excitation_.slow()) fit_.start_anew();
     const bool early =
         stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= fit_.min_blocks;
     return ends || early ? conclude(ends) : ModeResult::running;
@@ -99,6 +101,11 @@ class Identify {
 
  private:
   static constexpr std::uint8_t max_shortened = 2;
+
+  /// Of the fit, that this stroke is.
+  std::size_t block_of(std::size_t cycle) const {
+    return cycle == 0 || excitation_.slow() ? cycle : cycle - 1;
+  }
 
   /// What the strokes so far say; ends: no more of them are to come.
   ModeResult conclude(bool ends);

@@ -16,11 +16,12 @@ constexpr double max_travel_m = 0.02;
 
 struct Strokes {
   std::vector<double> lowest_m;  ///< of each cycle but the last, which ends as it cools
+  std::vector<double> ended_m;   ///< where each cycle ended
   double took_s = 0.0;
 };
 
 /// A muscle that all power would draw to so many times the channel's travel.
-Strokes strokes_of(double overpowered, bool goes_on = false) {
+Strokes strokes_of(double overpowered, bool goes_on = false, double cooling_s = thermal_s) {
   constexpr double max_W = 4.0;
   Excitation excitation({max_travel_m, tick_s});
   excitation.start(0.0);
@@ -31,7 +32,7 @@ Strokes strokes_of(double overpowered, bool goes_on = false) {
   while (!excitation.done() && all.took_s < 3000.0) {
     const double power_W = excitation.step(position_m, max_W);
     const double steady_m = overpowered * max_travel_m * power_W / max_W;
-    position_m += tick_s / thermal_s * (steady_m - position_m);
+    position_m += tick_s / cooling_s * (steady_m - position_m);
     all.took_s += tick_s;
     lowest_m = std::min(lowest_m, position_m);
     if (excitation.cycle() == cycle) continue;
@@ -42,6 +43,7 @@ Strokes strokes_of(double overpowered, bool goes_on = false) {
       DOUBLES_EQUAL(0.0, excitation.progress(), 1e-6);
     }
     all.lowest_m.push_back(lowest_m);
+    all.ended_m.push_back(position_m);
     lowest_m = max_travel_m;
   }
   if (goes_on) CHECK_FALSE(excitation.go_on());
@@ -77,6 +79,25 @@ FirstShorterStroke first_shorter_stroke() {
   return stroke;
 }
 
+/// Of the first six cycles, over the reach.
+std::vector<double> lows_of_slow_muscle_with_play() {
+  constexpr double cooling_s = 40.0, play_m = 0.001, max_W = 4.0;
+  Excitation excitation({max_travel_m, tick_s});
+  excitation.start(0.0);
+  double stretch_m = 0.0, position_m = 0.0;
+  std::vector<double> lows{1.0};
+  while (!excitation.done() && lows.size() <= 6) {
+    const std::size_t cycle = excitation.cycle();
+    const double steady_m = 2.0 * max_travel_m * excitation.step(position_m, max_W) / max_W;
+    stretch_m += tick_s / cooling_s * (steady_m - stretch_m);
+    position_m = std::clamp(position_m, stretch_m - play_m, stretch_m + play_m);
+    lows.back() = std::min(lows.back(), position_m / (0.55 * max_travel_m));
+    if (excitation.cycle() != cycle) lows.push_back(1.0);
+  }
+  lows.pop_back();
+  return lows;
+}
+
 }  // namespace
 
 TEST_GROUP(Excitation){};
@@ -94,6 +115,21 @@ TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
     }
     CHECK_COMPARE(strokes.took_s, <, 8 * 3.0 * thermal_s);
   }
+}
+
+/// Its first stroke counts: it need not come to a low, which takes a slow muscle longest.
+TEST(Excitation, ASlowMusclesFirstStrokeEndsAtHalfItsReach) {
+  const Strokes strokes = strokes_of(2.0, false, 40.0);
+  const double reach_m = 0.55 * max_travel_m;
+  DOUBLES_EQUAL(0.5 * reach_m, strokes.ended_m[0], 0.02 * reach_m);
+  DOUBLES_EQUAL(0.25 * reach_m, strokes.ended_m[1], 0.02 * reach_m);
+  DOUBLES_EQUAL(0.15 * reach_m, strokes.ended_m[2], 0.02 * reach_m);
+}
+
+/// Play and creep of a slow muscle keep it where it is for a while when its power changes.
+TEST(Excitation, AMuscleThatTurnsRoundSlowlyIsWaitedFor) {
+  for (const double lowest : lows_of_slow_muscle_with_play())
+    CHECK_COMPARE(lowest, <, 0.55);
 }
 
 TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {

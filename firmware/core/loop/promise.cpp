@@ -17,6 +17,8 @@ constexpr double slower_than_fastest = 1.2;
 constexpr double short_strokes_ratio = 0.7;
 /// Quicker ones show nothing that this does not, and a person sees it.
 constexpr double min_period_s = 5.0;
+/// Slower ones only take time: a smaller sine shows a slow muscle in this one.
+constexpr double max_period_s = 45.0;
 
 /// One period's error differs from the next one's, and motion from that of identify: of 200 muscles
 /// (tests/setup/setup_study.cpp, 1 to 200) 97 % stay below.
@@ -53,6 +55,14 @@ double unexplained_ratio(const ChannelSettings& channel) {
                                    : usual_unexplained_ratio;
 }
 
+/// Over that of the widest sine: as much power swings, P = (x + τẋ)/gain, if it is quicker.
+double amplitude_at(double period_s, double widest_period_s) {
+  // slower_than_fastest times 2πτ/√3, of which f.half_travel_period_s is made.
+  const double widest = std::numbers::sqrt3 / slower_than_fastest;
+  const double quicker = widest * std::fmax(1.0, widest_period_s / period_s);
+  return std::hypot(1.0, widest) / std::hypot(1.0, quicker);
+}
+
 }  // namespace
 
 double FirstMotion::at(double time_s) const {
@@ -64,8 +74,10 @@ double FirstMotion::at(double time_s) const {
 FirstMotion plan_first_motion(const Feasibility& f, double unexplained_ratio) {
   const bool short_strokes = unexplained_ratio > modes::Identify::Settings{}.max_unexplained;
   const double shown_m = (short_strokes ? short_strokes_ratio : 1.0) * f.travel_m;
-  return {middle_ratio * shown_m, amplitude_ratio * shown_m,
-          std::max(min_period_s, slower_than_fastest * f.half_travel_period_s)};
+  const double widest_period_s = slower_than_fastest * f.half_travel_period_s;
+  const double period_s = std::clamp(widest_period_s, min_period_s, max_period_s);
+  return {middle_ratio * shown_m,
+          amplitude_ratio * shown_m * amplitude_at(period_s, widest_period_s), period_s};
 }
 
 bool is_promised_for(const control::ControllerSettings& controller, const ChannelSettings& channel,

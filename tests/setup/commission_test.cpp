@@ -135,3 +135,16 @@ TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
       "its cause is gone: supercoil command 1 reset",
       c.refused.c_str());
 }
+
+/// Time constants of 29, 30 and 58 s; the second one is not linear.
+TEST(Commission, ASlowMuscleFollowsWithinTenMinutesOrFifteenTimeConstants) {
+  for (const unsigned seed : {2018U, 2031U, 2038U}) {
+    constexpr double slower = 5.0;
+    const HeldOut muscle = held_out_muscle(seed, error, slower);
+    const Commissioned c = commission(muscle);
+    STRCMP_EQUAL("", c.refused.c_str());
+    CHECK(c.fault == Fault::none);
+    CHECK_COMPARE(c.error_m, <=, c.promised_m);
+    CHECK_COMPARE(c.took_s, <=, std::max(600.0, 15.0 * muscle.time_constant_s));
+  }
+}

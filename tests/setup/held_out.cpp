@@ -38,11 +38,12 @@ constexpr double full_K = 80.0;
 constexpr double supply_V = 12.0;
 constexpr double gravity_m_per_s2 = 9.81;
 
-Drawn drawn_muscle(Dice& dice) {
+Drawn drawn_muscle(Dice& dice, double slower) {
   Drawn d;
   control::PhysicalParameters& m = d.muscle;
   m.thermal_mass_J_per_K = dice.over(0.05, 0.5);
   m.heat_transfer_W_per_K = m.thermal_mass_J_per_K / dice.over(1.0, 12.0);
+  m.thermal_mass_J_per_K *= slower;
   m.stiffness_N_per_m = dice.over(8.0, 80.0);
   m.moving_mass_kg = dice.over(0.03, 0.3);
   m.damping_Ns_per_m =
@@ -71,9 +72,9 @@ std::string effects_of(Dice& dice, const Drawn& d) {
 
 }  // namespace
 
-HeldOut held_out_muscle(unsigned seed, double error) {
+HeldOut held_out_muscle(unsigned seed, double error, double slower) {
   Dice dice(seed * 7919U);
-  const Drawn d = drawn_muscle(dice);
+  const Drawn d = drawn_muscle(dice, slower);
   HeldOut h;
   h.time_constant_s = -1.0 / d.muscle.thermal_pole_rad_per_s();
   h.linear = seed % 2 == 0;

@@ -21,7 +21,7 @@ struct HeldOut {
 /// Parameters over about a decade each; every second muscle has a random part of the effects of
 /// muscles as they are (docs/muscles.md). Answers are wrong by a random factor of 1 ± error, but
 /// for resistance, power and travel, which are read from instruments or chosen.
-HeldOut held_out_muscle(unsigned seed, double error);
+HeldOut held_out_muscle(unsigned seed, double error, double slower = 1.0);
 
 /// A board at 1 kHz with one channel, which the answers have not been put into yet.
 std::string held_out_board(double cold_resistance_Ohm, double max_W);

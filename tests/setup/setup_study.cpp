@@ -1,5 +1,5 @@
 // Setup on muscles that nothing was tuned on, each from a description in a bench's units:
-//   setup_study [MUSCLES [ERROR_PERCENT [FIRST]]]
+//   setup_study [MUSCLES [ERROR_PERCENT [FIRST [SLOWER]]]]
 // The figures of docs/setup.md.
 #include <algorithm>
 #include <cstdio>
@@ -14,13 +14,14 @@ int main(int argc, char** argv) {
   const int muscles = argc > 1 ? std::atoi(argv[1]) : 20;
   const double error = argc > 2 ? 1e-2 * std::atof(argv[2]) : 0.5;
   const int first = argc > 3 ? std::atoi(argv[3]) : 1;
+  const double slower = argc > 4 ? std::atof(argv[4]) : 1.0;
   int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, untold = 0;
   std::printf(
       "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio "
       "calibrated_s identified_s took_s rise_K untold_K\n");
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
-      const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error);
+      const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error, slower);
       const Commissioned c = commission(muscle);
       const double ratio = c.error_m / c.promised_m;
       std::printf(

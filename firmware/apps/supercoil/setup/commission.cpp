@@ -17,6 +17,7 @@
 #include "apps/supercoil/value_range.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"
+#include "modes/identify.hpp"
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
@@ -31,17 +32,22 @@ constexpr std::chrono::milliseconds renewal{50};
 constexpr std::chrono::milliseconds reference_step{20};
 /// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
 constexpr double arming_s = 5.0;
-/// As in firmware, of each muscle: calibrate waits for a cold one, identify judges after 1200 s.
-constexpr double max_calibrate_s = 130.0;
-constexpr double max_identify_s = 1400.0;
+/// Of each muscle. What a find is followed by takes a minute or two more.
+constexpr double max_calibrate_s = modes::Calibrate::Settings{}.max_wait_s + 10.0;
+constexpr double max_identify_s = modes::Identify::Settings{}.max_s + 200.0;
 /// Above the air, from which on calibrate takes a zero.
 constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
 
 /// However hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
-  const control::ThermalBounds& b = channel.thermal.bounds;
-  const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
-  return max_tau_s * std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
+  return control::slowest_s(channel.thermal.bounds) *
+         std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
+}
+
+/// Identify of half of the random muscles (tests/setup/setup_study.cpp) takes no longer.
+double usual_identify_s(const ChannelSettings& channel) {
+  const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
+  return 20.0 + std::min(23.0 * tau_s, 100.0 + 6.0 * tau_s);
 }
 
 /// A calibration never finds just what the file says.
@@ -285,6 +291,10 @@ StepResult Commission::limits() {
 }
 
 StepResult Commission::identify() {
+  const double takes_s = longest_s(usual_identify_s) * (antagonist() ? 2.0 : 1.0);
+  who_.say("takes about " + duration_text(takes_s) +
+           " if the file's time constant is right, and up to three times that if the muscle is far "
+           "from linear");
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   if (auto done = only_found("identify", run_mode("identify", max_identify_s)); !done)
     return tl::unexpected(done.error());

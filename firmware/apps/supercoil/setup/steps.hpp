@@ -49,15 +49,15 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      "larger",
      true, true},
     {"identify",
-     "heats and lets cool nine times, up to 0.85 of its reach, and again in shorter strokes if it "
-     "is far from linear; a minute for a quick muscle, up to 25 minutes for one with a time "
-     "constant of a minute"},
+     "heats and lets cool four to nine times, up to 0.85 of its reach, and again in shorter strokes "
+     "if it is far from linear; a minute for a quick muscle, eight for one with a time constant of "
+     "a minute, and up to three times that if it is far from linear"},
     {"gains",
      "compares the controller in use with the one that suits the muscle that was found, and takes "
      "that one over if it differs and you want it; heats nothing",
      true, false, SetupStep::InJoint::of_agonist},
     {"move",
-     "follows a slow sine between 0.24 and 0.56 of the travel that it can hold, three periods; "
+     "follows a slow sine around 0.4 of the travel that it can hold, three periods of 45 s at most; "
      "compares the error with the promised one",
      false, false, SetupStep::InJoint::of_agonist},
 }};

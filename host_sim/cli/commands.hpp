@@ -42,7 +42,7 @@ struct RunOptions {
 
   bool several_boards() const { return nodes > 1 || scenarios.size() > 1; }
 };
-int run_command(const RunOptions& options);
+int run_command(const RunOptions& given);
 
 /// A simulated board, and the page on which it is watched and commanded.
 struct PageOptions {

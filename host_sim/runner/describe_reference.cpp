@@ -129,9 +129,10 @@ std::string describe_out_of_range(const Scenario& scenario) {
   };
   if (refused(scenario.start)) return text(scenario.start);
   for (const Event& event : scenario.events) {
-    if (refused(event.conditions))
+    if (refused(event.conditions)) {
       return "from the event at " + number_text(event.at_s, 6) + " s on it " +
              text(event.conditions);
+    }
   }
   return {};
 }

@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 /// Of summary.json: grows when a key is renamed or means something else. Version 0.1.0 of the
 /// programs wrote 1, without saying so.
-constexpr int schema_version = 3;
+constexpr int schema_version = 4;
 
 std::string page_of(Fault fault) {
   return "docs/faults/" + std::string(name(fault)) + ".md";

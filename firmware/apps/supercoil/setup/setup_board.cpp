@@ -21,7 +21,7 @@ SetupBoard::~SetupBoard() {
 
 StepResult SetupBoard::run(const std::string& step) {
   // A step before may have changed the file.
-  config_.reset();
+  if (auto again = read_again(); !again) return tl::unexpected(again.error());
   if (const std::string why = left_out(step); !why.empty()) return tl::unexpected(why);
   if (step == "doctor") {
     if (auto done = read(); !done) return tl::unexpected(done.error());
@@ -65,7 +65,10 @@ std::string SetupBoard::left_out(const std::string& step) {
 }
 
 tl::expected<void, std::string> SetupBoard::read() {
-  if (config_) return {};
+  return config_ ? tl::expected<void, std::string>() : read_again();
+}
+
+tl::expected<void, std::string> SetupBoard::read_again() {
   auto config = config::read_board_config(options_.config);
   if (!config) return tl::unexpected(config::to_text(config.error()));
   if (const std::string why = missing_channel(options_.config, options_.channel); !why.empty())
@@ -76,18 +79,22 @@ tl::expected<void, std::string> SetupBoard::read() {
 
 tl::expected<void, std::string> SetupBoard::open() {
   if (auto done = read(); !done) return done;
+  std::unique_ptr<BoardLink> opened;
   if (!link_) {
     auto link = open_link(options_.can, options_.socket);
     if (!link) return tl::unexpected(link.error() + "; " + how_to_start());
-    link_ = std::move(*link);
+    opened = std::move(*link);
   }
+  BoardLink& board = opened ? *opened : *link_;
   // What a step heats with, and what the board makes of it, is by the file.
-  const auto others = differences_of_board(*link_, first_address(), config_->settings, index());
+  const auto others = differences_of_board(board, first_address(), config_->settings, index());
   if (!others) return tl::unexpected(others.error() + "; " + how_to_start());
   if (!others->empty()) {
     return tl::unexpected(options_.config + ": the board does not run with this file: " + *others +
                           "; " + how_to_start());
   }
+  // Only that board is disarmed in the end.
+  if (opened) link_ = std::move(opened);
   return {};
 }
 

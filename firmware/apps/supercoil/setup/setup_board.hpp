@@ -34,6 +34,8 @@ class SetupBoard {
 
  private:
   tl::expected<void, std::string> read();
+  /// What was read before stays where the file is in no order now.
+  tl::expected<void, std::string> read_again();
   /// Refuses a board that runs with another file.
   tl::expected<void, std::string> open();
   /// The board with the file, as commands to copy.

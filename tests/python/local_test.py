@@ -90,6 +90,12 @@ class Local(unittest.TestCase):
         self.assertEqual(commands, ["2 arm", "2 position 0.0034", "2 disarm"])
         self.assertIn("2 renew", self.daemon.lines)
 
+    def test_a_muscle_that_is_slack_is_told(self):
+        for notes, slack in (("- 0 pi slack", 1), ("- 0 pi -", 0), ("-", 0)):
+            self.daemon.tell("armed", "rest", notes=notes)
+            with self.muscle() as muscle:
+                self.assertEqual(muscle.telemetry.status.slack, slack)
+
     def test_refusals_and_faults_are_named(self):
         with self.muscle() as muscle:
             self.daemon.answers["2 position 1"] = "refused: out_of_range; 0.025 would be obeyed"

@@ -9,11 +9,12 @@
 namespace supercoil {
 
 /// Its words in their order. Numbers are NaN where they are not known; notes are "-" where there
-/// are none. The last two are of the controller that is at work; an older board does not tell them.
-inline constexpr std::array<std::string_view, 15> state_words{
-    "channel",  "state",      "mode",      "fault",      "reference",
-    "model_m",  "position_m", "applied_W", "coldest_C",  "hottest_C",
-    "progress", "result",     "notes",     "controller", "controller_kind"};
+/// are none. The next two are of the controller that is at work, and the last one is "slack" of a
+/// joint's muscle that is, "-" otherwise; an older board does not tell them.
+inline constexpr std::array<std::string_view, 16> state_words{
+    "channel",         "state",     "mode",      "fault",    "reference", "model_m", "position_m",
+    "applied_W",       "coldest_C", "hottest_C", "progress", "result",    "notes",   "controller",
+    "controller_kind", "slack"};
 
 /// Places of those that are looked for one by one.
 enum StatePlace : std::uint8_t {
@@ -26,6 +27,7 @@ enum StatePlace : std::uint8_t {
   state_notes = 12,
   state_controller = 13,
   state_controller_kind = 14,
+  state_slack = 15,
 };
 
 }  // namespace supercoil

@@ -56,6 +56,8 @@ BoardLink::Answer LocalBoardLink::state_json() {
       } else if (i >= state_first_number && i <= state_progress) {
         const double value = std::strtod(word.c_str(), nullptr);
         channel[key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+      } else if (i == state_slack) {
+        channel[key] = word == "slack";
       } else if (i == state_controller_kind) {
         channel[key] = word == "-" ? Json(nullptr) : Json(word);
       } else {

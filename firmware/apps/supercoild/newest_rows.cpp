@@ -26,7 +26,8 @@ std::string NewestRows::describe(const Loop& loop) const {
          << r.position_m << ' ' << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' '
          << r.progress << ' ' << recorder::result_name(r.result) << ' '
          << (r.identify_notes == 0 ? "-" : describe_notes(r.identify_notes, ",")) << ' '
-         << static_cast<int>(r.controller) << ' ' << kind_of(loop, i, r.controller) << '\n';
+         << static_cast<int>(r.controller) << ' ' << kind_of(loop, i, r.controller)
+         << ((r.flags & row_slack) != 0 ? " slack" : " -") << '\n';
   }
   return text.str();
 }

@@ -54,4 +54,5 @@ def frames_of(words: list[str], *, probing: bool) -> Iterator[tuple[int, Mapping
     yield messages.ESTIMATE, {"parameter": Parameter.theta1, "theta1": nan, "error_bound": nan,
                               "identify_notes": notes & 0x7F}
     yield messages.STATUS, {"state": state, "mode": mode, "fault": fault, "probing": probing, "progress": progress,
-                            "protocol_version": PROTOCOL_VERSION, "result": Result[words[10]], "friction": notes >> 7}
+                            "protocol_version": PROTOCOL_VERSION, "result": Result[words[10]], "friction": notes >> 7,
+                            "slack": int(words[14:15] == ["slack"])}

@@ -98,7 +98,8 @@ TEST(LocalBoardLink, TellsAllOfItAsJson) {
   const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
   LocalBoardLink link = board.link();
   const auto channel = nlohmann::json::parse(link.state_json().value())["channels"][0];
-  LONGS_EQUAL(15, channel.size());
+  LONGS_EQUAL(16, channel.size());
+  CHECK_FALSE(channel["slack"].get<bool>());
   LONGS_EQUAL(0, channel["controller"].get<int>());
   STRCMP_EQUAL("pi", channel["controller_kind"].get<std::string>().c_str());
   LONGS_EQUAL(1, channel["channel"].get<int>());
@@ -110,6 +111,15 @@ TEST(LocalBoardLink, TellsAllOfItAsJson) {
   DOUBLES_EQUAL(0.25, channel["progress"].get<double>(), 1e-9);
   STRCMP_EQUAL("none", channel["result"].get<std::string>().c_str());
   STRCMP_EQUAL("", channel["notes"].get<std::string>().c_str());
+}
+
+TEST(LocalBoardLink, TellsThatAMuscleIsSlack) {
+  Row row = row_of_mode(Mode::position, ModeResult::none, 0);
+  row.flags = row_slack;
+  const Served board(row);
+  LocalBoardLink link = board.link();
+  STRCMP_CONTAINS(" - 0 pi slack\n", link.state().value().c_str());
+  CHECK_TRUE(nlohmann::json::parse(link.state_json().value())["channels"][0]["slack"].get<bool>());
 }
 
 TEST(LocalBoardLink, ASignalLosesNoAnswer) {

@@ -288,6 +288,13 @@ class Sources(unittest.TestCase):
         self.assertIn(", FAULT over_temperature\n", told)
         self.assertNotIn("proof_of_response", told)
 
+    def test_text_says_that_a_muscle_is_slack(self):
+        log = self.path / "can.log"
+        for flags, told in (("80", True), ("10", False)):
+            log.write_text(f"(0000000001.000000) can0 701#02000000FF0004{flags}\n")
+            done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
+            self.assertEqual("\n  by its model this muscle is slack where the joint stands\n" in done.stdout, told)
+
     def test_text_says_how_hot_a_muscle_may_be_that_is_off(self):
         log = self.path / "can.log"
         for state, word in enumerate(("disarmed", "armed", "fault")):

@@ -16,7 +16,7 @@ namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. Deviations and unexplained_ratio are NaN until
 /// identify has found the muscle that is known.
-inline constexpr std::array<std::string_view, 43> known_quantities{
+inline constexpr std::array<std::string_view, 44> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -40,7 +40,7 @@ inline constexpr std::array<std::string_view, 43> known_quantities{
     // By the board's file as well: its limits, and the bounds of [thermal].
     "configured_max_W", "configured_trip_C", "configured_min_mass_J_per_K",
     "configured_max_mass_J_per_K", "configured_min_transfer_W_per_K",
-    "configured_max_transfer_W_per_K"};
+    "configured_max_transfer_W_per_K", "configured_max_time_constant_s"};
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -61,7 +61,7 @@ enum KnownPlace : std::uint8_t {
   known_max_set_point,
   known_identified,
   known_configured_limits,                                ///< the first of two
-  known_configured_bounds = known_configured_limits + 2,  ///< the first of four
+  known_configured_bounds = known_configured_limits + 2,  ///< the first of five
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
@@ -158,8 +158,11 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
   known[known_max_set_point] = configured.max_set_point_m;
   known[known_identified] = told(identification.identified_s);
   const control::ThermalBounds& b = configured.bounds;
-  const std::array limits{configured.max_W,   configured.trip_C,      b.min_mass_J_per_K,
-                          b.max_mass_J_per_K, b.min_transfer_W_per_K, b.max_transfer_W_per_K};
+  const double slowest_s = std::isfinite(b.max_time_constant_s) ? b.max_time_constant_s : NAN;
+  const std::array limits{configured.max_W,       configured.trip_C,
+                          b.min_mass_J_per_K,     b.max_mass_J_per_K,
+                          b.min_transfer_W_per_K, b.max_transfer_W_per_K,
+                          slowest_s};
   static_assert(known_configured_limits + limits.size() == std::tuple_size_v<KnownMuscle>);
   std::ranges::copy(limits, known.begin() + known_configured_limits);
   return known;

@@ -3509,12 +3509,12 @@ double supercoil_muscle_quantity_decode(uint8_t value)
 
 bool supercoil_muscle_quantity_is_in_range(uint8_t value)
 {
-    return (value <= 42u);
+    return (value <= 43u);
 }
 
 bool supercoil_muscle_quantity_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 42.0));
+    return ((value >= 0.0) && (value <= 43.0));
 }
 
 float supercoil_muscle_value_encode(double value)
@@ -4009,12 +4009,12 @@ double supercoil_muscle_read_quantity_decode(uint8_t value)
 
 bool supercoil_muscle_read_quantity_is_in_range(uint8_t value)
 {
-    return (value <= 42u);
+    return (value <= 43u);
 }
 
 bool supercoil_muscle_read_quantity_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 42.0));
+    return ((value >= 0.0) && (value <= 43.0));
 }
 
 int supercoil_tuning_pack(

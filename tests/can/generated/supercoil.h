@@ -523,6 +523,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (40u)
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (41u)
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (42u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MAX_TIME_CONSTANT_S_CHOICE (43u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -632,6 +633,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_MASS_J_PER_K_CHOICE (40u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MIN_TRANSFER_W_PER_K_CHOICE (41u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_TRANSFER_W_PER_K_CHOICE (42u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MAX_TIME_CONSTANT_S_CHOICE (43u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1969,14 +1971,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..42 (0..42 -)
+     * Range: 0..43 (0..43 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last six are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last seven are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2131,7 +2133,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..42 (0..42 -)
+     * Range: 0..43 (0..43 -)
      * Scale: 1
      * Offset: 0
      */

@@ -39,11 +39,11 @@ std::vector<std::string> differences(const KnownMuscle& board, const BoardSettin
                                      std::size_t channel) {
   const ChannelSettings& c = file.channels[channel];
   const KnownMuscle expected =
-      known_muscle(c.muscle, c.calibration, 0.0, {}, configured_muscle(c, NAN));
+      known_muscle(c.muscle, c.calibration, 0.0, 0.0, {}, configured_muscle(c, NAN));
   std::vector<std::string> all;
   for (std::size_t i = known_configured; i < known_quantities.size(); ++i) {
-    // Follows from the other muscle's limits, which are compared as well.
-    if (i == known_min_set_point || same(board[i], expected[i])) continue;
+    // Follows from the other muscle's limits, which are compared as well; is none of the file's.
+    if (i == known_min_set_point || i == known_identified || same(board[i], expected[i])) continue;
     all.push_back(place_in_file(i) + " = " + told(expected[i]) + " (the board: " + told(board[i]) +
                   ")");
   }

@@ -132,7 +132,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 43> names_of_quantity{{
+inline constexpr std::array<ValueName, 44> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -176,6 +176,7 @@ inline constexpr std::array<ValueName, 43> names_of_quantity{{
     {40, "configured_max_mass_J_per_K"},
     {41, "configured_min_transfer_W_per_K"},
     {42, "configured_max_transfer_W_per_K"},
+    {43, "configured_max_time_constant_s"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

@@ -176,6 +176,7 @@ class Quantity(Named):
     configured_max_mass_J_per_K = 40
     configured_min_transfer_W_per_K = 41
     configured_max_transfer_W_per_K = 42
+    configured_max_time_constant_s = 43
 
 
 class Refusal(Named):

@@ -41,7 +41,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_identified] == "identified_s");
   CHECK(known_quantities[known_configured_limits] == "configured_max_W");
   CHECK(known_quantities[known_configured_bounds] == "configured_min_mass_J_per_K");
-  LONGS_EQUAL(4, known_quantities.size() - known_configured_bounds);
+  LONGS_EQUAL(5, known_quantities.size() - known_configured_bounds);
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, 0.0,
       {}, {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}, NAN, NAN});
@@ -71,7 +71,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   const KnownMuscle ranged = known_muscle({}, {}, 0.0, 0.0, {}, {{}, 8.0, {}, {}, -0.005, 0.02});
   DOUBLES_EQUAL(-0.005, ranged[known_min_set_point], 0.0);
   DOUBLES_EQUAL(0.02, ranged[known_max_set_point], 0.0);
-  const KnownMuscle bounded = known_muscle({}, {}, 0.0, {},
+  const KnownMuscle bounded = known_muscle({}, {}, 0.0, 0.0, {},
                                            {{},
                                             8.0,
                                             {},
@@ -83,10 +83,11 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
                                             {.min_mass_J_per_K = 0.1,
                                              .max_mass_J_per_K = 0.2,
                                              .min_transfer_W_per_K = 0.3,
-                                             .max_transfer_W_per_K = 0.4}});
+                                             .max_transfer_W_per_K = 0.4,
+                                             .max_time_constant_s = 0.5}});
   DOUBLES_EQUAL(4.5, bounded[known_configured_limits], 0.0);
   DOUBLES_EQUAL(140.0, bounded[known_configured_limits + 1], 0.0);
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 5; ++i)
     DOUBLES_EQUAL(0.1 * static_cast<double>(i + 1), bounded[known_configured_bounds + i], 1e-15);
 }
 

@@ -8,10 +8,12 @@
 
 #include "apps/supercoil/setup/commission.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
+#include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/board_config.hpp"
 #include "config/edit_toml.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
+#include "setup/listener.hpp"
 #include "setup/simulated_link.hpp"
 
 namespace supercoil::test {
@@ -58,12 +60,11 @@ HeldOutBoard::HeldOutBoard(const HeldOut& muscle, const std::string& controller,
       simulation_(scenario_),
       link_(simulation_, config_.settings.rate_Hz) {}
 
-Commissioned commission(const HeldOut& muscle, const std::string& controller) {
-  // Its senses were compared with a meter before, and nothing else is known.
-  HeldOutBoard board(muscle, controller, 0.02);
+namespace {
+
+Commissioned commission(HeldOutBoard& board, operating::Operator& who, bool by_script) {
   const SimulatedLink& link = board.link();
-  Nobody nobody;
-  operating::Commission steps = board.steps(nobody);
+  operating::Commission steps = board.steps(who);
   Commissioned c;
   const auto conclude = [&](const std::string& refused) {
     c.refused = refused;
@@ -73,10 +74,16 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
     c.fault = link.fault();
     return c;
   };
+  if (by_script) {
+    if (const auto done = steps.compare_senses(); !done) return conclude(done.error());
+  }
   if (const auto done = steps.calibrate(); !done) return conclude(done.error());
   c.calibrated_s = link.time_s();
   if (const auto done = steps.identify(); !done) return conclude(done.error());
   c.identified_s = link.time_s();
+  if (by_script) {
+    if (const auto done = steps.gains(); !done) return conclude(done.error());
+  }
   const auto moved = steps.move();
   if (!moved) return conclude(moved.error());
   c.promised_m = moved->value("promised_m", NAN);
@@ -86,6 +93,28 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
   c.error_m = (*moved)["error_m"];
   c.travel_m = (1.0 / 0.4) * (*moved)["middle_m"].get<double>();
   return conclude("");
+}
+
+}  // namespace
+
+Commissioned commission(const HeldOut& muscle, const std::string& controller) {
+  HeldOutBoard board(muscle, controller, 0.02);
+  Nobody nobody;
+  return commission(board, nobody, false);
+}
+
+Commissioned commission_by_script(const HeldOut& muscle) {
+  HeldOutBoard board(muscle, "learned_ff", 0.0);
+  constexpr double meter_V = 12.0;  // as the scenario's supply
+  const double power_W =
+      operating::plan_comparison("1", board.channel(), board.settings()).power_W;
+  operating::ScriptedAnswers script("study");
+  script.add("senses", "power_W", {power_W});
+  script.add("senses", "supply_V", {meter_V});
+  script.add("senses", "current_A", {0.5 * power_W / meter_V, power_W / meter_V});
+  script.add("muscle", "take_gains", {1.0});
+  Listener who(std::move(script));
+  return commission(board, who, true);
 }
 
 }  // namespace supercoil::test

@@ -60,7 +60,10 @@ struct Commissioned {
   Fault fault = Fault::none;
 };
 
-/// As HeldOutBoard.
+/// As HeldOutBoard. Its senses were compared with a meter before, and nobody answers.
 Commissioned commission(const HeldOut& muscle, const std::string& controller = "learned_ff");
+
+/// All steps that heat, and gains, of a board that was just started; a script answers.
+Commissioned commission_by_script(const HeldOut& muscle);
 
 }  // namespace supercoil::test

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
       const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error, slower);
-      const Commissioned c = commission(muscle);
+      const Commissioned c = commission_by_script(muscle);
       const double ratio = c.error_m / c.promised_m;
       std::printf(
           "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %12.0f %12.0f %6.0f %6.0f %8.2f %s "

@@ -89,22 +89,25 @@ OrProblems use_own_board(const RunOptions& options, std::size_t place,
 OrProblems check_together(const RunOptions& options) {
   const std::size_t scenarios = options.scenarios.size();
   const std::string of_scenarios = std::to_string(scenarios) + " scenarios";
-  if (scenarios > 1 && options.nodes > 1)
+  if (scenarios > 1 && options.nodes > 1) {
     return tl::unexpected(wrong_option("--nodes", std::to_string(options.nodes),
                                        "is for one scenario, and there are " + of_scenarios));
-  if (scenarios > 1 && !options.learned.empty())
+  }
+  if (scenarios > 1 && !options.learned.empty()) {
     return tl::unexpected(wrong_option("--learned", options.learned,
                                        "is for one board, and there are " + of_scenarios));
+  }
   const auto once_for_each = [&](const char* option, std::size_t given) -> OrProblems {
     if (given <= scenarios) return {};
     return tl::unexpected(wrong_option(
         option, "",
         "is given " + std::to_string(given) + " times: at most once for each SCENARIO"));
   };
-  if (const std::size_t given = options.boards.size(); given > 0 && given < scenarios)
+  if (const std::size_t given = options.boards.size(); given > 0 && given < scenarios) {
     return tl::unexpected(wrong_option("--board", options.boards.back(),
                                        "is given " + std::to_string(given) + " times for " +
                                            of_scenarios + ": once for each, or not at all"));
+  }
   if (auto board = once_for_each("--board", options.boards.size()); !board) return board;
   return once_for_each("--channel", options.channels.size());
 }

@@ -106,8 +106,7 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
 Commissioned commission_by_script(const HeldOut& muscle) {
   HeldOutBoard board(muscle, "learned_ff", 0.0);
   constexpr double meter_V = 12.0;  // as the scenario's supply
-  const double power_W =
-      operating::plan_comparison("1", board.channel(), board.settings()).power_W;
+  const double power_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
   operating::ScriptedAnswers script("study");
   script.add("senses", "power_W", {power_W});
   script.add("senses", "supply_V", {meter_V});

@@ -71,9 +71,8 @@ class Heat {
   /// Beyond what the configured bounds allow it is not believed.
   void learn(double pole_rad_per_s) {
     const control::ThermalBounds& b = settings_.bounds;
-    learned_.learn(
-        std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
-                  std::fmin(-1.0 / control::slowest_s(b), pole_rad_per_s)));
+    learned_.learn(std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
+                             std::fmin(-1.0 / control::slowest_s(b), pole_rad_per_s)));
   }
 
   /// Where such a muscle moves to is expected from now on, as of a cold one.

@@ -28,9 +28,9 @@ board::Learned Axis::known() const {
 }
 
 void Axis::publish_muscle() {
-  published_muscle_.set(known_muscle(
-      muscle_, calibration_, response_ratio_, unexplained_ratio_, identification_,
-      configured_muscle(settings_, -max_reverse_travel_m_)));
+  published_muscle_.set(known_muscle(muscle_, calibration_, response_ratio_, unexplained_ratio_,
+                                     identification_,
+                                     configured_muscle(settings_, -max_reverse_travel_m_)));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {

@@ -159,9 +159,8 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
   known[known_identified] = told(identification.identified_s);
   const control::ThermalBounds& b = configured.bounds;
   const double slowest_s = std::isfinite(b.max_time_constant_s) ? b.max_time_constant_s : NAN;
-  const std::array limits{configured.max_W,       configured.trip_C,
-                          b.min_mass_J_per_K,     b.max_mass_J_per_K,
-                          b.min_transfer_W_per_K, b.max_transfer_W_per_K,
+  const std::array limits{configured.max_W,   configured.trip_C,      b.min_mass_J_per_K,
+                          b.max_mass_J_per_K, b.min_transfer_W_per_K, b.max_transfer_W_per_K,
                           slowest_s};
   static_assert(known_configured_limits + limits.size() == std::tuple_size_v<KnownMuscle>);
   std::ranges::copy(limits, known.begin() + known_configured_limits);

@@ -69,8 +69,7 @@ double Excitation::next_W(double position_m, double max_W) {
       }
       return power_W_ * (0.87 + 0.13 * sines());
     case Phase::cool:
-      if (cycle_ == 0)
-        slow_ = phase_s_ > slow_s && ahead_m <= cold_m_ + slow_low * reach_m_;
+      if (cycle_ == 0) slow_ = phase_s_ > slow_s && ahead_m <= cold_m_ + slow_low * reach_m_;
       if (still || (slow_ && cycle_ == 0) || ahead_m <= level_m(lows)) {
         ++cycle_;
         begin(Phase::heat);

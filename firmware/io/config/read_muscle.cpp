@@ -49,8 +49,7 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
 }
 
 void read_slowest(Section& section, control::ThermalBounds& b) {
-  b.max_time_constant_s =
-      section.number("max_time_constant_s", b.max_time_constant_s, {1e-3, 1e5});
+  b.max_time_constant_s = section.number("max_time_constant_s", b.max_time_constant_s, {1e-3, 1e5});
   const double quickest_s = b.min_mass_J_per_K / b.max_transfer_W_per_K;
   if (b.max_time_constant_s >= quickest_s) return;
   std::ostringstream message;

@@ -49,7 +49,8 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      "larger",
      true, true},
     {"identify",
-     "heats and lets cool four to nine times, up to 0.85 of its reach, and again in shorter strokes "
+     "heats and lets cool four to nine times, up to 0.85 of its reach, and again in shorter "
+     "strokes "
      "if it is far from linear; a minute for a quick muscle, eight for one with a time constant of "
      "a minute, and up to three times that if it is far from linear"},
     {"gains",
@@ -57,7 +58,8 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      "that one over if it differs and you want it; heats nothing",
      true, false, SetupStep::InJoint::of_agonist},
     {"move",
-     "follows a slow sine around 0.4 of the travel that it can hold, three periods of 45 s at most; "
+     "follows a slow sine around 0.4 of the travel that it can hold, three periods of 45 s at "
+     "most; "
      "compares the error with the promised one",
      false, false, SetupStep::InJoint::of_agonist},
 }};

@@ -92,9 +92,8 @@ class RiseIntervalObserver {
   /// The greatest mass with which this least heat transfer keeps ψ/η within its bound. One with
   /// more mass has more heat transfer too, and cools no slower (docs/safety.md).
   static ThermalBounds no_slower(ThermalBounds bounds, double lowest_W_per_K) {
-    bounds.max_mass_J_per_K =
-        std::clamp(lowest_W_per_K * bounds.max_time_constant_s, bounds.min_mass_J_per_K,
-                   bounds.max_mass_J_per_K);
+    bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
+                                         bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);
     return bounds;
   }
   static std::size_t band(double rise_K) {

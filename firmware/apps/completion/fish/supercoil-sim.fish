@@ -17,7 +17,7 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l no-can -d 'Wri
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l real-time -d 'Run in real time, without trace, plot and CAN log, until its end or Ctrl-C'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l can -x -d 'socketcand:PORT: serve the board'\''s CAN bus on that port of loopback'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l end-with-parent -d 'End also when the program that started it has ended, however it did'
-complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l check -d 'Check the scenario and exit, and what the muscle can do'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l check -d 'Only check the scenario, and print what the muscle can do'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l json -d 'Print JSON instead of text'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l allow-fault -d 'Exit status 0 although the muscle never armed or did not follow, or the run ended in a fault'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l quiet -d 'Print nothing but errors'

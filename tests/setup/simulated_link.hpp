@@ -76,6 +76,7 @@ class SimulatedLink : public operating::BoardLink {
     while (time_s() < until_s) {
       const host_sim::TickRecord now = simulation_.step();
       untold_K_ = std::max(untold_K_, now.temperature_rise_K - now.hottest_K);
+      metered_W_ += (now.applied_power_W - metered_W_) / (meter_s * rate_Hz_);
       watch();
     }
   }
@@ -84,9 +85,13 @@ class SimulatedLink : public operating::BoardLink {
   double hottest_rise_K() const { return hottest_rise_K_; }
   /// By how much the muscle was hotter than the board told that it may be, while it was waited for.
   double untold_K() const { return untold_K_; }
+  /// What the muscle truly gets, as a meter shows it.
+  double metered_W() const { return metered_W_; }
   Fault fault() const { return simulation_.loop().channel(0).snapshot().fault; }
 
  private:
+  static constexpr double meter_s = 0.1;  ///< over which a meter averages
+
   /// channel: as in a line.
   Channel& at(const std::string& channel) {
     return simulation_.loop().channel(std::stoul(channel) - 1);
@@ -99,6 +104,7 @@ class SimulatedLink : public operating::BoardLink {
   double rate_Hz_;
   double hottest_rise_K_ = 0.0;
   double untold_K_ = 0.0;
+  double metered_W_ = 0.0;
 };
 
 }  // namespace supercoil::test

@@ -14,10 +14,12 @@ board::MeterComparison::Settings comparison_settings(const ChannelSettings& chan
           channel.heater.current.scaling.per_count};
 }
 
-/// Every time constant that the configured bounds allow.
+/// Every time constant that the configured bounds of mass and heat transfer allow. Not that of
+/// their ratio: a fit that explains the motion with a time constant of its own must be seen to be
+/// one.
 control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
   const control::ThermalBounds b = board::with_weighed_mass(channel.thermal);
-  return {b.min_mass_J_per_K / b.max_transfer_W_per_K, control::slowest_s(b),
+  return {b.min_mass_J_per_K / b.max_transfer_W_per_K, b.max_mass_J_per_K / b.min_transfer_W_per_K,
           channel.limiter.max_W};
 }
 

@@ -11,11 +11,13 @@
 
 namespace supercoil::control {
 
+/// Of a law and a muscle at one frequency.
 struct FrequencyResponse {
   std::complex<double> law_W_per_m;  ///< power by a position that is too low
   std::complex<double> loop;         ///< L: with the muscle and the delay
 };
 
+/// step_s: of the law; delay_s: after which its power acts; frequency_rad_per_s: > 0.
 inline FrequencyResponse response(const FixedLaw& law, const PhysicalParameters& muscle,
                                   double step_s, double delay_s, double frequency_rad_per_s) {
   const std::complex<double> p{0.0, frequency_rad_per_s};

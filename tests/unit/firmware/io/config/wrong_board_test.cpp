@@ -141,7 +141,7 @@ TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
 TEST(WrongBoard, ATimeConstantThatNoMuscleWithinTheBoundsHas) {
   check_replaced("min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.13\nmax_time_constant_s = 0.5",
                  "b.toml:36: channel[1].thermal.max_time_constant_s = 0.5: must not be less than "
-                 "min_mass_J_per_K / max_transfer_W_per_K = ");
+                 "min_mass_J_per_K / max_transfer_W_per_K = 0.722222");
 }
 
 TEST(WrongBoard, TextForANumber) {

@@ -196,7 +196,7 @@ class SetupOfABoard(SetupCase):
         self.assertRegex(interrupted(r"volts at the supply terminals \S+ to \S+: $", "senses", *config),
                          r": \^C\r\nsupercoil: senses: interrupted\r\n$")
         self.assertRegex(interrupted("channel 1 gets .* W", "senses", *config), r"\n\^C\r\nsupercoil: senses: interrupted\r\n$")
-        for shown in (r"identify: \d+ %", "identify: heats .*\n"):  # with progress, and before it
+        for shown in (r"identify: \d+ %", "takes about .*\n"):  # with progress, and before it
             self.assertRegex(interrupted(shown, "identify", *config), r"\^C\r\n(\r\x1b\[K)?supercoil: identify: interrupted\r\n$")
         told = interrupted(r"1 identify: \d+ %", "1", "identify", "--hold", program="command")
         self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?supercoil: 1 identify ended: interrupted, by Ctrl-C\r\n$")

@@ -4,6 +4,7 @@ import json
 import tempfile
 
 from selenium import webdriver
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
@@ -42,8 +43,13 @@ class Browser:
 
     def text(self, selector):
         """Of the element, or "" while there is none."""
-        found = self.driver.find_elements(By.CSS_SELECTOR, selector)
-        return found[0].text if found else ""
+        # A page that is drawn anew may replace it between finding and reading.
+        while True:
+            found = self.driver.find_elements(By.CSS_SELECTOR, selector)
+            try:
+                return found[0].text if found else ""
+            except StaleElementReferenceException:
+                pass
 
     def click(self, selector):
         self.find(selector).click()

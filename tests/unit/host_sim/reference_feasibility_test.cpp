@@ -175,20 +175,20 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
                 "\nreference = {kind = 'steps', levels_m = [0.015], hold_s = 2000.0}\n"
                 "reference_model = {kind = 'poles', poles_rad_per_s = [4.0, 5.0, 6.0]}\n");
   };
-  const auto quick = reference_feasibility(step_for("10.0", "false"));
-  const auto slow = reference_feasibility(step_for("1500.0", "false"));
-  CHECK_FALSE(slow->feasible());
-  DOUBLES_EQUAL(quick->first_lasts_s, slow->first_lasts_s, 1e-9);
-  DOUBLES_EQUAL(quick->behind_m, slow->behind_m, 1e-9);
-  DOUBLES_EQUAL(150.0, quick->infeasible_ratio / slow->infeasible_ratio, 1e-3);
-  CHECK_TRUE(slow->first_ends);
+  const auto short_run = reference_feasibility(step_for("10.0", "false"));
+  const auto long_run = reference_feasibility(step_for("1500.0", "false"));
+  CHECK_FALSE(long_run->feasible());
+  DOUBLES_EQUAL(short_run->first_lasts_s, long_run->first_lasts_s, 1e-9);
+  DOUBLES_EQUAL(short_run->behind_m, long_run->behind_m, 1e-9);
+  DOUBLES_EQUAL(150.0, short_run->infeasible_ratio / long_run->infeasible_ratio, 1e-3);
+  CHECK_TRUE(long_run->first_ends);
   STRCMP_CONTAINS(
       "first at 0.065 s for 1.36 s until it has caught up, when it would have to be "
       "heated with up to 2.45 W more than 4.5 W; it falls behind by up to 2.89 mm",
       describe_reference(step_for("1500.0", "false")).c_str());
   const InfeasibleTime ran = found_in_run(step_for("100.0", "false"));
   CHECK_TRUE(ran.found());
-  DOUBLES_EQUAL(slow->first_lasts_s, ran.first_lasts_s(), 0.5);
+  DOUBLES_EQUAL(long_run->first_lasts_s, ran.first_lasts_s(), 0.5);
   // Shaped, it is the reference that waits.
   const auto shaped = reference_feasibility(step_for("100.0", "true"));
   const InfeasibleTime shaped_ran = found_in_run(step_for("100.0", "true"));

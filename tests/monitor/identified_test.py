@@ -68,7 +68,7 @@ class OnThePage(PageCase):
         page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(5) td"), SLACK_S, "the first quantity")
         self.assertEqual(page.errors(), [])
         answer = page.run("return fetch('/api/muscle/1').then((answer) => answer.json())")
-        self.assertEqual(len(answer), 37)
+        self.assertEqual(len(answer), 44)
         self.assertIsNone(answer["theta1_deviation_ratio"])
         self.assertIsNone(answer["joint_lever_m"])
         self.assertFalse(page.run("return [...document.querySelectorAll('.joint')].some((card) => card.checkVisibility())"))

@@ -196,7 +196,7 @@ TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
   STRCMP_CONTAINS(
       "1 0.162 0.089 16 2 0.09 0.0086 10 0 1 0 nan nan nan nan nan "
       "0.162 0.089 16 2 0.09 0.0086 10 nan nan nan nan nan nan nan nan nan nan nan nan -0.025 "
-      "0.025 nan\n2 ",
+      "0.025 nan 4.5 160 0.13 0.2 0.045 0.18 nan\n2 ",
       answer.c_str());
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "modes/identify.hpp"
+
 namespace supercoil {
 
 namespace {

@@ -100,7 +100,11 @@ Commission::Done Commission::reset_faults() {
     const std::string channel = std::to_string(std::stoul(channel_) + one - index_);
     const std::string fault = present_fault(board_, channel);
     if (fault.empty()) continue;
-    who_.say("channel " + channel + ": " + fault);
+    std::string told = "channel ";
+    told += channel;
+    told += ": ";
+    told += fault;
+    who_.say(told);
     const auto answer = who_.ask(reset_fault, [] { return Done(); });
     if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
     if (!answer || *answer == 0.0) return tl::unexpected("cannot be armed: " + fault);

@@ -1,7 +1,7 @@
 // The power that a board's limiter leaves to a muscle over time, as it must believe it to be hot.
 #pragma once
 
-#include "supercoil/control/thermal/interval_observer.hpp"
+#include "supercoil/control/thermal/rise_interval_observer.hpp"
 
 #include "loop/settings.hpp"
 
@@ -22,7 +22,7 @@ class PowerLeft {
   /// Of a cold muscle.
   Most cold() const { return at(warmest_C_); }
   /// That power is given for a step.
-  void step(double power_W) { hot_.step(max_power_ratio_ * power_W); }
+  void step(double power_W) { hot_.step(0.0, max_power_ratio_ * power_W); }
 
  private:
   Most at(double hottest_C) const;
@@ -31,7 +31,7 @@ class PowerLeft {
   double provable_W_;  ///< infinite: nothing is to be proven yet
   double warmest_C_;
   double max_power_ratio_;
-  control::IntervalObserver hot_;
+  control::RiseIntervalObserver hot_;
 };
 
 }  // namespace supercoil::host_sim

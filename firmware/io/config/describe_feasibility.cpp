@@ -2,7 +2,6 @@
 #include <sstream>
 
 #include "supercoil/control/tracking/loop_margin.hpp"
-#include "supercoil/control/tracking/loop_noise.hpp"
 #include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/describe.hpp"

@@ -28,9 +28,14 @@ struct SetupOptions {
 
   /// " --can can0" or " --socket PATH", as commands to this board take it; empty: neither is
   /// needed.
-  std::string board_words() const;
+  std::string board_words() const { return can.empty() ? socket_words(socket) : " --can " + can; }
   /// "supercoil setup calibrate --config board.toml --can can0"
-  std::string command(std::string_view step) const;
+  std::string command(std::string_view step) const {
+    std::string line = "supercoil setup " + std::string(step);
+    if (config != default_config) line += " --config " + config;
+    if (channel != 1) line += " --channel " + std::to_string(channel);
+    return line + board_words();
+  }
 };
 void add_setup(CLI::App& app, SetupOptions& options);
 /// Returns the program's exit status.

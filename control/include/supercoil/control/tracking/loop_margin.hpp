@@ -1,4 +1,4 @@
-// How much room a fixed law leaves on a muscle, sampled and delayed.
+// How much room a fixed law leaves on a muscle, sampled and delayed, and what noise makes of it.
 #pragma once
 
 #include "supercoil/control/tracking/controller_settings.hpp"
@@ -18,6 +18,11 @@ struct LoopMargin {
 /// acts, beyond the hold of a tick; >= 0. Allocates.
 LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s);
+
+/// How far the power swings by noise of the position, rms over rms, that is another one at every
+/// tick. step_s and delay_s as above. Says nothing where the loop is unstable.
+double noise_gain_W_per_m(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
+                          double delay_s);
 
 /// Of the muscles at the 64 corners where each parameter is (1 ± span) times as large, the one with
 /// the least room. span: 0 to less than 1.

@@ -23,7 +23,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       axis_(settings, board, devices, state_),
       tuner_(settings, board.step_s()),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
-                  board.supervision.min_supply_V, board.step_s()) {}
+                  board.supervision.min_supply_V, settings.heater.sense_filter_s, board.step_s()) {}
 
 void Channel::add_tuning(Command& command) {
   control::PhysicalParameters muscle;

@@ -30,7 +30,7 @@ bool wants_more(const AxisInputs& axis, const HeaterInputs& heater) {
 }  // namespace
 
 ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
-                                     double min_supply_V, double step_s)
+                                     double min_supply_V, double sense_filter_s, double step_s)
     : settings_(s),
       out_of_range_({s.min_position_m, s.max_position_m, s.out_of_range_s}, step_s),
       frozen_({frozen_band_m(s), s.frozen_s}, step_s),
@@ -39,7 +39,7 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       open_({s.open_min_duty, open_load_ratio * min_supply_V / cold_resistance_Ohm, s.open_s},
             step_s),
       short_({s.off_current_A, s.short_s}, step_s),
-      stuck_on_({s.off_current_A, s.stuck_on_s}, step_s),
+      stuck_on_({s.off_current_A, s.stuck_on_s, sense_filter_s}, step_s),
       not_responding_({s.responding_window_s, s.responding_ratio, s.responding_min_m}, step_s),
       loose_({s.responding_ratio, loose_motions * s.responding_min_m}, step_s),
       wrong_duty_(s.wrong_duty_s, step_s),

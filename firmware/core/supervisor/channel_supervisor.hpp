@@ -17,9 +17,10 @@ class ChannelSupervisor {
  public:
   ChannelSupervisor(const ChannelSupervisor&) = delete;
   ChannelSupervisor& operator=(const ChannelSupervisor&) = delete;
-  /// cold_resistance_Ohm and min_supply_V say what current is too little.
+  /// cold_resistance_Ohm and min_supply_V say what current is too little, sense_filter_s how long
+  /// the current's sense shows what flowed before.
   ChannelSupervisor(const ChannelSupervision& settings, double cold_resistance_Ohm,
-                    double min_supply_V, double step_s);
+                    double min_supply_V, double sense_filter_s, double step_s);
 
   /// One tick: the fault of this tick, or none.
   /// After an overrun it is called once for each period that passed.

@@ -60,6 +60,22 @@ TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
   STRCMP_EQUAL("none", std::string(name(fault_with(2.0))).c_str());
 }
 
+/// firmware/io/config/examples/raspberry-pi-pwm-ads1115.toml: 0.67 A are 6.8 mA after 50 ms.
+TEST(Heater, IsNotStuckOnWhileASlowSenseStillShowsFullPower) {
+  RigSettings slow = rough_board(100.0);
+  ChannelSettings& channel = slow.firmware.channels[0];
+  slow.board.channels[0].sense_filter_s = channel.heater.sense_filter_s = 0.010;
+  channel.supervision.off_current_A = 0.005;
+  for (const double heated_s : {0.0, 0.02, 0.05, 0.5}) {
+    Rig rig(slow);
+    arm(rig);
+    rig.hold_power(4.5, 0.01 + heated_s);
+    CHECK(rig.answer_to(Verb::disarm) == Refusal::none);
+    rig.run(1.0);
+    STRCMP_EQUAL("none", std::string(name(rig.fault())).c_str());
+  }
+}
+
 TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.supervision.resistance_ratio = 0.05;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -42,28 +43,45 @@ class OpenLoad final : public Detector {
 using Short = Above;
 
 /// Trips when current still flows hold_s after the channel was made safe. Only current proves that
-/// power is off: a duty that reads back as zero is the kernel's memory.
+/// power is off: a duty that reads back as zero is the kernel's memory. An averaging sense still
+/// shows some of what flowed before: it must have decayed at the end, not from the beginning.
 class StuckOn final : public Detector {
  public:
   struct Settings {
-    double max_A;          ///< what a cold channel may show: offset and noise
-    double hold_s = 0.05;  ///< the sense filter's decay
+    double max_A;               ///< what a cold channel may show: offset and noise
+    double hold_s = 0.05;       ///< the time that it has for that
+    double filter_s = 0.0;      ///< time constant of the sense, >= 0; 0: it does not average
   };
   StuckOn(const Settings& settings, double step_s)
-      : settings_(settings), held_(settings.hold_s, step_s) {}
+      : settings_(settings),
+        held_(settings.hold_s, step_s),
+        decay_(settings.filter_s > 0.0
+                   ? std::exp(-step_s / (filter_tolerance * settings.filter_s))
+                   : 0.0) {}
 
   /// off: the duty is 0 or the enable line low.
   bool step(bool off, double current_A) {
+    if (!off && std::isfinite(current_A)) remaining_A_ = current_A;
+    // The first reading may be of the tick before.
+    if (off && !off_ && std::isfinite(current_A)) remaining_A_ = std::fmax(remaining_A_, current_A);
+    if (off && off_) remaining_A_ *= decay_;
     current_A_ = current_A;
     off_ = off;
-    return held_.step(off && !(current_A <= settings_.max_A));
+    const bool held = held_.step(off && !(current_A <= settings_.max_A));
+    return held && !(current_A <= max_A());
   }
-  Margin margin() const override { return {current_A_, settings_.max_A, false, off_}; }
+  Margin margin() const override { return {current_A_, max_A(), false, off_}; }
 
  private:
+  static constexpr double filter_tolerance = 1.25;  ///< of a resistor and a capacitor
+
+  double max_A() const { return settings_.max_A + (decay_ > 0.0 ? remaining_A_ : 0.0); }
+
   Settings settings_;
   HoldTimer held_;
+  double decay_;  ///< of a tick; 0: the sense does not average
   double current_A_ = 0.0;
+  double remaining_A_ = 0.0;  ///< what the sense may still show of the current before
   bool off_ = false;
 };
 

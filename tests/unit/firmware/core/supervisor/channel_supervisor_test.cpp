@@ -25,7 +25,7 @@ struct ChannelInputs {
 class Channel {
  public:
   ChannelInputs inputs;
-  ChannelSupervisor supervisor{ChannelSupervision{}, 10.0, 10.8, tick_s};
+  ChannelSupervisor supervisor{ChannelSupervision{}, 10.0, 10.8, 0.0, tick_s};
   bool sensor_lives = true;
 
   Channel() {
@@ -202,7 +202,7 @@ TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
 TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
   ChannelSupervision quiet;
   quiet.position_noise_rms_m = 0.0;
-  ChannelSupervisor supervisor(quiet, 10.0, 10.8, tick_s);
+  ChannelSupervisor supervisor(quiet, 10.0, 10.8, 0.0, tick_s);
   const ChannelInputs inputs = Channel().inputs;
   for (int i = 0; i < 2000; ++i)
     check_fault(Fault::none, supervisor.step(inputs.axis, inputs.heater, inputs.commands));

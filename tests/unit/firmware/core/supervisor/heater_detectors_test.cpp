@@ -71,6 +71,37 @@ TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(false, 1.2); }, 1000));
 }
 
+/// At 100 Hz, of 0.67 A through 10 ms: 6.8 mA after 50 ms.
+TEST(HeaterDetectors, StuckOnWaitsForASlowSenseButNotForAStuckSwitch) {
+  constexpr double slow_tick_s = 0.01;
+  const StuckOn::Settings settings{.max_A = 0.005, .hold_s = 0.05, .filter_s = 0.01};
+  const auto ticks_off = [&](double lag_ticks, double leak_A) {
+    StuckOn detector(settings, slow_tick_s);
+    detector.step(false, 0.67);
+    return ticks_until(
+        [&](int tick) {
+          return detector.step(
+              true, std::fmax(leak_A, 0.67 * std::exp(-std::fmax(0.0, 1.0 + tick - lag_ticks))));
+        },
+        100);
+  };
+  LONGS_EQUAL(-1, ticks_off(0.0, 0.0));
+  LONGS_EQUAL(-1, ticks_off(1.0, 0.0));
+  // Stuck, and leaking as much as the sense may still show then.
+  LONGS_EQUAL(5, ticks_off(0.0, 0.67));
+  LONGS_EQUAL(5, ticks_off(0.0, 0.05));
+  LONGS_EQUAL(8, ticks_off(0.0, 0.01));
+}
+
+/// What was read while it was on may be anything.
+TEST(HeaterDetectors, StuckOnGoesByCurrentsThatAreNumbersAlone) {
+  for (const double unknown : {std::nan(""), static_cast<double>(INFINITY)}) {
+    StuckOn detector({.max_A = 0.02, .hold_s = 0.05, .filter_s = 0.01}, tick_s);
+    detector.step(false, unknown);
+    LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, unknown); }));
+  }
+}
+
 TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {

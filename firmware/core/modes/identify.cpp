@@ -18,7 +18,10 @@ constexpr std::uint8_t uncertain = note_theta3_uncertain | note_theta4_uncertain
 using Fit = control::BatchLeastSquares::Fit;
 
 bool Identify::knows(const Fit& fit, int i) const {
-  return fit.theta[i] > 0.0 && fit.deviation[i] <= settings_.max_deviation &&
+  const bool slow_theta4 = i == 3 && excitation_.slow();
+  const double max_deviation =
+      slow_theta4 ? settings_.max_slow_theta4_deviation : settings_.max_deviation;
+  return fit.theta[i] > 0.0 && fit.deviation[i] <= max_deviation &&
          fit.unseen_difference[i] <= settings_.max_difference;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "supercoil/control/estimation/batch_least_squares.hpp"
@@ -23,14 +24,18 @@ class Identify {
  public:
   struct Settings {
     double max_s = 2400.0;  ///< then what there is must do
-    /// From then on the muscle is judged after each stroke, as soon as these can be fitted.
+    /// From then on the muscle is judged after each stroke, once there are enough of them; a slow
+    /// one as soon as they can be fitted.
     double patience_s = 100.0;
+    std::size_t enough_strokes = 4;
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
     /// 0.02; one whose stiffness changes by a third under way, 0.13 and more.
     double max_unexplained = 0.06;
     /// Likewise, of the full strokes, by a muscle that shorter ones found.
     double max_unexplained_full = 0.5;
-    double max_deviation = 0.1;         ///< standard, of each parameter, relative
+    double max_deviation = 0.1;  ///< standard, of each parameter, relative
+    /// Likewise, of a slow muscle's θ4, which takes most strokes to know.
+    double max_slow_theta4_deviation = 0.15;
     double max_difference = 0.25;       ///< of the unseen third's own fit, relative
     double max_theta2_deviation = 0.5;  ///< more than this refuses it; between, it is noted
     double min_ratio = 0.1;             ///< each θ within these ratios to the believed muscle's
@@ -79,8 +84,8 @@ class Identify {
     const bool stroke_ended = excitation_.cycle() != cycle;
     // A quick muscle's first stroke teaches little.
     if (stroke_ended && cycle == 0 && !excitation_.slow()) fit_.start_anew();
-    const bool early =
-        stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= fit_.min_blocks;
+    const std::size_t enough = excitation_.slow() ? fit_.min_blocks : settings_.enough_strokes;
+    const bool early = stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= enough;
     return ends || early ? conclude(ends) : ModeResult::running;
   }
 

@@ -28,7 +28,7 @@ class BatchLeastSquares {
  public:
   static constexpr std::size_t max_blocks = 16;
   /// Less than these leave nothing to judge the fit by.
-  static constexpr std::size_t min_blocks = 4;
+  static constexpr std::size_t min_blocks = 3;
 
   /// What the experiment says of the muscle.
   struct Fit {

@@ -118,6 +118,7 @@ Commissioned commission(HeldOutBoard& board, operating::Operator& who, Steps ans
   c.pwm_m = moved->value("pwm_m", NAN);
   c.unexplained_m = moved->value("unexplained_m", NAN);
   c.error_m = (*moved)["error_m"];
+  c.standing_still_m = (*moved)["standing_still_m"];
   c.travel_m = (1.0 / 0.4) * (*moved)["middle_m"].get<double>();
   return conclude("");
 }

@@ -51,12 +51,13 @@ struct Commissioned {
   double pwm_m = 0.0;          ///< likewise
   double unexplained_m = 0.0;  ///< likewise
   double error_m = 0.0;
-  double calibrated_s = 0.0;    ///< after which time of the muscle
-  double identified_s = 0.0;    ///< likewise
-  double took_s = 0.0;          ///< likewise, all of it
-  double hottest_rise_K = 0.0;  ///< truly
-  double untold_K = 0.0;        ///< so much hotter than the board told that it may be
-  double travel_m = 0.0;        ///< that it was promised to hold
+  double standing_still_m = 0.0;  ///< the error of a muscle that does
+  double calibrated_s = 0.0;      ///< after which time of the muscle
+  double identified_s = 0.0;      ///< likewise
+  double took_s = 0.0;            ///< likewise, all of it
+  double hottest_rise_K = 0.0;    ///< truly
+  double untold_K = 0.0;          ///< so much hotter than the board told that it may be
+  double travel_m = 0.0;          ///< that it was promised to hold
   Fault fault = Fault::none;
 };
 

@@ -35,11 +35,13 @@ int main(int argc, char** argv) {
       untold += c.untold_K > 0.0 ? 1 : 0;
       if (!c.refused.empty()) continue;
       ++followed;
-      kept += ratio <= 1.0 ? 1 : 0;
-      near += ratio <= 1.0 && ratio > 1.0 / 3.0 ? 1 : 0;
+      // What a muscle that stands still would keep is no promise.
+      const bool keeps = ratio <= 1.0 && c.promised_m < c.standing_still_m;
+      kept += keeps ? 1 : 0;
+      near += keeps && ratio > 1.0 / 3.0 ? 1 : 0;
       const bool soon = c.took_s <= std::max(600.0, 15.0 * muscle.time_constant_s);
       in_time += soon ? 1 : 0;
-      both += soon && ratio <= 1.0 ? 1 : 0;
+      both += soon && keeps ? 1 : 0;
     }
   } catch (const std::exception& wrong) {
     std::fprintf(stderr, "setup_study: %s\n", wrong.what());

@@ -96,7 +96,10 @@ WorstCorner worst_of_corners(const PhysicalParameters& nominal, double span,
 
 LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s) {
-  return {spectral_radius(law, muscle, step_s, delay_s), modulus(law, muscle, step_s, delay_s)};
+  LoopMargin margin{spectral_radius(law, muscle, step_s, delay_s), 0.0};
+  // Where it is unstable the distance from -1 is on the wrong side.
+  if (margin.stable()) margin.modulus = modulus(law, muscle, step_s, delay_s);
+  return margin;
 }
 
 double noise_gain_W_per_m(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,

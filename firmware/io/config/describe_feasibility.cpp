@@ -80,6 +80,10 @@ std::string describe_margin(const control::ControllerSettings& controller, const
   const auto margin = margin_of(controller, c, step_s);
   const double ratio = tolerated_ratio(controller, c, step_s);
   if (!margin || std::isnan(ratio)) return "";
+  if (!margin->stable()) {
+    const auto problem = check(controller, c, step_s);
+    return problem ? problem->message : "is unstable on this muscle";
+  }
   const bool adapts = control::adapts(controller.kind);
   std::ostringstream out;
   out << (adapts ? "once adapted margin " : "margin ")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -37,6 +38,8 @@ constexpr double max_calibrate_s = modes::Calibrate::Settings{}.max_wait_s + 10.
 constexpr double max_identify_s = modes::Identify::Settings{}.max_s + 200.0;
 /// Above the air, from which on calibrate takes a zero.
 constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
+/// Of the first motion over the promised error: less, and the motion is hardly more than the error.
+constexpr double telling_ratio = 3.0;
 
 /// However hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
@@ -222,15 +225,27 @@ StepResult Commission::calibrate() {
   return tell(&Commission::tell_calibration);
 }
 
+namespace {
+
+/// How far a muscle that calibrate takes for cold may still have contracted.
+double zero_uncertainty_m(const control::PhysicalParameters& muscle) {
+  return cold_K * muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
+}
+
+}  // namespace
+
 StepResult Commission::tell_calibration(const Measured& whose) {
   const auto known = board_.muscle(whose.channel);
   if (!known) return tl::unexpected(known.error());
   const double cold_Ohm = (*known)[known_cold_resistance];
   const double offset_m = (*known)[known_position_offset];
-  who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
+  const double uncertainty_m = zero_uncertainty_m(whose.configured.muscle);
+  who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there, at most " +
+           in_digits(1e3 * uncertainty_m) + " mm from where the cold muscle rests");
   who_.say("cold resistance: " +
            beside(cold_Ohm, whose.configured.heater.cold_resistance_Ohm, "Ohm"));
   return Json{{"position_offset_m", json_number(offset_m)},
+              {"position_offset_uncertainty_m", json_number(uncertainty_m)},
               {"cold_resistance_Ohm", json_number(cold_Ohm)}};
 }
 
@@ -330,6 +345,12 @@ StepResult Commission::move() {
            number_text(1e3 * (motion.middle_m - motion.amplitude_m), 3) + " and " +
            number_text(1e3 * (motion.middle_m + motion.amplitude_m), 3) + " mm");
   who_.say(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
+  const double standing_still_m = motion.amplitude_m / std::numbers::sqrt2;
+  if (promise && standing_still_m < telling_ratio * promise->error_m()) {
+    who_.say("so small a motion shows little: a muscle that stands still is off by " +
+             in_digits(1e6 * standing_still_m) +
+             " um rms; supercoild --check says what limits the travel that it can hold");
+  }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
   int samples = 0;
@@ -355,6 +376,7 @@ StepResult Commission::move() {
   Json found{{"error_m", error_m},
              {"middle_m", motion.middle_m},
              {"amplitude_m", motion.amplitude_m},
+             {"standing_still_m", standing_still_m},
              {"period_s", motion.period_s}};
   std::string told = "followed within " + in_digits(1e6 * error_m) + " um rms";
   if (promise) {

@@ -105,6 +105,12 @@ TEST(LoopMargins, ASimulatedLoopIsStableWhereItIsSaidToBe) {
     ++ticks;
   UT_PRINT(StringFromFormat("unstable from %d ticks of delay on", ticks).asCharString());
   CHECK(ticks > 10);
+  const auto modulus = [&](int delay_ticks) {
+    return loop_margin(law, PhysicalParameters{}, tick_of_loop_s, delay_ticks * tick_of_loop_s)
+        .modulus;
+  };
+  CHECK_COMPARE(modulus(ticks - 1), >, 0.0);
+  DOUBLES_EQUAL(0.0, modulus(ticks), 0.0);
   CHECK_FALSE(grows(ticks - 1));
   CHECK_TRUE(grows(ticks));
 }

@@ -9,7 +9,7 @@ namespace supercoil::control {
 struct LoopMargin {
   double spectral_radius = 0.0;  ///< of the sampled loop, for each tick; stable below 1
   /// Least |1 + L(jω)|, the distance of the loop's frequency response from −1: 1 over the largest
-  /// amplification of disturbances. Says nothing when unstable.
+  /// amplification of disturbances. 0 when unstable.
   double modulus = 1.0;
   bool stable() const { return spectral_radius < 1.0; }
 };

@@ -33,7 +33,7 @@ class MeterComparison {
   static constexpr double max_gain = 1.4;
   static constexpr double min_level_ratio = 1.4;    ///< of the second power over the first
   static constexpr double same_level_ratio = 0.05;  ///< duties this near are of one power
-  static constexpr double max_spread_ratio = 0.02;  ///< of a sense's gains at both
+  static constexpr double max_spread_ratio = 0.02;  ///< of a sense's gains at both, and rounding
   static constexpr double meter_ratio = 0.01;       ///< what a usual meter is wrong by
   static constexpr double floor_ratio = 0.01;       ///< for what two powers do not show
   static constexpr double max_error_ratio = 0.2;
@@ -60,6 +60,11 @@ class MeterComparison {
     weight_ = 1.0;
   }
   void forget() { levels_ = {}; }
+  /// A reading is there, and others are to follow.
+  bool begun() const {
+    return std::any_of(levels_.begin(), levels_.end(),
+                       [](const Level& level) { return level.duty > 0.0; });
+  }
 
   /// What the meter shows now: volts at the supply's terminals, or the mean of the amperes.
   /// present: by which the senses were corrected. resistance_Ohm: what the configured heater may
@@ -74,7 +79,8 @@ class MeterComparison {
     if (!level) return Refusal::not_ready;
     levels_[*level].duty = duty_;
     levels_[*level].readings[sense] = reading;
-    if (!fits(levels_[*level], resistance_Ohm) || spread_ratio(sense) > max_spread_ratio)
+    const double allowed_ratio = max_spread_ratio + rounding_ratio(sense);
+    if (!fits(levels_[*level], resistance_Ohm) || spread_ratio(sense) > allowed_ratio)
       return refuse();
     return !is_complete() || found() ? Refusal::none : refuse();
   }
@@ -84,8 +90,7 @@ class MeterComparison {
     if (!is_complete()) return std::nullopt;
     const double error_ratio =
         floor_ratio + std::max({meter_ratio, spread_ratio(supply), spread_ratio(current),
-                                count_ratio(supply, settings_.supply_step_V),
-                                count_ratio(current, settings_.current_step_A)});
+                                count_ratio(supply), count_ratio(current)});
     if (!(error_ratio <= max_error_ratio)) return std::nullopt;
     return board::SenseComparison{mean_gain(supply), mean_gain(current), error_ratio, 0.0};
   }
@@ -149,10 +154,23 @@ class MeterComparison {
     if (!first.is_there() || !second.is_there()) return 0.0;
     return std::abs(first.gain() - second.gain()) / mean_gain(sense);
   }
+  double step_of(Sense sense) const {
+    return std::abs(sense == supply ? settings_.supply_step_V : settings_.current_step_A);
+  }
   /// What one count of the converter is of the smaller reading.
-  double count_ratio(Sense sense, double step) const {
-    return std::abs(step) /
+  double count_ratio(Sense sense) const {
+    return step_of(sense) /
            std::min(levels_[0].readings[sense].told, levels_[1].readings[sense].told);
+  }
+  /// By what two right gains differ at the most if each reading is half a count off. The remaining
+  /// error has a count, so who mistypes by as little stays within it.
+  double rounding_ratio(Sense sense) const {
+    double ratio = 0.0;
+    for (const Level& level : levels_) {
+      const Reading& r = level.readings[sense];
+      if (r.is_there()) ratio += 0.5 * step_of(sense) / r.told;
+    }
+    return ratio;
   }
 
   Settings settings_;

@@ -99,11 +99,10 @@ class Axis {
   bool dithers() const { return proof_.dither_W() != 0.0; }
   /// In a bundle, of one that follows: the leader's demand and, of that, the power of its heater.
   void follow_power(double demanded_W, double power_W);
-  /// Calibrate probes when it has found the zero, and not before. A dither that one of a bundle
-  /// cannot follow is none.
+  /// A dither that one of a bundle cannot follow is none.
   void drive() {
     const double dither_W = followers_limited() ? 0.0 : proof_.dither_W();
-    heater_.drive(state_, mode_ != Mode::calibrate, dither_W);
+    heater_.drive(state_, may_probe(), dither_W);
   }
   /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
   /// told in turn.
@@ -223,6 +222,14 @@ class Axis {
   /// The power of its heater is known to be steady, if it does not change.
   bool holds_power() const {
     return state_.may_heat() && (mode_ == Mode::power || mode_ == Mode::bundle);
+  }
+
+  /// Calibrate probes when it has found the zero, and not before. While somebody reads a meter no
+  /// pulse is to be in what it shows, for as long as a file may leave a heater without one.
+  bool may_probe() const {
+    constexpr double max_unprobed_s = 600.0;
+    const bool read = comparison_.begun() && holds_power();
+    return mode_ != Mode::calibrate && !(read && heater_.resistance_age_s() < max_unprobed_s);
   }
 
   board::Learned known() const;

@@ -179,7 +179,9 @@ void Axis::follow_comparisons() {
   const board::Measured& current = heater_.current();
   const bool sensed = current.present && heater_.supply_V() > 0.0;
   if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
-  comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
+  // A pulse is none of the power that the meter is read at.
+  if (!heater_.probe_felt())
+    comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
   if (heater_.senses().compared()) {
     steady_state_.step(heater_.measured_power_W(), heater_.heat().hottest_K());
   } else {

@@ -14,6 +14,12 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
   return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
 }
 
+/// Of what the current's sense tells, after a pulse: it acts late, is averaged, and is read late.
+double felt_s(const HeaterSettings& h) {
+  constexpr double time_constants = 5.0;
+  return h.delay_s + time_constants * h.sense_filter_s + h.current.max_age_s;
+}
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -32,6 +38,7 @@ Heater::Heater(const ChannelSettings& settings, const BoardSettings& board,
       power_bounds_(supercoil::power_bounds(settings, board)),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
+      sense_ticks_(static_cast<int>(std::ceil(felt_s(settings.heater) / board.step_s()))),
       max_power_W_(settings.limiter.max_W),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
@@ -93,6 +100,7 @@ void Heater::observe_power(std::int64_t periods) {
 }
 
 void Heater::follow_probe() {
+  felt_ticks_ = probe_.running() ? sense_ticks_ : std::max(0, felt_ticks_ - 1);
   probed_ = probe_failed_ = false;
   const auto probed =
       probe_.step(resistance_.duty(), supply_V_, current_.present ? current_.value : 0.0);

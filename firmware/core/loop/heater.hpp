@@ -89,6 +89,9 @@ class Heater {
   /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
   board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const;
   bool probing() const { return probe_.running(); }
+  /// A probe is in what the current's sense tells now.
+  bool probe_felt() const { return felt_ticks_ > 0; }
+  double resistance_age_s() const { return resistance_.age_s(); }
   /// At this tick; with what it measured, or 0.
   bool probe_ended() const { return probed_ || probe_failed_; }
   double probed_Ohm() const { return probed_ ? resistance_.value_Ohm() : 0.0; }
@@ -144,6 +147,8 @@ class Heater {
   board::Probe probe_;
   bool probed_ = false;
   bool probe_failed_ = false;
+  int sense_ticks_;     ///< of the current's sense, after a probe
+  int felt_ticks_ = 0;  ///< until it has settled
   std::atomic<double> max_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;

@@ -80,6 +80,19 @@ TEST_GROUP(Comparison) {
     channel().take_learned_update(update);
     return update;
   }
+  /// So many began while a power was held.
+  int probes(double power_W, double time_s) {
+    int begun = 0;
+    bool probing = rig.snapshot().probing;
+    for (int i = 0; i < std::lround(time_s / rig.period_s()); ++i) {
+      if (i % 50 == 0) rig.send(Verb::power, power_W);
+      rig.run_ticks(1);
+      const bool probes_now = rig.snapshot().probing;
+      begun += probes_now && !probing ? 1 : 0;
+      probing = probes_now;
+    }
+    return begun;
+  }
   /// As wide as before: nothing is stored, and the readings are those of lying senses.
   void check_nothing_changed() {
     CHECK_FALSE(update().has_value());
@@ -293,4 +306,51 @@ TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
   board::LearnedUpdate found;
   CHECK(compared.loop.channel(0).take_learned_update(found));
   DOUBLES_EQUAL(10.4 * supply_gain / current_gain, found->calibration.cold_resistance_Ohm, 1e-9);
+}
+
+/// At little power pulses measure the heater's resistance, and somebody may read at any moment
+/// between two of them.
+TEST(Comparison, OfLittlePowerIsNotDisturbedByProbes) {
+  start();
+  for (int i = 0; i < 12; ++i) {
+    hold(0.1, 3.0 + 0.45 * i);
+    read_both();
+    hold(0.2, 5.5);
+    read_both();
+    const auto found = update();
+    CHECK(found.has_value());
+    const board::SenseComparison& senses = found->senses;
+    DOUBLES_EQUAL(1.0 / supply_gain, senses.supply_gain, senses.error_ratio / supply_gain);
+    DOUBLES_EQUAL(1.0 / current_gain, senses.current_gain, senses.error_ratio / current_gain);
+    CHECK_COMPARE(senses.error_ratio, <, 0.1);
+    rig.send(Verb::rest);
+    check(Refusal::none, ask(Verb::compare_supply, 0.0));
+    update();
+  }
+}
+
+TEST(Comparison, LetsTheMeterBeReadWithoutAPulse) {
+  start();
+  hold(0.1, 6.0);
+  check(Refusal::none, ask(Verb::compare_supply, supply_V));
+  const int before = probes(0.1, 30.0);
+  CHECK_EQUAL(0, before);
+  check(Refusal::none, ask(Verb::compare_current, line_A()));
+  const int between = probes(0.2, 30.0);
+  CHECK_EQUAL(0, between);
+  read_both();
+  CHECK(update().has_value());
+  const int after = probes(0.2, 30.0);
+  CHECK_COMPARE(after, >, 3);
+}
+
+/// Who began a comparison and went away has a heater that is looked after again.
+TEST(Comparison, ThatDoesNotGoOnLetsTheHeaterBeProbed) {
+  start();
+  hold(0.1, 6.0);
+  check(Refusal::none, ask(Verb::compare_supply, supply_V));
+  const int meanwhile = probes(0.1, 590.0);
+  CHECK_EQUAL(0, meanwhile);
+  const int at_last = probes(0.1, 20.0);
+  CHECK_EQUAL(1, at_last);
 }

@@ -1,6 +1,8 @@
 #include "board/meter_comparison.hpp"
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <CppUTest/TestHarness.h>
 
@@ -41,6 +43,24 @@ TEST_GROUP(MeterComparison) {
   void read_both() {
     check(Refusal::none, volts(supply_V));
     check(Refusal::none, amperes(line_A()));
+  }
+  /// A sense of current that tells whole counts, so many at the first power before they are rounded
+  /// down or up. typed: what is written down of what the meter shows, at each power.
+  std::optional<board::SenseComparison> compare_in_counts(double counts, double ratio,
+                                                          const std::array<double, 2>& typed) {
+    MeterComparison::Settings coarse = settings;
+    coarse.current_step_A = 0.1 * supply_V / heater_Ohm / counts;
+    comparison = MeterComparison(coarse, step_s);
+    for (std::size_t i = 0; i < typed.size(); ++i) {
+      duty = i == 0 ? 0.1 : 0.1 * ratio;
+      const double told_A = coarse.current_step_A * std::round(line_A() / coarse.current_step_A);
+      comparison.restart();
+      for (int k = 0; k < 1000; ++k)
+        comparison.step(duty, supply_V, told_A);
+      if (volts(supply_V) != Refusal::none || amperes(typed[i] * line_A()) != Refusal::none)
+        return {};
+    }
+    return comparison.found();
   }
   /// After a refusal the readings from before it are worth nothing.
   void check_forgotten() {
@@ -194,6 +214,38 @@ TEST(MeterComparison, WhatTheSensesCannotResolveRemainsAsError) {
     read_both();
   }
   DOUBLES_EQUAL(0.06, comparison.found()->error_ratio, 1e-9);
+}
+
+/// A converter without noise tells whole counts, and each power lies between two of its own.
+TEST(MeterComparison, WholeCountsAreNoReasonToRefuse) {
+  supply_told = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    const double counts = 8.0 + 0.13 * i;
+    for (const double ratio : {1.5, 2.0, 2.1}) {
+      const auto found = compare_in_counts(counts, ratio, {1.0, 1.0});
+      CHECK(found.has_value());
+      CHECK_COMPARE(std::abs(found->current_gain - 1.0), <=, found->error_ratio);
+      // No more than what a count, a meter and two powers leave.
+      CHECK_COMPARE(found->error_ratio, <=, 0.02 + 1.0 / (counts - 0.5));
+    }
+  }
+}
+
+TEST(MeterComparison, AMistypedReadingAtFewCountsIsRefusedOrInTheRemainingError) {
+  supply_told = 1.0;
+  int refused = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double counts = 8.0 + 0.13 * i;
+    for (const double by : {0.8, 0.9, 0.95, 0.97, 1.03, 1.05, 1.1, 1.2}) {
+      for (const std::array<double, 2>& typed : {std::array{by, 1.0}, std::array{1.0, by}}) {
+        const auto found = compare_in_counts(counts, 2.0, typed);
+        refused += found ? 0 : 1;
+        if (!found) continue;
+        CHECK_COMPARE(std::abs(found->current_gain - 1.0), <=, found->error_ratio);
+      }
+    }
+  }
+  CHECK_COMPARE(refused, >, 3000);
 }
 
 TEST(MeterComparison, TooCoarseASenseIsRefused) {

@@ -12,7 +12,6 @@ from live import DEADLINE_S, TRIES, Simulator
 
 SUPERCOIL = os.environ["SUPERCOIL"]
 EXAMPLE = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"]) / "raspberry-pi-pwm-ads1115.toml"
-BENCH = pathlib.Path(__file__).resolve().parents[2] / "host_sim/scenarios/bench.toml"
 SUPPLY_V = 12.0
 POWER_W = 1.0
 # What a busy machine does to any master in real time: a command expires, the lease ends, an answer is late.
@@ -27,9 +26,8 @@ class CompareSenses(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        scenario = pathlib.Path(folder.name) / "never-compared.toml"
-        scenario.write_text(BENCH.read_text() + "\n[senses]\nerror_ratio = 0.0\n")
-        self.simulator = Simulator(folder.name, scenario)
+        self.path = pathlib.Path(folder.name)
+        self.simulator = Simulator(folder.name, "bench", "--board", EXAMPLE)
         self.addCleanup(self.simulator.end)
         self.bus = f"socketcand:{self.simulator.port}"
 
@@ -113,6 +111,19 @@ class CompareSenses(unittest.TestCase):
                 break
         self.assertIn("interrupted", told)
         self.assertEqual(doctor.returncode, 1)
+        self.assert_nothing_changed()
+
+    def test_a_board_that_runs_another_file_is_not_heated(self):
+        other = self.path / "board.toml"
+        other.write_text(EXAMPLE.read_text().replace("max_W = 4.5", "max_W = 3.5", 1))
+        done = self.supercoil("doctor", "--compare-senses", "--config", other, "--json", input="")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        why = json.loads(done.stdout)["error"]
+        self.assertIn(f"{other}: the board does not run with this file: channel 1: limits.max_W = 3.5 (the board: 4.5)",
+                      why)
+        self.assertIn(why, done.stderr)
+        self.assertNotIn("gets", done.stderr)
+        self.assertNotIn("volts", done.stderr)
         self.assert_nothing_changed()
 
     def test_a_power_must_come_from_somewhere(self):

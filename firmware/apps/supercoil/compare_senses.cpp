@@ -6,6 +6,7 @@
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/setup/running_file.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "apps/supercoil/setup/terminal_operator.hpp"
 #include "config/board_config.hpp"
@@ -15,12 +16,27 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Which channel of the file is meant: over CAN it is a node. 0: none.
+/// Of the file's first channel: over CAN it is a node.
+int first_address(const DoctorOptions& options, const config::BoardConfig& config) {
+  return options.can.empty() || !config.can ? 1 : config.can->first_node;
+}
+
+/// Which channel of the file is meant. 0: none.
 std::size_t channel_of(const DoctorOptions& options, const config::BoardConfig& config) {
-  const int first = options.can.empty() || !config.can ? 1 : config.can->first_node;
-  const int index = options.channel - first;
+  const int index = options.channel - first_address(options, config);
   const auto known = static_cast<int>(config.settings.channels.size());
   return index >= 0 && index < known ? static_cast<std::size_t>(index) + 1 : 0;
+}
+
+/// What the power is safe by is the file's. Empty: the board runs with it.
+std::string other_board(BoardLink& board, const DoctorOptions& options,
+                        const config::BoardConfig& config, std::size_t place) {
+  const auto others =
+      differences_of_board(board, first_address(options, config), config.settings, place - 1);
+  if (!others) return others.error();
+  if (others->empty()) return {};
+  return options.config + ": the board does not run with this file: " + *others +
+         "; start the board with it, or name the file that it runs with: --config";
 }
 
 int concluded(const tl::expected<board::SenseComparison, std::string>& found,
@@ -65,6 +81,13 @@ int compare_senses(const DoctorOptions& options) {
     plan = plan_comparison(plan.channel, board.channels[place - 1], board);
   }
   if (options.power_W > 0.0) plan.power_W = options.power_W;
+  watch_for_interrupts();
+  const auto board = open_link(options.can, options.socket);
+  if (!board) return refuse(options.json, exit_failed, board.error());
+  if (config) {
+    if (const std::string why = other_board(**board, options, *config, place); !why.empty())
+      return refuse(options.json, exit_failed, why);
+  }
   std::FILE* out = options.json ? stderr : stdout;
   std::fprintf(out,
                "Compares the senses of channel %s with a meter. Arms the channel, heats it with "
@@ -73,9 +96,6 @@ int compare_senses(const DoctorOptions& options) {
                plan.channel.c_str(), number_text(0.5 * plan.power_W, 3).c_str(),
                number_text(plan.power_W, 3).c_str());
   std::fflush(out);
-  watch_for_interrupts();
-  const auto board = open_link(options.can, options.socket);
-  if (!board) return refuse(options.json, exit_failed, board.error());
   TerminalOperator terminal(out);
   const auto found = compare_senses(**board, plan, terminal);
   std::string bounds;

@@ -29,9 +29,10 @@ bool is_can_log(const std::string& path) {
 
 int can_log_command(const LogOptions& options) {
   if (options.summary || options.damaged || options.channel != 0) {
-    return fail(exit_wrong_input, options.file +
-                                      ": is a CAN log: --summary, --damaged and --channel are for "
-                                      "flight recordings");
+    return refuse(options.json, exit_wrong_input,
+                  options.file +
+                      ": is a CAN log: --summary, --damaged and --channel are for "
+                      "flight recordings");
   }
   if (!options.message.empty() && can::find_message(options.message) == nullptr) {
     return fail(exit_wrong_input,

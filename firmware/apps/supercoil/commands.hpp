@@ -33,6 +33,7 @@ struct LogOptions {
   int channel = 0;  ///< from 1; 0: all
   bool damaged = false;
   bool summary = false;
+  bool json = false;    ///< the summary, for programs
   bool mcap = false;    ///< in place of CSV
   int node = 0;         ///< of a CAN log, 1 to 63; 0: all
   std::string message;  ///< of a CAN log; empty: all

@@ -95,22 +95,24 @@ int log_command(const LogOptions& options) {
     return fail(exit_wrong_input, "--mcap: a terminal shows no MCAP; give --out FILE, or a pipe");
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
-    return fail(exit_wrong_input,
-                options.file + ": is not a CAN log; --node and --message apply only to CAN logs");
+    return refuse(options.json, exit_wrong_input,
+                  options.file + ": is not a CAN log; --node and --message apply only to CAN logs");
   }
   storage::PosixFiles files;
   const auto content = read(options.file, files);
-  if (!content) return fail(exit_wrong_input, content.error());
+  if (!content) return refuse(options.json, exit_wrong_input, content.error());
   auto recording = recorder::decode(
       *content, options.damaged ? recorder::Damaged::read : recorder::Damaged::refuse);
-  if (!recording) return fail(exit_wrong_input, options.file + ": " + recording.error());
+  if (!recording)
+    return refuse(options.json, exit_wrong_input, options.file + ": " + recording.error());
   if (const std::string wrong = wrong_choice(options, *recording); !wrong.empty())
-    return fail(exit_wrong_input, wrong);
+    return refuse(options.json, exit_wrong_input, wrong);
   if (!recording->damage.empty()) {
     std::fprintf(stderr, "supercoil: %s: %s; %zu rows are read\n", options.file.c_str(),
                  recording->damage.c_str(), recording->rows.size());
   }
-  if (options.summary) return say(summary(*recording), files);
+  if (options.summary)
+    return say(options.json ? summary_json(*recording) : summary(*recording), files);
   recorder::select(*recording, options.from_s, options.to_s, options.channel - 1);
   return write_rows(*recording, options);
 }

@@ -45,6 +45,8 @@ void add_log(CLI::App& app, LogOptions& options) {
   log->add_option("--message", options.message,
                   "Only this message of a CAN log, a column for each signal [a row for each value]")
       ->type_name("NAME");
+  log->add_flag("--json", options.json, "With --summary: print JSON instead of text")
+      ->needs(summary);
   for (CLI::Option* of_csv : {out, from, to, channel, mcap})
     summary->excludes(of_csv);
 }

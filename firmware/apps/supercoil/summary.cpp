@@ -7,8 +7,9 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
-#include <map>
+#include <vector>
 
+#include "apps/supercoil/happened.hpp"
 #include "recorder/names.hpp"
 
 namespace supercoil::operating {
@@ -49,7 +50,6 @@ void print_fault(Lines& lines, const recorder::Recording& recording) {
   if (!h.program.empty()) lines.add("  recorded by: supercoil %s", h.program.c_str());
 }
 
-/// Ticks that are further apart than one and a half periods have lost rows, or were left out.
 void print_extent(Lines& lines, const recorder::Recording& recording) {
   const auto& rows = recording.rows;
   lines.add("  recorded: %.3f s to %.3f s, %zu rows", recording.time_s(rows.front()),
@@ -57,61 +57,24 @@ void print_extent(Lines& lines, const recorder::Recording& recording) {
   const double rate_Hz = recording.header.rate_Hz;
   if (rate_Hz <= 0.0) return;
   lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
-  std::int64_t gaps = 0;
-  double max_gap_s = 0.0, max_gap_at_s = 0.0;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double before_s = recording.time_s(rows[i - 1]);
-    const double gap_s = recording.time_s(rows[i]) - before_s;
-    if (gap_s * rate_Hz <= 1.5) continue;
-    ++gaps;
-    if (gap_s > max_gap_s) max_gap_at_s = before_s;
-    max_gap_s = std::max(max_gap_s, gap_s);
-  }
-  if (gaps > 0) {
-    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on", gaps,
-              gaps == 1 ? "" : "s", max_gap_s, max_gap_at_s);
+  const Gaps gaps = gaps_of(recording);
+  if (gaps.count > 0) {
+    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on",
+              gaps.count, gaps.count == 1 ? "" : "s", gaps.max_s, gaps.max_from_s);
   }
 }
 
 void print_other_faults(Lines& lines, const recorder::Recording& recording) {
-  std::array<std::uint8_t, 256> last{};
-  constexpr int most = 20;
-  int told = 0;
-  for (const Row& row : recording.rows) {
-    const bool changed = row.fault != last[row.channel];
-    last[row.channel] = row.fault;
-    const bool the_one = row.channel == recording.header.fault_channel &&
-                         row.time_ns == recording.header.fault_time_ns;
-    if (!changed || the_one || told++ >= most) continue;
-    lines.add("  %+.3f s: channel %d: %s", recording.time_s(row), row.channel + 1,
-              row.fault == 0 ? "fault reset" : recorder::fault_name(row.fault).c_str());
+  constexpr std::size_t most = 20;
+  const std::vector<OtherFault> others = other_faults_of(recording);
+  const std::size_t told = std::min(most, others.size());
+  for (std::size_t i = 0; i < told; ++i) {
+    const auto& [at_s, channel, fault] = others[i];
+    lines.add("  %+.3f s: channel %d: %s", at_s, channel + 1,
+              fault == 0 ? "fault reset" : recorder::fault_name(fault).c_str());
   }
-  if (told > most) lines.add("  and %d more faults and resets", told - most);
+  if (told < others.size()) lines.add("  and %zu more faults and resets", others.size() - told);
 }
-
-/// What a channel did up to the fault, and the most there was in the whole recording.
-struct Channel {
-  const Row* last_before = nullptr;
-  const Row* hottest = nullptr;
-  double sum_W = 0.0;
-  std::int64_t powers = 0;
-  float max_W = 0.0F;
-  std::map<int, const Row*> margins;  ///< the last of each detector, up to the fault
-
-  void add(const Row& row, double time_s) {
-    if (!std::isnan(row.hottest_C) && (hottest == nullptr || row.hottest_C > hottest->hottest_C))
-      hottest = &row;
-    max_W = std::fmax(max_W, row.applied_W);
-    if (time_s < 0.0) {
-      last_before = &row;
-      if (!std::isnan(row.applied_W)) {
-        sum_W += static_cast<double>(row.applied_W);
-        ++powers;
-      }
-    }
-    if (time_s <= 0.0 && row.margin_selector != 0) margins[row.margin_selector] = &row;
-  }
-};
 
 double of(float value) {
   return static_cast<double>(value);
@@ -141,12 +104,12 @@ void print_last(Lines& lines, const Row& r) {
 }
 
 void print_channel(Lines& lines, const recorder::Recording& recording, int number_,
-                   const Channel& c) {
+                   const ChannelStory& c) {
   lines.add("channel %d", number_ + 1);
   if (c.last_before != nullptr) print_last(lines, *c.last_before);
   if (c.powers > 0) {
-    lines.add("  power: %.4g W on average before the fault, %.4g W at most",
-              c.sum_W / static_cast<double>(c.powers), of(c.max_W));
+    lines.add("  power: %.4g W on average before the fault, %.4g W at most", c.mean_W(),
+              of(c.max_W));
   }
   if (c.hottest != nullptr) {
     lines.add("  hottest: at most %.1f C, at %.3f s", of(c.hottest->hottest_C),
@@ -154,15 +117,10 @@ void print_channel(Lines& lines, const recorder::Recording& recording, int numbe
   }
 }
 
-void print_margins(Lines& lines, const Channel& c, const recorder::Recording& recording) {
+void print_margins(Lines& lines, const ChannelStory& c, const recorder::Recording& recording) {
   if (c.margins.empty()) return;
-  std::vector<const Row*> rows;
-  for (const auto& [margin_selector, row] : c.margins)
-    rows.push_back(row);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const Row* a, const Row* b) { return a->margin_used > b->margin_used; });
   lines.add("  last margins up to the fault, the fullest first:");
-  for (const Row* row : rows) {
+  for (const Row* row : c.ranked_margins()) {
     lines.add("    %-24s %6.0f %% used: %.5g of %.5g, at %.3f s",
               recorder::fault_name(row->margin_selector).c_str(), 100.0 * of(row->margin_used),
               of(row->margin_measured), of(row->margin_limit), recording.time_s(*row));
@@ -176,10 +134,7 @@ std::string summary(const recorder::Recording& recording) {
   print_fault(lines, recording);
   print_extent(lines, recording);
   print_other_faults(lines, recording);
-  std::map<int, Channel> channels;
-  for (const Row& row : recording.rows)
-    channels[row.channel].add(row, recording.time_s(row));
-  for (const auto& [number, channel] : channels) {
+  for (const auto& [number, channel] : channels_of(recording)) {
     print_channel(lines, recording, number, channel);
     if (number == recording.header.fault_channel) print_margins(lines, channel, recording);
   }

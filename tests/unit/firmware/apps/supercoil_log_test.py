@@ -172,6 +172,36 @@ class Log(unittest.TestCase):
                          ["over_temperature", "under_voltage", "over_travel"])
         self.assertIn("99 % used: 159 of 160, at -0.020 s", margins[0])
 
+    def test_the_summary_is_there_for_programs_too(self):
+        done = self.log("r.scfr", "--summary", "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        told = json.loads(done.stdout)
+        self.assertEqual((told["schema_version"], told["damage"]), (1, None))
+        self.assertEqual(told["fault"], {"name": "over_temperature", "number": 30, "channel": 2,
+                                         "meaning": "the estimated temperature passed its limit", "clock_s": 20.0})
+        self.assertEqual((told["from_s"], told["to_s"], told["row_count"], told["rate_Hz"]), (-10.0, 1.0, 2102, 100.0))
+        self.assertAlmostEqual(told["gaps"].pop("max_s"), 0.51)
+        self.assertEqual(told["gaps"], {"count": 1, "max_from_s": -4.51})
+        self.assertEqual(told["other_faults"], [{"at_s": 0.5, "channel": 1, "name": "emergency_stop"}])
+        self.assertEqual([channel["channel"] for channel in told["channels"]], [1, 2])
+        faulty = told["channels"][1]
+        self.assertEqual(faulty["just_before"], {
+            "state": "active", "mode": "position", "limited_by": "nothing", "position_m": 0.001999, "reference_m": 0.011,
+            "supply_V": 12.0, "current_A": 0.0, "resistance_Ohm": 10.0, "resistance_age_s": 0.0})
+        self.assertEqual([faulty[key] for key in ("mean_W", "max_W", "hottest_C", "hottest_at_s")], [4.0, 4.0, 165.0, 1.0])
+        self.assertEqual([margin["detector"] for margin in faulty["margins"]],
+                         ["over_temperature", "under_voltage", "over_travel"])
+        self.assertEqual(faulty["margins"][0], {"detector": "over_temperature", "used_ratio": 0.99375, "measured": 159.0,
+                                                "limit": 160.0, "at_s": -0.02})
+
+    def test_what_is_wrong_is_told_to_programs(self):
+        for message, arguments in (("none.scfr: there is no such file", ("none.scfr", "--summary", "--json")),
+                                   ("--json requires --summary", ("r.scfr", "--json"))):
+            done = self.log(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, json.loads(done.stdout)["error"])
+            self.assertIn(message, done.stderr)
+
     def refused(self, message, *arguments):
         done = self.log(*arguments)
         self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)

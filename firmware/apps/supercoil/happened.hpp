@@ -1,0 +1,46 @@
+// What a flight recording tells of a fault, to be told in words or to programs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "recorder/recording.hpp"
+
+namespace supercoil::operating {
+
+/// Ticks that are further apart than one and a half periods have lost rows, or were left out.
+struct Gaps {
+  std::int64_t count = 0;
+  double max_s = 0.0;
+  double max_from_s = 0.0;
+};
+
+/// Besides the one for which it was recorded.
+struct OtherFault {
+  double at_s;
+  int channel;         ///< from 0
+  std::uint8_t fault;  ///< 0: it was reset
+};
+
+/// What a channel did up to the fault, and the most there was in the whole recording.
+struct ChannelStory {
+  const Row* last_before = nullptr;
+  const Row* hottest = nullptr;
+  double sum_W = 0.0;
+  std::int64_t powers = 0;
+  float max_W = 0.0F;
+  std::map<int, const Row*> margins;  ///< the last of each detector, up to the fault
+
+  void add(const Row& row, double time_s);
+  double mean_W() const { return sum_W / static_cast<double>(powers); }
+  /// The fullest first.
+  std::vector<const Row*> ranked_margins() const;
+};
+
+Gaps gaps_of(const recorder::Recording& recording);
+std::vector<OtherFault> other_faults_of(const recorder::Recording& recording);
+/// By their numbers, from 0. They point into the recording.
+std::map<int, ChannelStory> channels_of(const recorder::Recording& recording);
+
+}  // namespace supercoil::operating

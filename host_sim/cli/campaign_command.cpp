@@ -9,6 +9,7 @@
 #include "cli/campaign_results.hpp"
 #include "cli/commands.hpp"
 #include "cli/kept_runs.hpp"
+#include "cli/results_json.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -108,42 +109,41 @@ void carry_out_all(const campaign::Study& study, const campaign::Draws& draws,
 }  // namespace
 
 int campaign_command(const CampaignOptions& given) {
-  if (given.list) return list_studies();
-  if (given.study.empty())
-    return fail(exit_wrong_input, "campaign: which study? A file, or a name of --list");
-  auto study = campaign::read_study(given.study, given.runs);
-  if (!study) {
-    std::fputs(config::to_text(study.error()).c_str(), stderr);
-    return exit_wrong_input;
+  if (given.list) return list_studies(given.json);
+  if (given.study.empty()) {
+    return refuse(given.json, exit_wrong_input,
+                  "campaign: which study? A file, or a name of --list");
   }
+  auto study = campaign::read_study(given.study, given.runs);
+  if (!study) return refuse_problems(given.json, study.error());
   CampaignOptions options = given;
   if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
   const batch::Shard& shard = options.shard;
   if (shard.number < 1 || shard.number > shard.of)
-    return fail(exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
+    return refuse(options.json, exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
   if ((shard.of > 1 || options.slurm > 0) && study->known_to > 0.0) {
-    return fail(exit_wrong_input,
-                given.study +
-                    ": study.known_to: no part knows when the whole is known well enough; "
-                    "leave it out with --shard and --slurm");
+    return refuse(options.json, exit_wrong_input,
+                  given.study +
+                      ": study.known_to: no part knows when the whole is known well enough; "
+                      "leave it out with --shard and --slurm");
   }
   const campaign::Draws draws(*study);
-  if (const std::string problems = check_medians(*study, draws); !problems.empty()) {
-    std::fputs(problems.c_str(), stderr);
-    return exit_wrong_input;
-  }
+  if (const std::string problems = check_medians(*study, draws); !problems.empty())
+    return refuse_lines(options.json, problems);
   if (options.slurm > 0) return submit_campaign(*study, options);
-  if (options.search > 0 && study->draws.empty())
-    return fail(exit_wrong_input, given.study + ": has no [[draw]]: nothing to search over");
+  if (options.search > 0 && study->draws.empty()) {
+    return refuse(options.json, exit_wrong_input,
+                  given.study + ": has no [[draw]]: nothing to search over");
+  }
   if (options.search > 0) return search_campaign(*study, draws, options);
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   const campaign::Lines lines(*study, draws);
   campaign::Outcomes outcomes;
   const auto torn = lines.read(folder->path() / runs_name, outcomes);
-  if (!torn) return fail(exit_wrong_input, torn.error());
+  if (!torn) return refuse(options.json, exit_wrong_input, torn.error());
   const auto all = missing(*study, shard, {}, 0, study->runs).size();
   const auto todo = missing(*study, shard, outcomes, 0, study->runs).size();
   KeptRuns kept("campaign", {outcomes.size(), all, todo, *torn}, *folder, options.quiet);

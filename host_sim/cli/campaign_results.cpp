@@ -7,6 +7,7 @@
 #include "batch/kept_lines.hpp"
 #include "campaign/tables.hpp"
 #include "cli/kept_runs.hpp"
+#include "cli/results_json.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 
@@ -36,11 +37,13 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
   const campaign::Lines lines(study, draws);
   const auto kept = folder.write(runs_name, [&](std::ostream& out) { lines.write(out, outcomes); });
   if (!kept) return fail(exit_failed, kept.error());
-  Tables tables{{{"campaign.csv", to_csv(table)},
+  const std::string csv = to_csv(table);
+  Tables tables{{{"campaign.csv", csv},
                  {"campaign.md", markdown},
                  {"report.html", to_html(study, table, outcomes, svg)}},
                 markdown,
-                outcomes.size()};
+                outcomes.size(),
+                rows_json(csv, {"controller", "quantity"})};
   for (const campaign::ContenderRow& row : table) {
     for (std::size_t i = 0; i < row.worst.size(); ++i) {
       const campaign::Key& key = row.worst[i];
@@ -48,7 +51,7 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
                                 replay(study, draws, draws.of_run(key.run), key));
     }
   }
-  return conclude_tables(tables, folder, options.quiet);
+  return conclude_tables(tables, folder, {options.json, options.quiet});
 }
 
 int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
@@ -58,18 +61,28 @@ int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
   const auto added = batch::add_parts(
       options.merge, std::filesystem::path(options.out) / runs_name,
       [&](const std::filesystem::path& part) { return lines.read(part, outcomes); });
-  if (!added) return fail(exit_wrong_input, added.error());
+  if (!added) return refuse(options.json, exit_wrong_input, added.error());
   const auto all = static_cast<std::size_t>(study.runs) * study.contenders.size();
   if (outcomes.size() < all) {
     std::fprintf(stderr, "supercoil-sim: the parts have %zu of the study's %zu runs\n",
                  outcomes.size(), all);
   }
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   return conclude_campaign(study, draws, outcomes, *folder, options);
 }
 
-int list_studies() {
+int list_studies(bool json) {
+  if (json) {
+    nlohmann::ordered_json quantities = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < campaign::quantity_count; ++i) {
+      const campaign::Quantity one = campaign::quantity(i);
+      quantities.push_back({{"name", one.name}, {"description", one.meaning}});
+    }
+    print_results(
+        {{"studies", entries_json(campaign::builtin_studies())}, {"quantities", quantities}});
+    return exit_done;
+  }
   for (const BuiltinScenario& study : campaign::builtin_studies()) {
     const auto what = description(study);
     std::printf("%-16.*s %.*s\n", static_cast<int>(study.name.size()), study.name.data(),

@@ -31,6 +31,6 @@ std::string replay(const campaign::Study& study, const campaign::Draws& draws,
                    const std::vector<double>& drawn, const campaign::Key& key);
 
 /// Says which studies and quantities there are.
-int list_studies();
+int list_studies(bool json);
 
 }  // namespace supercoil::host_sim

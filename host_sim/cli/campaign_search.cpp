@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -9,15 +10,44 @@
 #include "campaign/search.hpp"
 #include "campaign/tables.hpp"
 #include "cli/campaign_results.hpp"
+#include "cli/results_json.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 
 namespace supercoil::host_sim {
 
+namespace {
+
+std::string file_of(const campaign::Study& study, std::size_t contender) {
+  return "search-" + study.contenders[contender].name + ".toml";
+}
+
+/// A row a goal of a contender, as search.md has them.
+nlohmann::ordered_json rows_of(const campaign::Study& study,
+                               const std::map<std::size_t, campaign::Worst>& found) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& [contender, worst] : found) {
+    const bool ran = !worst.drawn.empty();
+    for (const campaign::Goal& goal : study.goals) {
+      const double value = ran ? worst.outcome.values.at(goal.quantity) : NAN;
+      rows.push_back({{"controller", study.contenders[contender].name},
+                      {"quantity", campaign::quantity(goal.quantity).name},
+                      {"max", goal.max},
+                      {"runs", worst.runs},
+                      {"worst", value},
+                      {"fault", worst.outcome.fault},
+                      {"file", ran ? file_of(study, contender) : ""}});
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
 int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
                     const CampaignOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   catch_interrupts();
   Progress progress("searching", options.quiet);
   std::atomic<std::int64_t> runs = 0;
@@ -36,14 +66,16 @@ int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
         return interrupted();
       });
   progress.end();
-  Tables tables{{}, to_markdown(study, found), static_cast<std::size_t>(runs.load())};
+  Tables tables{
+      {}, to_markdown(study, found), static_cast<std::size_t>(runs.load()), rows_of(study, found)};
   for (const auto& [contender, worst] : found) {
     if (worst.drawn.empty()) continue;
-    tables.files.emplace_back("search-" + study.contenders[contender].name + ".toml",
+    tables.files.emplace_back(file_of(study, contender),
                               replay(study, draws, worst.drawn, {0, contender}));
   }
   tables.files.emplace_back("search.md", tables.markdown);
-  if (const int failed = conclude_tables(tables, *folder, options.quiet); failed != exit_done)
+  if (const int failed = conclude_tables(tables, *folder, {options.json, options.quiet});
+      failed != exit_done)
     return failed;
   if (interrupted()) return fail(exit_interrupted, "interrupted; what was found is written");
   return exit_done;

@@ -55,6 +55,7 @@ int page_command(const PageOptions& options);
 struct ReproduceOptions {
   std::string out = "supercoil-out/reproduction";
   bool plots = true;
+  bool json = false;  ///< on standard output, in place of text; so below
   bool quiet = false;
 };
 int reproduce_command(const ReproduceOptions& options);
@@ -65,6 +66,7 @@ struct CompareOptions {
   std::string out = "supercoil-out/compare";
   int jobs = 0;  ///< 0: as many as there are processors
   bool plot = true;
+  bool json = false;
   bool quiet = false;
   bool list = false;  ///< only says what there is to compare
 };
@@ -75,6 +77,7 @@ struct EstimatorsOptions {
   int jobs = 0;             ///< 0: as many as there are processors
   std::string out = "supercoil-out/estimators";
   bool plot = true;
+  bool json = false;
   bool quiet = false;
 };
 int estimators_command(const EstimatorsOptions& options);
@@ -90,6 +93,7 @@ struct CampaignOptions {
   bool submit = true;              ///< these are submitted, not only written
   int jobs = 0;                    ///< 0: as many as there are processors
   bool plot = true;
+  bool json = false;
   bool quiet = false;
   bool list = false;  ///< only says which studies there are
 };

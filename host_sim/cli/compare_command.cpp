@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/compare_results.hpp"
 #include "cli/kept_runs.hpp"
+#include "cli/results_json.hpp"
 #include "compare/run_plan.hpp"
 #include "report/output_folder.hpp"
 
@@ -40,24 +41,21 @@ tl::expected<std::vector<compare::Run>, std::string> missing(const compare::Plan
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
-  if (options.list) return list_compared();
+  if (options.list) return list_compared(options.json);
   if (!options.merge.empty()) return merge_comparisons(options);
   const auto plan = compare::make_plan(options.selection);
-  if (!plan) {
-    std::fputs(plan.error().c_str(), stderr);
-    return exit_wrong_input;
-  }
+  if (!plan) return refuse_lines(options.json, plan.error());
   for (const std::string& reason : plan->left_out)
     std::fprintf(stderr, "supercoil-sim: left out: %s", reason.c_str());
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
 
   const std::filesystem::path path = folder->path() / runs_name;
   auto before = compare::read_results(path);
-  if (!before) return fail(exit_wrong_input, before.error());
+  if (!before) return refuse(options.json, exit_wrong_input, before.error());
   Results results = std::move(before->results);
   const auto todo = missing(*plan, results, path.string());
-  if (!todo) return fail(exit_wrong_input, todo.error());
+  if (!todo) return refuse(options.json, exit_wrong_input, todo.error());
   KeptRuns kept("comparing", {results.size(), plan->runs.size(), todo->size(), before->torn},
                 *folder, options.quiet);
   if (const int failed = kept.begin(compare::to_file(results)); failed != exit_done) return failed;

@@ -5,6 +5,7 @@
 
 #include "batch/kept_lines.hpp"
 #include "cli/kept_runs.hpp"
+#include "cli/results_json.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 #include "compare/catalogue.hpp"
@@ -18,13 +19,14 @@ int conclude_comparison(const Results& results, OutputFolder& folder,
                         const CompareOptions& options) {
   const auto table = compare::table_of(results);
   const std::string markdown = compare::to_markdown(table);
+  const std::string csv = compare::to_csv(table);
   if (options.plot) draw_into(folder, compare::figure_of(table), "compare.svg");
-  return conclude_tables({{{runs_name, compare::to_file(results)},
-                           {"compare.csv", compare::to_csv(table)},
-                           {"compare.md", markdown}},
-                          markdown,
-                          results.size()},
-                         folder, options.quiet);
+  return conclude_tables(
+      {{{runs_name, compare::to_file(results)}, {"compare.csv", csv}, {"compare.md", markdown}},
+       markdown,
+       results.size(),
+       rows_json(csv, {"controller", "disturbance", "arithmetic", "measure"})},
+      folder, {options.json, options.quiet});
 }
 
 int merge_comparisons(const CompareOptions& options) {
@@ -38,13 +40,22 @@ int merge_comparisons(const CompareOptions& options) {
                            return read->torn;
                          });
                        });
-  if (!added) return fail(exit_wrong_input, added.error());
+  if (!added) return refuse(options.json, exit_wrong_input, added.error());
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   return conclude_comparison(results, *folder, options);
 }
 
-int list_compared() {
+int list_compared(bool json) {
+  if (json) {
+    nlohmann::ordered_json measures = nlohmann::ordered_json::array();
+    for (const compare::Measure& measure : compare::measures)
+      measures.push_back({{"name", measure.name}, {"description", measure.meaning}});
+    print_results({{"controllers", entries_json(compare::controllers())},
+                   {"disturbances", entries_json(compare::disturbances())},
+                   {"measures", measures}});
+    return exit_done;
+  }
   const auto print = [](const char* title, const std::vector<BuiltinScenario>& entries) {
     std::puts(title);
     for (const BuiltinScenario& entry : entries) {

@@ -15,6 +15,6 @@ int conclude_comparison(const compare::Results& results, OutputFolder& folder,
 int merge_comparisons(const CompareOptions& options);
 
 /// Says what there is to compare.
-int list_compared();
+int list_compared(bool json);
 
 }  // namespace supercoil::host_sim

@@ -6,6 +6,7 @@
 #include "batch/in_parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/kept_runs.hpp"
+#include "cli/results_json.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 #include "estimators/kept_outcomes.hpp"
@@ -60,9 +61,9 @@ estimators::AllBounds all_bounds() {
 
 int estimators_command(const EstimatorsOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   auto before = estimators::read_outcomes(folder->path() / runs_name);
-  if (!before) return fail(exit_wrong_input, before.error());
+  if (!before) return refuse(options.json, exit_wrong_input, before.error());
   Outcomes outcomes = std::move(before->outcomes);
   const auto all = runs_of(options.seeds);
   std::vector<Key> todo;
@@ -75,15 +76,17 @@ int estimators_command(const EstimatorsOptions& options) {
   if (!todo.empty()) try_all(todo, outcomes, kept, options);
   if (const int failed = kept.end(); failed != exit_done) return failed;
   const auto bounds = all_bounds();
+  const std::string csv = estimators::to_csv(outcomes, bounds);
   const std::string markdown =
       estimators::to_markdown(outcomes, bounds, estimators::measure_costs());
   if (options.plot) draw_into(*folder, estimators::figure_of(outcomes, bounds), "estimators.svg");
   return conclude_tables({{{runs_name, estimators::to_file(outcomes)},
-                           {"estimators.csv", estimators::to_csv(outcomes, bounds)},
+                           {"estimators.csv", csv},
                            {"estimators.md", markdown}},
                           markdown,
-                          outcomes.size()},
-                         *folder, options.quiet);
+                          outcomes.size(),
+                          rows_json(csv, {"trial", "estimator", "measure"})},
+                         *folder, {options.json, options.quiet});
 }
 
 }  // namespace supercoil::host_sim

@@ -26,7 +26,8 @@ hal::Time since_1970() {
 /// Puts the boards on a bus that others can join.
 tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
                                                                    const std::string& interface,
-                                                                   std::uint16_t port) {
+                                                                   std::uint16_t port,
+                                                                   std::FILE* out) {
   auto server = SocketcandServer::listen(port, interface,
                                          [&](const hal::CanFrame& frame) { nodes.deliver(frame); });
   if (!server) return server;
@@ -35,8 +36,8 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
                                                              hal::Time since_start) {
     bus->send(frame, since_start + epoch);
   });
-  std::printf("serving %s on 127.0.0.1:%d by the socketcand protocol\n", interface.c_str(),
-              static_cast<int>((*server)->port()));
+  std::fprintf(out, "serving %s on 127.0.0.1:%d by the socketcand protocol\n", interface.c_str(),
+               static_cast<int>((*server)->port()));
   return server;
 }
 
@@ -62,7 +63,8 @@ int live_run(const RunOptions& options, const std::vector<Scenario>& boards, con
   nodes->store_in(learned);
   std::unique_ptr<SocketcandServer> server;
   if (options.socketcand_port) {
-    auto served = serve(*nodes, scenario.can.interface, *options.socketcand_port);
+    auto served = serve(*nodes, scenario.can.interface, *options.socketcand_port,
+                        options.json ? stderr : stdout);
     if (!served) return fail(exit_wrong_input, served.error());
     server = std::move(*served);
   }

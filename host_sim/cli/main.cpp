@@ -11,9 +11,9 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/commands.hpp"
-#include "apps/common/problems_json.hpp"
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
+#include "cli/results_json.hpp"
 #include "text/program_version.hpp"
 
 namespace {
@@ -87,8 +87,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--check", options.check,
                 "Only check the scenario, and print what the muscle can do");
   run->add_flag("--json", options.json,
-                "Print JSON instead of text: summary.json, or what --check tells")
-      ->excludes(real_time);
+                "Print JSON instead of text: summary.json, or what --check tells");
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit status 0 although the muscle never armed or did not follow, or the run ended "
                 "in a fault");
@@ -106,12 +105,17 @@ void add_page(CLI::App& app, PageOptions& options) {
   page->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
 }
 
+CLI::Option* add_json(CLI::App& command, bool& json) {
+  return command.add_flag("--json", json, "Print JSON instead of text");
+}
+
 void add_reproduce(CLI::App& app, ReproduceOptions& options) {
   CLI::App* reproduce = app.add_subcommand(
       "reproduce", "Repeat the paper's figures and numbers; print them beside ours");
   reproduce->add_option("--out", options.out,
                         "Folder for the results [supercoil-out/reproduction]");
   reproduce->add_flag("!--no-plots", options.plots, "Write no plots and no report.html");
+  add_json(*reproduce, options.json);
   reproduce->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -154,6 +158,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->type_name("FILES")
       ->excludes(shard);
   compare->add_flag("!--no-plot", options.plot, "Write no compare.svg");
+  add_json(*compare, options.json);
   compare->add_flag("--quiet", options.quiet, "Print nothing but errors");
   compare->add_flag("--list", options.list, "List controllers, disturbances and arithmetics");
 }
@@ -196,6 +201,7 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
       ->excludes(slurm)
       ->excludes(merge);
   campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
+  add_json(*campaign, options.json)->excludes(slurm);
   campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
   campaign->add_flag("--list", options.list, "List studies and quantities");
 }
@@ -210,17 +216,13 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
       ->check(CLI::Range(1, 1024));
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");
   estimators->add_flag("!--no-plot", options.plot, "Write no estimators.svg");
+  add_json(*estimators, options.json);
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
-/// A wrong option, for whom run --json is.
-bool tell_as_json(int count, char** arguments, const CLI::ParseError& error) {
-  const auto given = [&](std::string_view option) {
-    return std::find(arguments, arguments + count, option) != arguments + count;
-  };
-  if (!given("run") || !given("--json")) return false;
-  std::puts(problems_json({{"", 0, "", error.what()}}).dump(2).c_str());
-  return true;
+/// Also where the options cannot be read.
+bool wants_json(int count, char** arguments) {
+  return std::find(arguments, arguments + count, std::string_view("--json")) != arguments + count;
 }
 
 int run_program(int count, char** arguments) {
@@ -241,15 +243,15 @@ int run_program(int count, char** arguments) {
   add_campaign(app, campaign);
   add_estimators(app, estimators);
   bool list_as_json = false;
-  app.add_subcommand("list", "List built-in scenarios, presets and reference models")
-      ->add_flag("--json", list_as_json, "Print JSON instead of text");
+  add_json(*app.add_subcommand("list", "List built-in scenarios, presets and reference models"),
+           list_as_json);
+  const bool json = wants_json(count, arguments);
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
-    return fail(exit_wrong_input, wrong);
+    return refuse(json, exit_wrong_input, wrong);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    const bool wrong = error.get_exit_code() != 0;
-    if (wrong && tell_as_json(count, arguments, error)) return exit_wrong_input;
+    if (json && error.get_exit_code() != 0) return refuse(json, exit_wrong_input, error.what());
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }

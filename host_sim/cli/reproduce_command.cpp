@@ -2,6 +2,7 @@
 
 #include "apps/common/progress.hpp"
 #include "cli/commands.hpp"
+#include "cli/results_json.hpp"
 #include "cli/run_results.hpp"
 #include "paper/reproduction.hpp"
 #include "report/output_folder.hpp"
@@ -21,11 +22,28 @@ std::vector<std::string> draw_all(const std::vector<paper::Part>& parts, OutputF
   return texts;
 }
 
+/// What is printed and what was measured may be a number, a range or words: all are text.
+nlohmann::ordered_json rows_of(const std::vector<paper::Part>& parts) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const paper::Part& part : parts) {
+    for (const paper::ReproductionRow& r : part.rows) {
+      rows.push_back({{"id", r.id},
+                      {"case", r.case_name},
+                      {"quantity", r.quantity},
+                      {"unit", r.unit},
+                      {"paper", r.paper},
+                      {"measured", r.measured},
+                      {"remark", r.remark}});
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 int reproduce_command(const ReproduceOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
   Progress progress("reproducing the paper", options.quiet);
   const auto parts = paper::reproduce([&](double done) { progress.show(done, ""); });
 
@@ -40,7 +58,9 @@ int reproduce_command(const ReproduceOptions& options) {
     return fail(exit_failed, csv.error());
   }
   if (auto done = folder->commit(); !done) return fail(exit_failed, done.error());
-  if (!options.quiet) {
+  if (options.json) {
+    print_results({{"folder", options.out}, {"rows", rows_of(parts)}});
+  } else if (!options.quiet) {
     std::fputs(to_terminal(parts).c_str(), stdout);
     std::printf("\n%.1f s. Table: %s/reproduction.csv\n", progress.elapsed_s(),
                 options.out.c_str());

@@ -10,6 +10,7 @@
 #include "cli/forecast.hpp"
 #include "cli/learned_folder.hpp"
 #include "cli/one_bus.hpp"
+#include "cli/results_json.hpp"
 #include "cli/runs.hpp"
 #include "config/board_config.hpp"
 #include "report/output_folder.hpp"
@@ -179,7 +180,7 @@ int run_command(const RunOptions& given) {
   }
   auto folder =
       OutputFolder::open(options.out.empty() ? "supercoil-out/" + name_of(*boards) : options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
 
   if (options.real_time) return live_run(options, *boards, *window, *folder, folder_of_learned);
   for (std::size_t i = 0; !options.quiet && i < options.scenarios.size(); ++i)

@@ -2,15 +2,20 @@
 
 #include <cstdio>
 
+#include "cli/results_json.hpp"
+
 namespace supercoil::host_sim {
 
-int conclude_tables(const Tables& tables, OutputFolder& folder, bool quiet) {
+int conclude_tables(const Tables& tables, OutputFolder& folder, Telling telling) {
   for (const auto& [name, content] : tables.files) {
     if (const auto written = folder.write(name, content); !written)
       return fail(exit_failed, written.error());
   }
   if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error());
-  if (!quiet) {
+  if (telling.json) {
+    print_results(
+        {{"folder", folder.path().string()}, {"runs", tables.runs}, {"rows", tables.rows}});
+  } else if (!telling.quiet) {
     std::fputs(tables.markdown.c_str(), stdout);
     std::printf("\n%zu runs, written to %s\n", tables.runs, folder.path().c_str());
   }

@@ -1,0 +1,134 @@
+"""What the commands of supercoil-sim print for programs: docs/json.md."""
+
+import csv
+import json
+import signal
+import subprocess
+import unittest
+
+from sim_program import PROGRAM, ProgramCase
+
+# Short, with an event.
+BRIEF = "[simulation]\nduration_s = 12.0\n[[event]]\nat_s = 11.0\nplant.stiffness_N_per_m = 12.0\n"
+STUDY = """# Brief
+[study]
+runs = 4
+scenario = "pwm"
+controllers = ["pi", "pd_ff"]
+window_s = [1.0, 3.0]
+[goals]
+tracking_rms_m = 1e-3
+[scenario.simulation]
+duration_s = 3.0
+[[draw]]
+keys = "plant.stiffness_N_per_m"
+log_uniform = [8.0, 40.0]
+"""
+
+
+class Json(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        (self.path / "brief.toml").write_text(BRIEF)
+        (self.path / "study.toml").write_text(STUDY)
+
+    def told(self, *arguments, status=0):
+        """All that is on standard output is one object, whose first keys are those of each."""
+        done = self.run_program(*arguments, "--json")
+        self.assertEqual(done.returncode, status, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual(list(told)[:2], ["schema_version", "program_version"])
+        self.assertEqual(told["schema_version"], 1)
+        return told
+
+    def assert_rows_are_those_of(self, file, rows, text):
+        """Numbers as numbers, flags as flags, and null where the file has nothing or no finite number."""
+        with open(self.path / file) as lines:
+            written = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        self.assertEqual(len(rows), len(written))
+        for row, as_written in zip(rows, written):
+            self.assertEqual(list(row), list(as_written))
+            for column, cell in as_written.items():
+                wanted = cell if column in text else {"": None, "inf": None, "yes": True, "no": False}.get(cell, cell)
+                if wanted == cell and column not in text:
+                    wanted = float(cell)
+                self.assertEqual(row[column], wanted, column)
+
+    def test_compare(self):
+        told = self.told("compare", "--controllers", "pi,mrac-a", "--disturbances", "brief.toml,nominal", "--seeds", 1, "--no-plot",
+                         "--out", "c")
+        self.assertEqual((told["folder"], told["runs"]), ("c", 4))
+        self.assert_rows_are_those_of("c/compare.csv", told["rows"], ("controller", "disturbance", "arithmetic", "measure"))
+        self.assertIn(True, [row["met"] for row in told["rows"]])
+        merged = self.told("compare", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
+        self.assertEqual(merged["rows"], told["rows"])
+
+    def test_campaign(self):
+        told = self.told("campaign", "study.toml", "--no-plot", "--out", "c")
+        self.assertEqual((told["folder"], told["runs"]), ("c", 8))
+        self.assert_rows_are_those_of("c/campaign.csv", told["rows"], ("controller", "quantity"))
+        merged = self.told("campaign", "study.toml", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
+        self.assertEqual(merged["rows"], told["rows"])
+
+    def test_search(self):
+        told = self.told("campaign", "study.toml", "--search", 12, "--no-plot", "--out", "s")
+        self.assertEqual([(row["controller"], row["quantity"], row["max"], row["fault"], row["file"]) for row in told["rows"]],
+                         [(name, *goal, "", f"search-{name}.toml") for name in ("pi", "pd_ff")
+                          for goal in (("tracking_rms_m", 1e-3), ("faults", 0))])
+        for row in told["rows"]:
+            self.assertGreaterEqual(row["worst"], 0.0)
+            self.assertGreater(row["runs"], 0)
+            self.assertTrue((self.path / "s" / row["file"]).exists())
+
+    def test_estimators(self):
+        told = self.told("estimators", "--seeds", 1, "--no-plot", "--out", "e")
+        self.assertEqual(told["folder"], "e")
+        self.assert_rows_are_those_of("e/estimators.csv", told["rows"], ("trial", "estimator", "measure"))
+
+    def test_reproduce(self):
+        told = self.told("reproduce", "--no-plots", "--out", "r")
+        with open(self.path / "r/reproduction.csv") as file:
+            self.assertEqual(told["rows"], list(csv.DictReader(file)))
+
+    def test_lists(self):
+        for command, lists in (("compare", ("controllers", "disturbances", "measures")), ("campaign", ("studies", "quantities"))):
+            told = self.told(command, "--list")
+            self.assertEqual(list(told)[2:], list(lists))
+            text = self.run_program(command, "--list").stdout
+            for name in lists:
+                self.assertTrue(told[name])
+                for entry in told[name]:
+                    self.assertEqual(list(entry), ["name", "description"])
+                    self.assertIn(entry["name"], text)
+                    self.assertIn(entry["description"], text)
+
+    def test_what_is_wrong_is_told_as_problems(self):
+        (self.path / "wrong.toml").write_text(STUDY.replace("runs = 4", "runs = 0"))
+        for key, message, arguments in (
+                ("", "pr is none", ("compare", "--controllers", "pr is none")),
+                ("", "which study", ("campaign",)),
+                ("study.runs", "must be", ("campaign", "wrong.toml")),
+                ("", "/proc/none: cannot be made", ("estimators", "--out", "/proc/none")),
+                ("", "/proc/none: cannot be made", ("reproduce", "--out", "/proc/none")),
+                ("", "--slurm excludes --json", ("campaign", "study.toml", "--slurm", 2)),
+                ("", "not expected", ("compare", "--bogus")),
+                ("", "'fly' is not a command", ("fly",))):
+            with self.subTest(arguments=arguments):
+                done = self.run_program(*arguments, "--json")
+                self.assertEqual((done.returncode, done.stderr), (2, ""))
+                problem = json.loads(done.stdout)["problems"][0]
+                self.assertEqual(list(problem), ["file", "line", "key", "value", "message"])
+                self.assertEqual(problem["key"], key)
+                self.assertIn(message, problem["message"])
+
+    def test_a_run_in_real_time_tells_its_summary_at_its_end(self):
+        with subprocess.Popen([PROGRAM, "run", "bench", "--real-time", "--can", "socketcand:0", "--json", "--out", "live"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.path) as run:
+            self.assertRegex(run.stderr.readline(), r"^serving can0 on 127\.0\.0\.1:\d+ by the socketcand protocol\n$")
+            run.send_signal(signal.SIGINT)
+            told, _ = run.communicate(timeout=120)
+        self.assertEqual(json.loads(told), json.loads((self.path / "live/summary.json").read_text()))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -112,7 +112,7 @@ int campaign_command(const CampaignOptions& given) {
   if (given.list) return list_studies(given.json);
   if (given.study.empty()) {
     return refuse(given.json, exit_wrong_input,
-                  "campaign: which study? A file, or a name of --list");
+                  "campaign: which study? A file, or a name from --list");
   }
   auto study = campaign::read_study(given.study, given.runs);
   if (!study) return refuse_problems(given.json, study.error());

@@ -37,9 +37,10 @@ std::uint16_t port_of(const std::string& where) {
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate a scenario; write trace, summary, plot and CAN log");
-  run->add_option("SCENARIO", options.scenarios,
-                  "A TOML file, or a name from supercoil-sim list; of several, each is a board of "
-                  "its own on one CAN bus")
+  run->add_option(
+         "SCENARIO", options.scenarios,
+         "A TOML file, or a name from supercoil-sim list; with several, each is a board of "
+         "its own on one CAN bus")
       ->required();
   run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
   run->add_option(
@@ -49,30 +50,33 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   CLI::Option* learned =
       run->add_option("--learned", options.learned,
-                      "Folder of what the board learned: used at its start, and renewed");
+                      "Folder of what the board has learned: read at its start, and updated");
   run->add_option("--nodes", options.nodes,
                   "Boards on one CAN bus, each with a muscle and noise of its own")
       ->check(CLI::Range(1, 8))
       ->capture_default_str()
       ->excludes(learned);
   CLI::Option* board =
-      run->add_option("--board", options.boards,
-                      "Run the firmware as this board's file configures it, over the scenario's "
-                      "muscle; of several scenarios, once for each [as the scenario does]")
+      run->add_option(
+             "--board", options.boards,
+             "Configure the firmware by this board's file, and drive the scenario's muscle with "
+             "it; with several scenarios, give it once for each [the scenario's own configuration]")
           ->type_name("FILE")
           ->allow_extra_args(false);
-  run->add_option("--channel", options.channels,
-                  "Channel of that board, from 1; likewise once for each [1]")
+  run->add_option(
+         "--channel", options.channels,
+         "Channel of that board, from 1; with several scenarios, give it once for each [1]")
       ->check(CLI::Range(1, 16))
       ->allow_extra_args(false)
       ->needs(board);
   CLI::Option* no_trace = run->add_flag("!--no-trace", options.trace, "Write no trace");
   run->add_flag_callback(
          "--npy", [&] { options.trace_format = TraceFormat::npy; },
-         "Write trace.npy for numpy and pandas in place of trace.csv")
+         "Write trace.npy for numpy and pandas instead of trace.csv")
       ->excludes(no_trace);
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
-  run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
+  run->add_flag("!--no-can", options.can,
+                "Write no can.log of what the board sends on its CAN bus");
   CLI::Option* real_time =
       run->add_flag("--real-time", options.real_time,
                     "Run in real time, without trace, plot and CAN log, until its end or Ctrl-C");
@@ -82,15 +86,15 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->type_name("BUS")
       ->needs(real_time);
   run->add_flag("--end-with-parent", options.end_with_parent,
-                "End also when the program that started it has ended, however it did")
+                "End also when the program that started it ends, for whatever reason")
       ->needs(real_time);
   run->add_flag("--check", options.check,
                 "Only check the scenario, and print what the muscle can do");
   run->add_flag("--json", options.json,
-                "Print JSON instead of text: summary.json, or what --check tells");
+                "Print JSON instead of text: summary.json, or what --check finds");
   run->add_flag("--allow-fault", options.allow_fault,
-                "Exit status 0 although the muscle never armed or did not follow, or the run ended "
-                "in a fault");
+                "Exit with status 0 even if the muscle never armed or did not follow, or the run "
+                "ended in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -154,7 +158,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   shard->type_name("PART");
   compare
       ->add_option("--merge", options.merge,
-                   "Run nothing: make the table of several parts' runs.csv")
+                   "Run nothing; make the table from the runs.csv of several parts")
       ->type_name("FILES")
       ->excludes(shard);
   compare->add_flag("!--no-plot", options.plot, "Write no compare.svg");
@@ -166,8 +170,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 void add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::App* campaign = app.add_subcommand(
       "campaign", "Run a study over many random muscles; resume where it was interrupted");
-  campaign->add_option("STUDY", options.study, "A TOML file, or a name of --list");
-  campaign->add_option("--runs", options.runs, "Number of runs, in place of the study's own")
+  campaign->add_option("STUDY", options.study, "A TOML file, or a name from --list");
+  campaign->add_option("--runs", options.runs, "Number of runs, instead of the study's own")
       ->check(CLI::Range(std::int64_t{1}, max_runs));
   campaign->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
       ->check(CLI::Range(1, 1024));
@@ -177,11 +181,12 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
       "--shard", [&](const std::string& text) { options.shard = shard_of(text); },
       "I/N: only the I-th of N parts of all runs");
   shard->type_name("PART");
-  CLI::Option* merge = campaign
-                           ->add_option("--merge", options.merge,
-                                        "Run nothing: make the tables of several parts' runs.csv")
-                           ->type_name("FILES")
-                           ->excludes(shard);
+  CLI::Option* merge =
+      campaign
+          ->add_option("--merge", options.merge,
+                       "Run nothing; make the tables from the runs.csv of several parts")
+          ->type_name("FILES")
+          ->excludes(shard);
   constexpr int max_parts = 1000;  // of Slurm's default MaxArraySize
   CLI::Option* slurm =
       campaign
@@ -208,7 +213,8 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
 
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   CLI::App* estimators = app.add_subcommand(
-      "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
+      "estimators",
+      "Compare estimators on the same data over many seeds, and with the best that is possible");
   constexpr std::int64_t max_seeds = 1000000;
   estimators->add_option("--seeds", options.seeds, "Number of seeds, from 1 on [20]")
       ->check(CLI::Range(std::int64_t{1}, max_seeds));

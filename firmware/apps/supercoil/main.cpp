@@ -23,23 +23,21 @@ using namespace supercoil::operating;
 
 void add_log(CLI::App& app, LogOptions& options) {
   CLI::App* log = app.add_subcommand(
-      "log",
-      "Read a flight recording, its rows as CSV or MCAP or what happened in words; or a CAN log, "
-      "decoded");
+      "log", "Print a flight recording as CSV, as MCAP or in words, or decode a CAN log");
   log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr, or a log of candump -L")
       ->required();
   CLI::Option* out = log->add_option("--out", options.out, "Write to this file [standard output]");
   CLI::Option* from = log->add_option("--from", options.from_s,
-                                      "First time in s: of a recording relative to the fault, of a "
-                                      "CAN log its own [the first]");
-  CLI::Option* to = log->add_option("--to", options.to_s, "Last time in s [the last]");
+                                      "Start at this time in s; in a recording it counts from the "
+                                      "fault, in a CAN log it is the log's own [the first]");
+  CLI::Option* to = log->add_option("--to", options.to_s, "End at this time in s [the last]");
   CLI::Option* channel =
       log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
           ->check(CLI::Range(1, 16));
   log->add_flag("--damaged", options.damaged, "Read what can be read of a damaged file");
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
-  CLI::Option* mcap = log->add_flag("--mcap", options.mcap, "Write MCAP in place of CSV");
+  CLI::Option* mcap = log->add_flag("--mcap", options.mcap, "Write MCAP instead of CSV");
   log->add_option("--node", options.node, "Only this node of a CAN log [all]")
       ->check(CLI::Range(1, can::max_nodes));
   log->add_option("--message", options.message,
@@ -59,9 +57,8 @@ const CLI::Validator is_named(
     "");
 
 void add_command(CLI::App& app, CommandOptions& options) {
-  CLI::App* command = app.add_subcommand("command",
-                                         "Give one command to the board on which this runs or to "
-                                         "one on a CAN bus, or ask for its state");
+  CLI::App* command = app.add_subcommand(
+      "command", "Give one command to this board or to one on a CAN bus, or print its state");
   command
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
@@ -74,13 +71,13 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
       "--for", options.hold_s,
-      "Renew it for this many seconds or until Ctrl-C; then the muscle rests [once: it expires; "
-      "identify and calibrate: until they end]");
+      "Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, "
+      "it expires; identify and calibrate are renewed until they end]");
   hold->check(CLI::PositiveNumber);
   command
       ->add_flag_callback(
           "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },
-          "Renew it until Ctrl-C; then the muscle rests")
+          "Renew the command until Ctrl-C; then the muscle rests")
       ->excludes(hold);
   CLI::Option* amplitude =
       command
@@ -107,7 +104,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
 
 void add_play(CLI::App& app, PlayOptions& options) {
   CLI::App* play = app.add_subcommand(
-      "play", "Play a motion of a file on muscles that are armed, several of them in step");
+      "play", "Play the motion in a file on one armed muscle, or on several in step");
   play->add_option(
           "FILE", options.file,
           "CSV: time_s, position_m and, if wanted, velocity_m_per_s; for several channels or "
@@ -134,13 +131,13 @@ void add_play(CLI::App& app, PlayOptions& options) {
 void add_setting(CLI::App& app, SettingOptions& options) {
   CLI::App* setting =
       app.add_subcommand("setting",
-                         "Read or change settings of a running board, until it starts again: "
-                         "maximum power, and how often it sends each message");
-  setting->add_option("NODE", options.node, "1 to 63")
+                         "Read or change settings of a running board: maximum power, and how often "
+                         "it sends each message. Changes last until it restarts");
+  setting->add_option("NODE", options.node, "Node of the channel on the bus")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
   setting->add_option("NAME", options.name, "e.g. max_power_W [all]");
-  setting->add_option("VALUE", options.value, "New value; without one the present value is read");
+  setting->add_option("VALUE", options.value, "New value [print the present one]");
   setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
       ->required();
@@ -151,8 +148,8 @@ void add_tune(CLI::App& app, TuneOptions& options) {
   CLI::App* tune = app.add_subcommand(
       "tune",
       "Show or change the values of a channel's controllers and estimators while the board runs: "
-      "gains, reference model, shaping, the law itself. A controller that is at work takes them "
-      "over without a jump; an estimator begins anew");
+      "gains, reference model, shaping, the law itself. A running controller takes them over "
+      "without a jump; an estimator starts afresh");
   tune->add_option("CHANNEL", options.channel, "Channel, from 1; over CAN its node")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
@@ -161,17 +158,16 @@ void add_tune(CLI::App& app, TuneOptions& options) {
       ->type_name("");
   CLI::Option* controller =
       tune->add_option("--controller", options.controller,
-                       "Change this one: its place in the configuration, from 0, or its kind, e.g. "
-                       "pi, where there is but one of it")
+                       "Change this controller: its place in the configuration, from 0, or its "
+                       "kind, e.g. pi, if only one has it")
           ->type_name("PLACE")
           ->capture_default_str();
   tune->add_option("--estimator", options.estimator,
                    "Change this estimator instead: its place, or its kind, e.g. gradient")
       ->type_name("PLACE")
       ->excludes(controller);
-  tune->add_option(
-          "--from", options.from,
-          "Start from the values in_use, configured (the way back), stored, or prepared before")
+  tune->add_option("--from", options.from,
+                   "Start from the values in_use, configured (to go back), stored or prepared")
       ->check(CLI::IsMember({"in_use", "configured", "stored", "prepared"}))
       ->capture_default_str();
   tune->add_flag("--prepare", options.only_prepare,
@@ -179,7 +175,8 @@ void add_tune(CLI::App& app, TuneOptions& options) {
   CLI::Option* store = tune->add_flag(
       "--store", options.store,
       "Keep what is in use, and which controller and estimator are chosen, for the next start");
-  tune->add_flag("--clear", options.clear, "Forget what is kept: the next start is as configured")
+  tune->add_flag("--clear", options.clear,
+                 "Forget what was stored: the next start uses the configuration")
       ->excludes(store);
   CLI::Option* socket = tune->add_option("--socket", options.socket, "Where supercoild listens")
                             ->capture_default_str();
@@ -192,11 +189,11 @@ void add_tune(CLI::App& app, TuneOptions& options) {
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {
-  CLI::App* doctor = app.add_subcommand(
-      "doctor",
-      "Check the board on which this runs before anything is heated: kernel, rights, lines, "
-      "PWM, converters, watchdog. Heats nothing, except with --compare-senses; opens devices only "
-      "while no supercoild runs");
+  CLI::App* doctor =
+      app.add_subcommand("doctor",
+                         "Check this board before anything is heated: kernel, rights, lines, PWM, "
+                         "converters, watchdog. Heats nothing, except with --compare-senses; opens "
+                         "devices only if supercoild is not running");
   doctor->add_option("--config", options.config, "The board's configuration")
       ->type_name("FILE")
       ->capture_default_str();
@@ -251,10 +248,8 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
   CLI::Option* read_only =
       monitor->add_flag("--read-only", options.read_only, "Refuse all commands");
   CLI::Option* text =
-      monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
-  monitor
-      ->add_option("--keep", options.keep_s,
-                   "History in seconds that a page opened later still shows")
+      monitor->add_flag("--text", options.text, "Show the values on this terminal; serve no page");
+  monitor->add_option("--keep", options.keep_s, "History in seconds that a newly opened page shows")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   monitor
@@ -265,7 +260,7 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
   CLI::Option* setup =
       monitor
           ->add_option("--setup", options.setup,
-                       "The page leads through the setup of this board's file, as supercoil setup")
+                       "Offer the steps of supercoil setup on the page, for this board's file")
           ->type_name("FILE")
           ->check(CLI::ExistingFile)
           ->excludes(read_only)

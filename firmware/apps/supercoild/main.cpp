@@ -42,7 +42,8 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
 int run_program(int count, char** arguments) {
   CLI::App app{
       "The firmware of a board that drives super-coiled polymer muscles.\n"
-      "Drives the board until SIGTERM, SIGINT or SIGHUP, which cool first. It starts disarmed.",
+      "Drives the board until SIGTERM, SIGINT or SIGHUP, then cools the muscles and ends. It "
+      "starts disarmed.",
       "supercoild"};
   app.set_version_flag("--version", std::string(program_version()));
   std::string file;
@@ -64,8 +65,7 @@ int run_program(int count, char** arguments) {
                  "Priority of the loop in SCHED_FIFO; 0 runs without real time")
       ->check(CLI::Range(0, 99))
       ->capture_default_str();
-  app.add_option("--cpu", options.cpu, "The loop's own CPU; any if not given")
-      ->check(CLI::Range(0, 1023));
+  app.add_option("--cpu", options.cpu, "The loop's own CPU [any]")->check(CLI::Range(0, 1023));
   daemon::LatencyOptions latency;
   bool measures = false;
   add_latency(app, latency, measures);

@@ -6,7 +6,7 @@ complete -c supercoild -n true -l off -d 'Set every line low and every duty to 0
 complete -c supercoild -n true -l config -r -F -d 'The board'\''s configuration'
 complete -c supercoild -n true -l run-folder -r -F -d 'Where the lock and the socket for local commands are'
 complete -c supercoild -n true -l priority -x -d 'Priority of the loop in SCHED_FIFO; 0 runs without real time'
-complete -c supercoild -n true -l cpu -x -d 'The loop'\''s own CPU; any if not given'
+complete -c supercoild -n true -l cpu -x -d 'The loop'\''s own CPU [any]'
 complete -c supercoild -n true -l latency -d 'Measure how late the loop wakes and how long its ticks take, without opening any device, and end'
 complete -c supercoild -n true -l json -d 'With --check or --latency'
 complete -c supercoild -n true -l rate -x -d 'Loop rate in Hz of one channel, without --config'

@@ -21,8 +21,8 @@ void add_column(CLI::App& identify, const std::string& quantity, identification:
 void add_identify(CLI::App& app, IdentifyOptions& o) {
   CLI::App* identify = app.add_subcommand(
       "identify",
-      "Fit a recording of position and power: which muscle it is, how well each model predicts "
-      "what it has not seen, and a [muscle] table");
+      "Fit a recording of position and power: print the muscle's parameters, how well each model "
+      "predicts what it was not fitted to, and a [muscle] table");
   identify
       ->add_option("FILE", o.file,
                    "CSV with a line of names; trace.csv of supercoil-sim; a flight recording")
@@ -31,9 +31,8 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
   add_column(*identify, "position", o.columns.position, "m, cm, mm or um [by the name, else m]");
   identify
       ->add_option("--position-scale", o.columns.position.scale,
-                   "Factor on the position; −1 where the sensor counts the other way: position "
-                   "grows when the "
-                   "muscle is heated")
+                   "Factor on the position, which must grow when the muscle is heated: −1 if the "
+                   "sensor counts the other way")
       ->capture_default_str();
   add_column(*identify, "power", o.columns.power, "W or mW [by the name, else W]");
   identify
@@ -49,11 +48,12 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
   identify->add_option("--to", o.to_s, "Use nothing after this time in s [the last]");
   identify
       ->add_option("--fit", o.fit,
-                   "FROM:TO in s: fit to this [until the last heating from rest; without two of "
-                   "them, the first two thirds]")
+                   "Fit to this span, FROM:TO in s [up to the last heating from rest; if there are "
+                   "not two, the first two thirds]")
       ->type_name("SPAN");
   identify
-      ->add_option("--judge", o.judge, "FROM:TO in s: judge by this [what is not fitted after it]")
+      ->add_option("--judge", o.judge,
+                   "Judge by this span, FROM:TO in s [all that follows the fitted one]")
       ->type_name("SPAN");
   identify->add_flag("--bridge-gaps", o.bridge_gaps,
                      "Where rows are missing, take the power as unchanged");

@@ -160,14 +160,13 @@ int undo_command(const SetupOptions& options) {
 void add_setup(CLI::App& app, SetupOptions& o) {
   CLI::App* setup = app.add_subcommand(
       "setup",
-      "From a muscle of your own to one that follows, step by step: describe it in a bench's "
-      "units, compare its senses, calibrate, find limits, identify, choose gains, move. "
-      "What is done is remembered beside the board's file");
+      "Set up a muscle of your own, step by step, until it follows: describe it in a bench's "
+      "units, compare its senses, calibrate, find limits, identify, choose gains, move. What has "
+      "been done is remembered beside the board's file");
   setup
-      ->add_option(
-          "STEP", o.steps,
-          "describe, doctor, senses, calibrate, scale, limits, identify, gains or move, also again "
-          "[all that are not done]")
+      ->add_option("STEP", o.steps,
+                   "describe, doctor, senses, calibrate, scale, limits, identify, gains or move; a "
+                   "step may be repeated [all that have not been done]")
       ->check(CLI::Validator(
           [](const std::string& given) {
             const auto names = step_names();
@@ -176,7 +175,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
                        : given + ": " + meant_or_all(given, names, "the steps are");
           },
           ""));
-  setup->add_option("--config", o.config, "The board's configuration, which is completed")
+  setup->add_option("--config", o.config, "The board's configuration, which setup completes")
       ->type_name("FILE")
       ->capture_default_str();
   setup->add_option("--channel", o.channel, "Channel of that file, from 1")
@@ -194,10 +193,10 @@ void add_setup(CLI::App& app, SetupOptions& o) {
                    "The board is on this bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
       ->excludes(socket);
-  CLI::Option* undo = setup->add_flag("--undo", o.undo,
-                                      "Put the file back as it was before setup's last change, and "
-                                      "forget the step that made it and "
-                                      "those behind it; the file as it is now is kept beside it");
+  CLI::Option* undo =
+      setup->add_flag("--undo", o.undo,
+                      "Put the file back as it was before setup's last change, and forget the step "
+                      "that made it and all later ones; the present file is kept beside it");
   setup->add_flag("--force", o.force, "Undo even what was changed after setup wrote the file")
       ->needs(undo);
   setup->add_flag("--json", o.json, "Print what was found as one JSON object");

@@ -249,7 +249,7 @@ class Campaign(Batch, ProgramCase):
         said = self.campaign("--list", study=None).stdout
         for name in ("follows", "identify", "promise", "temperature", "hottest_C", "steady_rms_m"):
             self.assertIn(name, said)
-        self.assertIn("which study? A file, or a name of --list", self.campaign(study=None, status=2).stderr)
+        self.assertIn("which study? A file, or a name from --list", self.campaign(study=None, status=2).stderr)
 
 
 if __name__ == "__main__":

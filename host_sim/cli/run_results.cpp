@@ -61,8 +61,8 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
 /// What had been promised of it.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
-  std::printf("promised were %.1f um rms%s%s\n", json["promised_rms_m"].get<double>() * 1e6,
-              json["promised_by"] == "own" ? "" : " of the recommended controller",
+  std::printf("promised: %.1f um rms%s%s\n", json["promised_rms_m"].get<double>() * 1e6,
+              json["promised_by"] == "own" ? "" : " by the recommended controller",
               json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup");
 }
 

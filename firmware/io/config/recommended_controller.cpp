@@ -132,11 +132,11 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   suits.pole_rad_per_s = quickest_pole_rad_per_s(muscle, suits.bandwidth_rad_per_s);
   suits.model_reason =
       suits.pole_rad_per_s < suits.bandwidth_rad_per_s
-          ? "just so quick that a step by a quarter of the travel from its middle, up or down, "
-            "needs no shaping: the muscle falls from 90 to 10 % in " +
+          ? "as fast as a step of a quarter of the travel, up or down from the middle, allows "
+            "without shaping: the muscle falls from 90 to 10 % in " +
                 number_text(tau_s * std::log(9.0), 3) + " s by itself"
-          : "no quicker than the feedback: the muscle, which falls from 90 to 10 % in " +
-                number_text(tau_s * std::log(9.0), 3) + " s by itself, would be";
+          : "no faster than the feedback: the muscle, which falls from 90 to 10 % in " +
+                number_text(tau_s * std::log(9.0), 3) + " s by itself, would allow more";
   return suits;
 }
 

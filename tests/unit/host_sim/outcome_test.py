@@ -33,7 +33,7 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(FOLLOWS)
         self.assertEqual((done.returncode, summary["did_not_follow_because"], summary["promised_by"]), (0, None, "own"), done.stderr)
         self.assertEqual(summary["promised_rms_m"], before["reference"]["promised_rms_m"])
-        self.assertIn(f"promised were {1e6 * summary['promised_rms_m']:.1f} um rms\n", done.stdout)
+        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms\n", done.stdout)
 
     def test_a_reference_that_the_board_refuses_is_told_beforehand(self):
         beyond = SHORT + "reference = {kind = 'sine', offset_m = 0.02, amplitude_m = 0.015}\n"

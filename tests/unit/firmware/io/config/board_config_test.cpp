@@ -325,7 +325,7 @@ TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
   const std::string model =
       "reference_model = { kind = \"poles\", poles_rad_per_s = [3.276, 3.276, 3.276] }";
   check_says(describe(c), "\n  recommended " + law + ": follows closest");
-  check_says(describe(c), "\n              " + model + ": just so quick");
+  check_says(describe(c), "\n              " + model + ": as fast as a step of");
   channel.controllers.push_back(
       recommended_controller(channel.muscle).in_place_of(channel.controllers[0]));
   check_says(describe(c), "\n  recommended controller 1, as it is: it follows closest");

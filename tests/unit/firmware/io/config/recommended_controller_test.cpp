@@ -80,7 +80,7 @@ TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferen
   // No quicker than the feedback, however quick the muscle.
   muscle.thermal_mass_J_per_K /= 100.0;
   DOUBLES_EQUAL(8.0, recommended_controller(muscle).pole_rad_per_s, 0.0);
-  STRCMP_CONTAINS("no quicker than the feedback",
+  STRCMP_CONTAINS("no faster than the feedback",
                   recommended_controller(muscle).model_reason.c_str());
 }
 

@@ -12,6 +12,7 @@ complete -c supercoil -n '__fish_seen_subcommand_from log' -l summary -d 'Say wh
 complete -c supercoil -n '__fish_seen_subcommand_from log' -l mcap -d 'Write MCAP instead of CSV'
 complete -c supercoil -n '__fish_seen_subcommand_from log' -l node -x -d 'Only this node of a CAN log [all]'
 complete -c supercoil -n '__fish_seen_subcommand_from log' -l message -r -F -d 'Only this message of a CAN log, a column for each signal [a row for each value]'
+complete -c supercoil -n '__fish_seen_subcommand_from log' -l json -d 'With --summary'
 complete -c supercoil -n __fish_use_subcommand -f -a command -d 'Give one command to this board or to one on a CAN bus, or print its state'
 complete -c supercoil -n '__fish_seen_subcommand_from command' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil -n '__fish_seen_subcommand_from command' -l for -x -d 'Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, it expires'

@@ -68,7 +68,6 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
   return place;
 }
 
-/// Against a spring its muscle's travel is a limit of its channel, as of a muscle alone.
 void JointReader::read(Read& joint, std::size_t channels) {
   Section& section = joint.section;
   const auto opposed_by = read_opposed_by(section);
@@ -80,8 +79,9 @@ void JointReader::read(Read& joint, std::size_t channels) {
       has_antagonist ? read_place(section, "antagonist", channels) : std::nullopt;
   joint.lever = read_lever(section, lever_range_m, std::nullopt);
   if (against_spring) {
+    joint.travel = read_joint_travel(section, joint.lever, std::nullopt);
     if (agonist && *agonist < channels) joint.turned_by = agonist;
-    is_wrong_ = is_wrong_ || !joint.turned_by;
+    is_wrong_ = is_wrong_ || !joint.turned_by || (section.has("range_deg") && !joint.travel);
     return;
   }
   const double ratio = read_antagonist_lever_ratio(section, joint.lever);
@@ -113,7 +113,9 @@ PlaceInJoint JointReader::place_of(std::size_t channel) const {
 
 std::optional<double> JointReader::max_travel_m(std::size_t channel) const {
   for (const Read& joint : joints_) {
-    if (!joint.pair || !joint.travel) continue;
+    if (!joint.travel) continue;
+    if (joint.turned_by == channel) return joint.travel->agonist_m;
+    if (!joint.pair) continue;
     if (joint.pair->agonist == channel) return joint.travel->agonist_m;
     if (joint.pair->antagonist == channel) return joint.travel->antagonist_m;
   }

@@ -53,14 +53,18 @@ double metres_per_degree(const control::Lever& lever) {
 }
 
 std::optional<JointTravel> read_joint_travel(Section& section, const control::Lever& agonist,
-                                             const control::Lever& antagonist) {
+                                             const std::optional<control::Lever>& antagonist) {
   constexpr const char* key = "range_deg";
   const auto range_deg = section.numbers(key, {}, {-max_angle_deg, max_angle_deg}, 2, 2);
   if (range_deg.empty()) return std::nullopt;
-  const JointTravel travel{agonist.arc_m(rad_per_deg * range_deg[1]),
-                           -antagonist.arc_m(rad_per_deg * range_deg[0])};
-  if (std::min(travel.agonist_m, travel.antagonist_m) >= limits_of_travel_m.lowest) return travel;
-  section.wrong(key, "must be two angles, the first below 0 and the second above it");
+  JointTravel travel{agonist.arc_m(rad_per_deg * range_deg[1]), 0.0};
+  if (antagonist) travel.antagonist_m = -antagonist->arc_m(rad_per_deg * range_deg[0]);
+  const bool turns_back =
+      antagonist ? travel.antagonist_m >= limits_of_travel_m.lowest : range_deg[0] == 0.0;
+  if (turns_back && travel.agonist_m >= limits_of_travel_m.lowest) return travel;
+  section.wrong(key, antagonist ? "must be two angles, the first below 0 and the second above it"
+                                : "must be two angles, the first 0, where the one muscle is cold, "
+                                  "and the second above it");
   return std::nullopt;
 }
 

@@ -27,10 +27,11 @@ double metres_per_degree(const control::Lever& lever);
 /// How far each muscle may contract, arcs at its lever.
 struct JointTravel {
   double agonist_m;
-  double antagonist_m;
+  double antagonist_m;  ///< 0: there is none
 };
-/// Key range_deg: how far the joint may turn back and forth. Empty: it is absent, or wrong.
+/// Key range_deg: how far the joint may turn back and forth. antagonist: empty, no muscle draws it
+/// back beyond 0. Empty: it is absent, or wrong.
 std::optional<JointTravel> read_joint_travel(Section& section, const control::Lever& agonist,
-                                             const control::Lever& antagonist);
+                                             const std::optional<control::Lever>& antagonist);
 
 }  // namespace supercoil::config

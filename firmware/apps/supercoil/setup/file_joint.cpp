@@ -22,9 +22,10 @@ FileJoint read_joint(const toml::table& table, std::size_t place, bool agonist) 
   config::Diagnostics told_elsewhere("");
   config::Section section(&table, "joint", told_elsewhere);
   const control::Lever lever = config::read_lever(section, config::lever_range_m, std::nullopt);
-  const control::Lever antagonist =
-      lever.scaled(config::read_antagonist_lever_ratio(section, lever));
-  FileJoint joint{place, agonist, agonist ? lever : antagonist, std::nullopt};
+  std::optional<control::Lever> antagonist;
+  if (table.contains("antagonist"))
+    antagonist = lever.scaled(config::read_antagonist_lever_ratio(section, lever));
+  FileJoint joint{place, agonist, agonist ? lever : antagonist.value(), std::nullopt};
   const auto first = table[range_key][0].value<double>();
   const auto last = table[range_key][1].value<double>();
   if (first && last && config::read_joint_travel(section, lever, antagonist))

@@ -41,6 +41,13 @@ TEST(FileJoint, OfARangeItsMusclesSideBecomesSmallerAndNeverLarger) {
   STRCMP_EQUAL("", travel(by_range, 1, 0.008).c_str());
 }
 
+TEST(FileJoint, OfOneMuscleTheRangeKeepsItsBeginning) {
+  const std::string finger =
+      "[[joint]]\nopposed_by = \"spring\"\nagonist = 1\nlever_m = 0.015\nrange_deg = [0, 30]\n";
+  STRCMP_EQUAL("joint.range_deg = [0, 19.09]", travel(finger, 1, 0.005).c_str());
+  STRCMP_EQUAL("", travel(finger, 1, 0.008).c_str());
+}
+
 TEST(FileJoint, IsFoundWithItsLeverByEitherOfItsMuscles) {
   CHECK_FALSE(joint_in_file(alone, 1).has_value());
   CHECK_FALSE(joint_in_file(by_range, 3).has_value());

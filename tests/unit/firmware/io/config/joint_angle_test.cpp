@@ -113,6 +113,23 @@ TEST(JointInDegrees, ARangeThatCannotBeIsNamedAlone) {
       ranged("[-20, 170]"));
 }
 
+TEST(JointInDegrees, OfOneMuscleTheRangeBeginsWhereThatIsCold) {
+  const std::string finger = small_board_with("max_travel_m = 0.025\n", "") +
+                             "[[joint]]\nopposed_by = 'spring'\nagonist = 1\nlever_m = 0.015\n";
+  DOUBLES_EQUAL(40.0 * degree_m, travel_m(read_in_degrees(ranged("[0, 40]", finger)), 0), 1e-12);
+  for (const char* wrong : {"[-20, 40]", "[5, 40]", "[0, 0]"}) {
+    check_only_problem("45: joint[1].range_deg = " + std::string(wrong) +
+                           ": must be two angles, the first 0, where the one muscle is cold, and "
+                           "the second above it",
+                       ranged(wrong, finger));
+  }
+  check_only_problem(
+      "41: channel[1].limits.max_travel_m = 0.025: contradicts its joint's range_deg, by which it "
+      "is 0.010472: leave one of them out",
+      ranged("[0, 40]", supercoil::test::small_board + finger.substr(finger.find("[[joint]]"))));
+  STRCMP_CONTAINS("channel[1].limits.max_travel_m: is missing", problems_of(finger).c_str());
+}
+
 TEST(JointInDegrees, ItsSensorMayBeDescribedByAngles) {
   const BoardConfig c = read_in_degrees(in_deg);
   const ChannelSettings& agonist = c.settings.channels[0];

@@ -8,6 +8,7 @@
 #include "supercoil/control/tracking/reference_shaper.hpp"
 
 #include "board/known_heat.hpp"
+#include "loop/hanging_arm.hpp"
 
 namespace supercoil {
 
@@ -54,12 +55,23 @@ void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibilit
   f.held_by = held.by;
 }
 
+/// How far this much power holds it for good.
+double held_travel_m(const ChannelSettings& c, double power_W) {
+  const double max_m = c.supervision.max_travel_m;
+  if (c.joint.weighs()) return HangingArm(c.joint, c.muscle).held_m(power_W, max_m);
+  return std::min(max_m, c.muscle.dc_gain_m_per_W() * power_W);
+}
+
+double holding_power_W(const ChannelSettings& c, double position_m) {
+  if (c.joint.weighs()) return HangingArm(c.joint, c.muscle).power_W(position_m);
+  return position_m / c.muscle.dc_gain_m_per_W();
+}
+
 /// Rise and fall are the heat's: the spring and the load follow it.
 void find_motion(const ChannelSettings& c, Feasibility& f) {
   const double tau_s = -1.0 / c.muscle.thermal_pole_rad_per_s();
-  const double gain_m_per_W = c.muscle.dc_gain_m_per_W();
-  f.travel_m = std::min(c.supervision.max_travel_m, gain_m_per_W * f.held_W);
-  const double travel_ratio = f.travel_m / (gain_m_per_W * f.max_W);  // to where max_W would lead
+  f.travel_m = held_travel_m(c, f.held_W);
+  const double travel_ratio = holding_power_W(c, f.travel_m) / f.max_W;  // of what max_W leads to
   f.rise_s = tau_s * std::log((1.0 - 0.1 * travel_ratio) / (1.0 - 0.9 * travel_ratio));
   f.fall_s = tau_s * std::log(9.0);
   // P = (x + τẋ)/gain must not fall below 0: an amplitude of half the mean leaves (ωτ)² = 3. Above,
@@ -72,9 +84,8 @@ double cold_travel_m(const ChannelSettings& c, const BoardSettings& board, const
   const board::AirSettings& air = c.thermal.air;
   double warmest_C = air.warmest_C;
   if (air.error_K > 0.0) warmest_C = std::min(warmest_C, air.coldest_C + 2.0 * air.error_K);
-  const double held_m =
-      c.muscle.dc_gain_m_per_W() * held_in(c, board, f.max_W, warmest_C).power_W - f.air_shift_m;
-  return std::clamp(held_m, 0.0, c.supervision.max_travel_m);
+  const double air_W = c.muscle.heat_transfer_W_per_K * (air.warmest_C - air.coldest_C);
+  return std::max(0.0, held_travel_m(c, held_in(c, board, f.max_W, warmest_C).power_W - air_W));
 }
 
 void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {

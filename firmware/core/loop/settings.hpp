@@ -48,13 +48,17 @@ struct PlaceInJoint {
   int direction =
       0;  ///< the joint turns with the position (1) or against it (-1); 0: there is none
   control::Lever lever{};
-  /// From this one: 1 is the next. NaN: none but a spring turns the joint as well.
+  /// From this one: 1 is the next. NaN: none but a spring or a weight turns the joint as well.
   double other_channel_offset = NAN;
   double pretension_N = NAN;     ///< its pull, cold and at the angle 0; NaN: not known
   double stiffness_ratio = 0.5;  ///< its own share of the stiffness that its muscle describes
+  double weight_Nm = 0.0;     ///< of an arm that alone draws it back, when level; 0: another does
+  double hangs_at_rad = 0.0;  ///< that arm would, without the muscle; at most 0
 
   bool turns() const { return direction != 0; }
   bool has_other() const { return std::isfinite(other_channel_offset); }
+
+  bool weighs() const { return weight_Nm > 0.0; }
 
   bool knows_pull() const { return std::isfinite(pretension_N); }
   /// What is left of the cold muscle's pull where it has contracted so far; < 0: it is slack.

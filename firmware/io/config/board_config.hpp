@@ -21,7 +21,7 @@ enum class Preset { nylon, skin };
 /// What describes a channel and the loop does not need.
 struct ChannelLabel {
   std::string name;
-  std::string joint;  ///< its name, of one that a spring draws back; may be empty
+  std::string joint;  ///< its name, of one that it turns alone; may be empty
   Preset preset = Preset::nylon;
   bool position_in_deg = false;  ///< its sensor, of a joint's angle, is configured in degrees
   std::optional<double>

@@ -20,8 +20,10 @@ std::string describe_channel(const BoardConfig& config, std::size_t index);
 std::string describe_joint(const BoardConfig& config, std::size_t index);
 /// index: of BoardSettings::bundles.
 std::string describe_bundle(const BoardConfig& config, std::size_t index);
-/// One line, of a channel whose joint a spring draws back.
+/// One line, of a channel whose joint a spring or a weight draws back.
 std::string describe_turned(const BoardConfig& config, std::size_t channel);
+/// One line, where it is a weight: what holding it takes, by the angle.
+std::string describe_weight(const ChannelSettings& channel);
 /// By how much all parameters may be off at once; NaN: the controller works in open loop.
 double tolerated_ratio(const control::ControllerSettings& controller,
                        const ChannelSettings& channel, double step_s);
@@ -57,6 +59,8 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
+/// Likewise, where its muscle lifts an arm.
+void advise_weight(const ChannelSettings& channel, std::vector<std::string>& lines);
 /// Likewise, so that a joint's muscles last. index: of BoardSettings::joints.
 std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t index);
 /// The same of every channel, each line with the channels that share it, and of every joint.

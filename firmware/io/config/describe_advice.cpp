@@ -104,6 +104,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   advise_probe(c, board.step_s(), lines);
   if (c.bundle.follows()) return lines;
   advise_travel(c, f, lines);
+  advise_weight(c, lines);
   if (is_led(c)) return lines;
   advise_noise(c, board.step_s(), lines);
   for (std::size_t i = 0; i < f.steps.size(); ++i) {

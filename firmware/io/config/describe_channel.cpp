@@ -182,6 +182,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   describe_limits(out, c, config.settings, label);
   if (c.joint.turns() && !c.joint.has_other())
     out << "  joint       " << describe_turned(config, index) << "\n";
+  if (c.joint.weighs()) out << "              " << describe_weight(c) << "\n";
   if (is_led(c)) {
     const double offset =
         c.bundle.follows() ? c.bundle.leader_offset : c.joint.other_channel_offset;

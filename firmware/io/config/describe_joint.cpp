@@ -175,10 +175,14 @@ std::string describe_turned(const BoardConfig& config, std::size_t channel) {
   const ChannelSettings& c = config.settings.channels[channel];
   const control::Lever& lever = c.joint.lever;
   const std::string& joint = config.labels[channel].joint;
-  return (joint.empty() ? "turned" : joint + ", turned") + " against a spring; lever of " +
+  return (joint.empty() ? "turned" : joint + ", turned") +
+         (c.joint.weighs() ? " against gravity" : " against a spring") + "; lever of " +
          radius(lever) + "; held for good up to " +
          arc(feasibility(c, config.settings).travel_m, lever) + "; " +
-         turning_stiffness(c.muscle.stiffness_N_per_m, lever);
+         (c.joint.weighs() ? turning_stiffness(c.muscle.stiffness_N_per_m,
+                                               control::Lever(lever.zero_radius_m())) +
+                                 " at 0°"
+                           : turning_stiffness(c.muscle.stiffness_N_per_m, lever));
 }
 
 std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t index) {

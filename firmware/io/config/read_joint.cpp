@@ -9,11 +9,12 @@ namespace supercoil::config {
 
 namespace {
 
-enum class OpposedBy { muscle, spring };
-constexpr control::Names<OpposedBy, 2> opposed_by_names{
-    {{"muscle", OpposedBy::muscle}, {"spring", OpposedBy::spring}}};
+enum class OpposedBy { muscle, spring, gravity };
+constexpr control::Names<OpposedBy, 3> opposed_by_names{{{"muscle", OpposedBy::muscle},
+                                                         {"spring", OpposedBy::spring},
+                                                         {"gravity", OpposedBy::gravity}}};
 
-/// Empty: it is neither, which has been said.
+/// Empty: it is none of them, which has been said.
 std::optional<OpposedBy> read_opposed_by(Section& section) {
   constexpr const char* key = "opposed_by";
   const OpposedBy read = section.choice(key, OpposedBy::muscle, opposed_by_names);
@@ -71,14 +72,16 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
 void JointReader::read(Read& joint, std::size_t channels) {
   Section& section = joint.section;
   const auto opposed_by = read_opposed_by(section);
-  const bool against_spring = opposed_by == OpposedBy::spring;
+  const bool is_alone = opposed_by && opposed_by != OpposedBy::muscle;
   const auto agonist = read_place(section, "agonist", channels);
   // What is opposed by who knows what may have one or not.
-  const bool has_antagonist = opposed_by ? !against_spring : section.has("antagonist");
+  const bool has_antagonist = opposed_by ? !is_alone : section.has("antagonist");
   const auto antagonist =
       has_antagonist ? read_place(section, "antagonist", channels) : std::nullopt;
   joint.lever = read_lever(section, lever_range_m, std::nullopt);
-  if (against_spring) {
+  if (is_alone) {
+    joint.alone = {.direction = 1, .lever = joint.lever};
+    if (opposed_by == OpposedBy::gravity) read_weight(section, joint.alone);
     joint.travel = read_joint_travel(section, joint.lever, std::nullopt);
     if (agonist && *agonist < channels) joint.turned_by = agonist;
     is_wrong_ = is_wrong_ || !joint.turned_by || (section.has("range_deg") && !joint.travel);
@@ -104,7 +107,7 @@ std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
 
 PlaceInJoint JointReader::place_of(std::size_t channel) const {
   for (const Read& joint : joints_) {
-    if (joint.turned_by == channel) return {1, joint.lever, NAN};
+    if (joint.turned_by == channel) return joint.alone;
     const PlaceInJoint place = joint.pair ? joint.pair->place_of(channel) : PlaceInJoint();
     if (place.turns()) return place;
   }
@@ -128,6 +131,7 @@ void JointReader::finish(BoardConfig& config) {
     Section& section = joint.section;
     if (joint.turned_by) {
       config.labels[*joint.turned_by].joint = section.text("name", "");
+      refuse_weight(section, config.settings.channels[*joint.turned_by], *joint.turned_by + 1);
       section.finish();
       continue;
     }

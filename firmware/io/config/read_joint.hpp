@@ -17,6 +17,12 @@ namespace supercoil::config {
 void read_pull(Section& section, const BoardSettings& board, JointSettings& joint,
                JointLabel& label);
 
+/// weight_Nm and hangs_at_deg.
+void read_weight(Section& section, PlaceInJoint& joint);
+/// An arm that nothing draws back, or whose muscle's description leaves the weight out. number: of
+/// the channel, from 1.
+void refuse_weight(Section& section, const ChannelSettings& channel, std::size_t number);
+
 /// Read in two steps: which channels a joint has must be known before they are read, and what their
 /// muscles may have only afterwards.
 class JointReader {
@@ -38,9 +44,10 @@ class JointReader {
  private:
   struct Read {
     Section section;
-    std::optional<JointSettings> pair{};     ///< empty: a spring opposes its muscle, or it is wrong
+    std::optional<JointSettings> pair{};     ///< empty: one muscle turns it, or it is wrong
     std::optional<JointTravel> travel{};     ///< empty: by the limits of its channels
-    std::optional<std::size_t> turned_by{};  ///< the channel that turns it against a spring
+    std::optional<std::size_t> turned_by{};  ///< the channel that turns it alone
+    PlaceInJoint alone{};                    ///< of that channel
     control::Lever lever{};
   };
   void read(Read& joint, std::size_t channels);

@@ -11,6 +11,9 @@ namespace supercoil::config {
 
 /// Of a real joint's lever.
 inline constexpr Range lever_range_m{1e-4, 1.0};
+/// Of an arm's weight_Nm, and hangs_at_deg.
+inline constexpr Range weight_range_Nm{1e-6, 100.0};
+inline constexpr Range hangs_at_range_deg{-179.0, 0.0};
 /// Of limits.max_travel_m.
 inline constexpr Range limits_of_travel_m{1e-5, 10.0};
 

@@ -72,7 +72,7 @@ TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   check_answer("joint[1].antagonist = 2: is not a key of",
                small_board + spring + "antagonist = 2\n");
   check_answer("is not a key of [joint[1]]", small_board + spring + "co_contraction_W = 0.5\n");
-  check_answer("joint[1].opposed_by = 'rope': must be one of: muscle, spring",
+  check_answer("joint[1].opposed_by = 'rope': must be one of: muscle, spring, gravity",
                small_board + replaced(spring, "spring'", "rope'"));
   // Who knows whether it has an antagonist.
   CHECK(problems_of(small_board + replaced(spring, "spring'", "rope'")).find("antagonist") ==

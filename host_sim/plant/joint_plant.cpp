@@ -90,7 +90,7 @@ JointPlant::Leverage JointPlant::leverage(double reading_m) const {
 
 double JointPlant::weight_N(double reading_m) const {
   if (settings_.weight_Nm == 0.0) return 0.0;
-  return settings_.weight_Nm / radius_m_ * std::sin(reading_m / radius_m_);
+  return settings_.weight_Nm / radius_m_ * std::sin(reading_m / radius_m_ - settings_.hangs_at_rad);
 }
 
 void JointPlant::pull(const Drives& drives, double reading_m) {
@@ -104,7 +104,7 @@ void JointPlant::pull(const Drives& drives, double reading_m) {
 void JointPlant::move(Drives drives, double load_N) {
   const double lever2 = radius_m_ * radius_m_;
   const double spring_N_per_m = settings_.spring_Nm_per_rad / lever2;
-  const bool alone = !settings_.antagonist;
+  const bool pretensioned = !settings_.antagonist && settings_.spring_pretensions;
   const double min_m = settings_.min_angle_rad * radius_m_;
   const double max_m = settings_.max_angle_rad * radius_m_;
   Drives step{};
@@ -115,7 +115,7 @@ void JointPlant::move(Drives drives, double load_N) {
   Motion motion = motion_;
   for (int n = 0; n < settings_.substeps; ++n) {
     // A spring alone holds the cold muscle's pretension.
-    const double beside_N = -load_N - (alone ? settings_.pretension_N : 0.0);
+    const double beside_N = -load_N - (pretensioned ? settings_.pretension_N : 0.0);
     const double then_m = motion.position_m + mechanics_[0].step_s() * motion.velocity_m_per_s;
     Drive sum{spring_N_per_m, spring_N_per_m, beside_N - weight_N(motion.position_m),
               beside_N - weight_N(then_m)};

@@ -1,4 +1,4 @@
-// A joint that two muscles pull, or one against a spring.
+// A joint that two muscles pull, or one against a spring or a weight.
 #pragma once
 
 #include <array>
@@ -27,25 +27,27 @@ struct JointMuscle {
 /// as much of a moment; the agonist turns the joint towards positive angles.
 struct JointPlantSettings {
   JointMuscle agonist;
-  std::optional<JointMuscle> antagonist;  ///< otherwise the spring opposes alone
+  std::optional<JointMuscle> antagonist;  ///< otherwise spring and weight oppose alone
   control::Lever lever;                   ///< of the agonist
   double antagonist_lever_ratio = 1.0;    ///< of its lever to the agonist's, at every angle
   double inertia_kg_m2 = 2e-5;
   double damping_Nms_per_rad = 0.0;  ///< beside the muscles'
   double spring_Nm_per_rad = 0.0;    ///< towards the angle 0, beside the muscles
-  double pretension_N = 0.883;       ///< of the agonist; against a spring, the spring's as well
+  double pretension_N = 0.883;       ///< of the agonist
+  bool spring_pretensions = true;    ///< without an antagonist it is the spring's as well
   double friction_ratio = 0.0;       ///< Coulomb friction at the lever over the pretension
-  double weight_Nm = 0.0;            ///< of what hangs down at the angle 0, when it is level
+  double weight_Nm = 0.0;            ///< of an arm, when it is level
+  double hangs_at_rad = 0.0;         ///< where that would hang by itself
   double min_angle_rad = -1.5;       ///< end stops
   double max_angle_rad = 1.5;
   int substeps = 4;  ///< of the mechanics, in each step of heat
 };
 
-/// (I/r²) ẍ = ρ (T₁ − q T₂) − c ẋ − k x − (w sin α + load)/r with x = rα, r the lever at the angle
-/// 0, ρ the lever at α over it and q the antagonist's lever over the agonist's; T ≥ 0 are the
-/// muscles' tensions at the contractions ∫ρ dx and −q ∫ρ dx. Steps as NonlinearPlant's. Which
-/// muscles are taut is asked at the beginning of each step of the mechanics, their lever there and
-/// at its expected end.
+/// (I/r²) ẍ = ρ (T₁ − q T₂) − c ẋ − k x − (w sin(α − α₀) + load)/r with x = rα, r the lever
+/// at the angle 0, ρ the lever at α over it, α₀ where the arm hangs and q the antagonist's lever
+/// over the agonist's; T ≥ 0 are the muscles' tensions at the contractions ∫ρ dx and −q ∫ρ dx.
+/// Steps as NonlinearPlant's. Which muscles are taut is asked at the beginning of each step of the
+/// mechanics, their lever there and at its expected end.
 class JointPlant {
  public:
   /// step_s > 0, the tick; settings as their comments say, with valid muscles.

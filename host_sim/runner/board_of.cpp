@@ -328,7 +328,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
       board.channels.push_back(companion_of(scenario, board.channels[0], i, simulated.channels[i]));
     add_bundle(board, {simulated.bundles[0]});
   } else if (c.joint) {
-    channel.joint = {1, c.joint->plant.lever};
+    channel.joint = turned_by_one(c.joint->plant);
   }
   // How far the muscles contract where the sensor reads that.
   for (ChannelSettings& each : board.channels) {

@@ -105,8 +105,9 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   if (c.antagonist() == nullptr && found == nullptr) {
     if (turned == nullptr || (c.joint && c.joint->plant.lever == *turned)) return std::nullopt;
     if (c.joint) return tl::unexpected(other_lever(c.joint->plant.lever, *turned));
-    why << "channel " << channel + 1 << " of the board's file turns a joint against a spring: the "
-        << "scenario needs a [joint] that is opposed_by \"spring\"";
+    const char* opposed_by = board.channels[channel].joint.weighs() ? "gravity" : "spring";
+    why << "channel " << channel + 1 << " of the board's file turns a joint by itself: the "
+        << "scenario needs a [joint] that is opposed_by \"" << opposed_by << "\"";
     return tl::unexpected(why.str());
   }
   if (c.antagonist() == nullptr) {

@@ -8,6 +8,7 @@
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
+#include "loop/settings.hpp"
 #include "plant/effects.hpp"
 #include "plant/joint_plant.hpp"
 #include "scenario/injected_faults.hpp"
@@ -35,12 +36,21 @@ struct AntagonistConditions {
   int pwm_steps = 0;  ///< 0: as [power] says of both
 };
 
-/// A joint that the muscle turns against another one, or against a spring.
+/// A joint that the muscle turns against another one, a spring or a weight.
 struct JointConditions {
   JointPlantSettings plant;                        ///< without its muscles
   double load_Nm = 0.0;                            ///< turns it towards negative angles
-  std::optional<AntagonistConditions> antagonist;  ///< empty: the spring opposes alone
+  std::optional<AntagonistConditions> antagonist;  ///< empty: spring or weight oppose alone
 };
+
+/// Of a joint without an antagonist, as a board that knows it has it.
+inline PlaceInJoint turned_by_one(const JointPlantSettings& joint) {
+  PlaceInJoint place{.direction = 1, .lever = joint.lever};
+  if (joint.spring_pretensions) return place;
+  place.weight_Nm = joint.weight_Nm;
+  place.hangs_at_rad = joint.hangs_at_rad;
+  return place;
+}
 
 struct PositionSensorSettings {
   double noise_rms_m = 10e-6;
@@ -134,7 +144,7 @@ struct Conditions {
   control::ControllerSettings controller;
   control::EstimatorSettings estimator;
 
-  /// Null where the muscle is alone or a spring opposes it.
+  /// Null where the muscle is alone, or a spring or a weight opposes it.
   const AntagonistConditions* antagonist() const {
     return joint && joint->antagonist ? &*joint->antagonist : nullptr;
   }

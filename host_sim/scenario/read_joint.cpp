@@ -1,11 +1,13 @@
-// [joint]: two muscles that turn one lever against each other, or one against a spring.
+// [joint]: two muscles that turn one lever against each other, or one against a spring or a weight.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
 #include "config/read_control.hpp"
 #include "config/read_lever.hpp"
+#include "loop/hanging_arm.hpp"
 #include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
@@ -20,9 +22,14 @@ constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double default_spring_Nm_per_rad = 0.0036;
 constexpr double min_spring_Nm_per_rad = 1e-6;
 
-enum class OpposedBy { muscle, spring };
-constexpr control::Names<OpposedBy, 2> opposed_by_names{
-    {{"muscle", OpposedBy::muscle}, {"spring", OpposedBy::spring}}};
+/// Where that opposes: about as stiff, at an arm that hangs half back, as the default spring.
+constexpr double default_weight_Nm = 0.005;
+constexpr double default_hangs_at_deg = -45.0;
+
+enum class OpposedBy { muscle, spring, gravity };
+constexpr control::Names<OpposedBy, 3> opposed_by_names{{{"muscle", OpposedBy::muscle},
+                                                         {"spring", OpposedBy::spring},
+                                                         {"gravity", OpposedBy::gravity}}};
 
 /// Of [plant], what has another name in a joint.
 struct RenamedInJoint {
@@ -34,10 +41,33 @@ constexpr std::array<RenamedInJoint, 4> renamed_in_joint{{{"load_N", "load_Nm"},
                                                           {"end_stop_m", "min_angle_deg"},
                                                           {"ceiling_m", "max_angle_deg"}}};
 
+/// An arm at rest stretches the cold muscle at the angle 0.
+void read_weight(Section& section, OpposedBy opposed_by, JointPlantSettings& p) {
+  constexpr const char* angle_key = "hangs_at_deg";
+  constexpr const char* pretension_key = "pretension_N";
+  if (opposed_by != OpposedBy::gravity) {
+    p.pretension_N = section.number(pretension_key, p.pretension_N, {0.0, 1e3});
+    p.weight_Nm = section.number("weight_Nm", 0.0, {-100.0, 100.0});
+    if (section.has(angle_key))
+      section.wrong(angle_key, "needs a joint that is opposed_by \"gravity\"");
+    section.allow({angle_key});
+    return;
+  }
+  p.weight_Nm = section.number("weight_Nm", default_weight_Nm, config::weight_range_Nm);
+  p.hangs_at_rad =
+      rad_per_deg * section.number(angle_key, default_hangs_at_deg, config::hangs_at_range_deg);
+  p.spring_pretensions = false;
+  p.pretension_N = p.weight_Nm * std::sin(-p.hangs_at_rad) / p.lever.zero_radius_m();
+  if (section.has(pretension_key))
+    section.wrong(pretension_key, "is what weight_Nm, hangs_at_deg and lever_m make it");
+  section.allow({pretension_key});
+}
+
 JointPlantSettings read_lever(Section& section) {
   JointPlantSettings p;
-  const bool pair =
-      section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::muscle;
+  const OpposedBy opposed_by = section.choice("opposed_by", OpposedBy::muscle, opposed_by_names);
+  const bool pair = opposed_by == OpposedBy::muscle;
+  const bool by_spring = opposed_by == OpposedBy::spring;
   if (pair) p.antagonist.emplace();
   p.lever = config::read_lever(section, {1e-3, 1.0}, p.lever.zero_radius_m());
   if (pair) {
@@ -46,11 +76,11 @@ JointPlantSettings read_lever(Section& section) {
   }
   p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
   p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
-  p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", pair ? 0.0 : default_spring_Nm_per_rad,
-                                       {pair ? 0.0 : min_spring_Nm_per_rad, 1e3});
+  p.spring_Nm_per_rad =
+      section.number("spring_Nm_per_rad", by_spring ? default_spring_Nm_per_rad : 0.0,
+                     {by_spring ? min_spring_Nm_per_rad : 0.0, 1e3});
   p.friction_ratio = section.number("friction_ratio", 0.0, {0.0, 1.0});
-  p.pretension_N = section.number("pretension_N", p.pretension_N, {0.0, 1e3});
-  p.weight_Nm = section.number("weight_Nm", 0.0, {-100.0, 100.0});
+  read_weight(section, opposed_by, p);
   p.min_angle_rad = rad_per_deg * section.number("min_angle_deg", -45.0, {-180.0, -1.0});
   p.max_angle_rad = rad_per_deg * section.number("max_angle_deg", 45.0, {1.0, 180.0});
   return p;
@@ -78,6 +108,8 @@ control::PhysicalParameters along_the_arc(const JointPlantSettings& joint, doubl
     p.stiffness_N_per_m += other_ratio * other_ratio * other->stiffness_N_per_m;
     p.damping_Ns_per_m += other_ratio * other_ratio * other->damping_Ns_per_m;
   }
+  const PlaceInJoint arm = turned_by_one(joint);
+  if (arm.weighs()) p.stiffness_N_per_m += HangingArm::stiffness_at_zero_N_per_m(arm);
   p.moving_mass_kg = joint.inertia_kg_m2 / lever2;
   return p;
 }

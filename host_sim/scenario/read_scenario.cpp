@@ -47,6 +47,7 @@ constexpr std::array fixed_keys{"simulation",
                                 "joint.spring_Nm_per_rad",
                                 "joint.friction_ratio",
                                 "joint.pretension_N",
+                                "joint.hangs_at_deg",
                                 "joint.min_angle_deg",
                                 "joint.max_angle_deg",
                                 "joint.antagonist_muscle",
@@ -209,6 +210,9 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
       moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
       // Its default depends on the muscle, and the sensor stays the same.
       moment.conditions.position_sensor.min_m = scenario.start.position_sensor.min_m;
+      // Another weight stretches the muscle by more: 0 stays where the first one let it rest.
+      if (moment.conditions.joint)
+        moment.conditions.joint->plant.pretension_N = scenario.start.joint->plant.pretension_N;
     }
   }
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());

@@ -28,7 +28,7 @@ void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics)
 control::PhysicalParameters read_plant_parameters(config::Section& section);
 
 /// What the muscle moves, by which defaults differ: of the paper's and of others a load, a joint
-/// that another muscle draws back, one that a spring does.
+/// that another muscle draws back, one that a spring or a weight does.
 enum class Moves { paper_load, load, joint, spring_joint };
 
 Reference read_reference(config::Section& section, Moves moves);

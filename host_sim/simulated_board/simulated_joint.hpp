@@ -1,4 +1,4 @@
-// Two muscles of the board that turn one joint, or one against a spring.
+// Two muscles of the board that turn one joint, or one against a spring or gravity.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace supercoil::host_sim {
 
 struct SimulatedJointSettings {
   std::size_t agonist = 0;                    ///< its channel
-  std::optional<std::size_t> antagonist = 1;  ///< its channel; empty: a spring opposes alone
+  std::optional<std::size_t> antagonist = 1;  ///< its channel; empty: the agonist is alone
   JointPlantSettings
       plant;             ///< its muscles are the channels' own, torn and slack as their faults say
   double load_Nm = 0.0;  ///< turns the joint towards negative angles

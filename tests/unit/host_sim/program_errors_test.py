@@ -109,10 +109,12 @@ class Errors(ProgramCase):
         finger = self.path / "finger.toml"
         finger.write_text(alone.read_text() + '\n[[joint]]\nopposed_by = "spring"\nagonist = 1\nlever_m = 0.015\n')
         for text, told in (
-                ("", "channel 1 of the board's file turns a joint against a spring: the scenario needs a [joint] that is opposed_by \"spring\""),
+                ("", "channel 1 of the board's file turns a joint by itself: the scenario needs a [joint] that is opposed_by \"spring\""),
                 ("[joint]\nopposed_by = 'spring'\nlever_m = 0.02\n", "joint.lever_m = 0.02 is not the board's, 0.015"),
                 ("[joint]\n", "the scenario has a [joint] of two muscles, and channel 1 of the board's file is in none")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
+        finger.write_text(finger.read_text().replace('"spring"', '"gravity"') + "weight_Nm = 0.001\nhangs_at_deg = -60\n")
+        self.check_refused("the scenario needs a [joint] that is opposed_by \"gravity\"", "run", self.scenario(SHORT), "--board", finger, "--out", "out")
 
     def test_a_bundle_and_a_board_that_do_not_go_together(self):
         alone = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"

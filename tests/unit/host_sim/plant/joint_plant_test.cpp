@@ -260,6 +260,32 @@ TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
   }
 }
 
+/// The muscle's pull has the arm's moment at every angle, and at 0 it is the cold muscle's.
+TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightAloneDrawsBack) {
+  JointPlantSettings settings;
+  const double lever_m = settings.lever.zero_radius_m();
+  settings.weight_Nm = 0.005;
+  settings.hangs_at_rad = -0.8;
+  settings.spring_pretensions = false;
+  settings.pretension_N = settings.weight_Nm * std::sin(0.8) / lever_m;
+  JointPlant plant(settings, joint_tick_s);
+  const control::PhysicalParameters& p = settings.agonist.parameters;
+  double before_rad = -1e-9;
+  for (const double power_W : {0.0, 0.5, 1.5}) {
+    for (int tick = 0; tick < 60000; ++tick)
+      plant.step(power_W, 0.0);
+    const double turned_rad = plant.angle_rad();
+    if (power_W == 0.0) DOUBLES_EQUAL(0.0, turned_rad, 1e-9);
+    const double weight_N = settings.weight_Nm * std::sin(turned_rad + 0.8) / lever_m;
+    DOUBLES_EQUAL(weight_N, plant.tension_N(0), 1e-9);
+    const double heat_N = p.force_per_kelvin_N_per_K * power_W / p.heat_transfer_W_per_K;
+    DOUBLES_EQUAL(settings.pretension_N + heat_N - p.stiffness_N_per_m * lever_m * turned_rad,
+                  weight_N, 1e-9);
+    CHECK_COMPARE(turned_rad, >, before_rad);
+    before_rad = turned_rad + 0.05;
+  }
+}
+
 /// At the angle 0 both cold muscles are in balance, each at its own lever.
 TEST(JointPlant, TurnsAsFarAsBothLeversLetTheForcesTurnIt) {
   JointPlantSettings settings = equal_muscles();

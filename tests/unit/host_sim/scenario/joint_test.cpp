@@ -246,6 +246,44 @@ TEST(JointScenario, ASpringOpposesOneMuscle) {
   DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
 }
 
+TEST(JointScenario, AWeightOpposesOneMuscle) {
+  const Scenario s = read(
+      "simulation.duration_s = 30.0\n[joint]\nopposed_by = 'gravity'\nweight_Nm = 0.004\n"
+      "hangs_at_deg = -60.0\n[reference]\nkind = 'step'\nto_m = 0.004\n[controller]\nkind = 'pi'\n"
+      "[[event]]\nat_s = 15.0\njoint.weight_Nm = 0.005\n");
+  constexpr double lever2 = 0.015 * 0.015;
+  DOUBLES_EQUAL(16.0 + 0.004 * 0.5 / lever2, s.start.muscle.stiffness_N_per_m, 1e-5);
+  const double hangs_at_rad = -std::numbers::pi / 3.0;
+  const BoardSettings board = firmware_of(s);
+  LONGS_EQUAL(1, board.channels.size());
+  DOUBLES_EQUAL(0.004, board.channels[0].joint.weight_Nm, 0.0);
+  DOUBLES_EQUAL(hangs_at_rad, board.channels[0].joint.hangs_at_rad, 1e-12);
+
+  Simulation simulation(s);
+  Summary summary({});
+  const TickRecord last = last_of(simulation, summary);
+  CHECK(last.fault == Fault::none);
+  DOUBLES_EQUAL(0.004, last.position_m, 1e-4);
+  // The heavier arm pulls harder than the cold muscle's stretch did at 0, by more than the angle's.
+  const double angle_rad = last.position_m / 0.015;
+  const double force_N =
+      16.0 * last.position_m +
+      (0.005 * std::sin(angle_rad - hangs_at_rad) - 0.004 * std::sin(-hangs_at_rad)) / 0.015;
+  DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
+}
+
+TEST(JointScenario, WhatIsOfAnotherJointIsRefusedBesideAWeight) {
+  const std::string gravity = "[joint]\nopposed_by = 'gravity'\n";
+  check_joint_answer(
+      "3: joint.pretension_N = 0.3: is what weight_Nm, hangs_at_deg and lever_m make it",
+      gravity + "pretension_N = 0.3");
+  check_joint_answer("3: joint.weight_Nm = 0: must be 1e-06 to 100", gravity + "weight_Nm = 0.0");
+  check_joint_answer("2: joint.hangs_at_deg = -30: needs a joint that is opposed_by \"gravity\"",
+                     "[joint]\nhangs_at_deg = -30.0");
+  check_joint_answer("5: event.joint.hangs_at_deg: cannot change during a run",
+                     gravity + "[[event]]\nat_s = 1.0\njoint.hangs_at_deg = -30.0");
+}
+
 TEST(JointScenario, ItsBoardTellsTheLeverOfAJointAgainstASpring) {
   const Scenario scenario =
       read("simulation.duration_s = 0.1\n[joint]\nopposed_by = 'spring'\nlever_m = 0.012\n");

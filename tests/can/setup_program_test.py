@@ -157,6 +157,18 @@ class SetupProgram(SetupCase):
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
+    def test_a_muscle_that_lifts_an_arm_is_described_with_its_weight(self):
+        self.board.write_text(self.example.replace("\nmax_travel_m = 0.025", "") + "\n[channel.limits]\nmax_travel_m = 0.025\n" +
+                              '[[joint]]\nopposed_by = "gravity"\nagonist = 1\nlever_m = 0.015\nrange_deg = [0, 60]\n'
+                              "weight_Nm = 0.002\nhangs_at_deg = -45\n")
+        done = self.setup_program("describe", *self.script(max_travel_mm=5))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("it turns a joint: answer as it moves the joint, with what draws it back. Weights hang at", done.stdout)
+        self.assertIn("joint.range_deg = [0, 19.09]  (as answered)", done.stdout)
+        checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertRegex(checked.stdout, r"the weight draws the cold muscle with 0\.0943 N; held at 4\.77° with ")
+
     def test_doctor_looks_at_this_machine_or_says_where_to_run_it_and_setup_goes_on(self):
         done = self.setup_program("doctor", "--socket", self.path / "commands", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -115,11 +115,12 @@ bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   return document.at_path("channel[" + std::to_string(channel) + "].controller").is_array();
 }
 
-void say_how_a_joint_is_measured(double lever_m, Operator& who) {
+void say_how_a_joint_is_measured(const FileJoint& joint, Operator& who) {
   who.say(
-      "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
-      "Weights hang at the lever, " +
-      number_text(1e3 * lever_m, 4) +
+      "it turns a joint: answer as it moves " +
+      std::string(joint.has_other ? "the joint alone, with the other muscle cold"
+                                  : "the joint, with what draws it back") +
+      ". Weights hang at the lever, " + number_text(1e3 * joint.lever.zero_radius_m(), 4) +
       " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
       "over the lever's square");
 }
@@ -176,7 +177,7 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     if (!script) return tl::unexpected(script.error());
     said = completed(*script, options, ranges);
   }
-  if (joint) say_how_a_joint_is_measured(joint->lever.zero_radius_m(), who);
+  if (joint) say_how_a_joint_is_measured(*joint, who);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
     if (!record) return tl::unexpected(record.error() + "\n");

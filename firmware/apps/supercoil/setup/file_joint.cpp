@@ -25,7 +25,8 @@ FileJoint read_joint(const toml::table& table, std::size_t place, bool agonist) 
   std::optional<control::Lever> antagonist;
   if (table.contains("antagonist"))
     antagonist = lever.scaled(config::read_antagonist_lever_ratio(section, lever));
-  FileJoint joint{place, agonist, agonist ? lever : antagonist.value(), std::nullopt};
+  FileJoint joint{place, agonist, antagonist.has_value(), agonist ? lever : antagonist.value(),
+                  std::nullopt};
   const auto first = table[range_key][0].value<double>();
   const auto last = table[range_key][1].value<double>();
   if (first && last && config::read_joint_travel(section, lever, antagonist))

@@ -15,6 +15,7 @@ namespace supercoil::operating {
 struct FileJoint {
   std::size_t place = 0;  ///< among [[joint]]
   bool agonist = true;
+  bool has_other = true;  ///< another muscle opposes this one
   control::Lever lever{};
   /// How far it may turn back and forth; empty: the limits of its channels say it.
   std::optional<std::array<double, 2>> range_deg;

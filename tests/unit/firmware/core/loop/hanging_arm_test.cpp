@@ -36,7 +36,7 @@ TEST_GROUP(HangingArm) {
     channel.supervision.proof_of_response = false;
   }
   HangingArm arm() const {
-    return HangingArm(channel.joint, channel.muscle);
+    return {channel.joint, channel.muscle};
   }
   double W_per_N() const {
     return channel.muscle.heat_transfer_W_per_K / channel.muscle.force_per_kelvin_N_per_K;

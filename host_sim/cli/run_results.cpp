@@ -46,10 +46,20 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
   std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(), limits.c_str());
 }
 
+/// The loop's own doing, which no reference asks for.
+void print_divergence(const Summary& summary) {
+  if (summary.oscillated() || !summary.diverged()) return;
+  std::printf(
+      "its power was at a limit in %.1f %% of all ticks that followed, for 0.2 s or longer on end, "
+      "where the reference asked for no more than the muscle can do: the loop oscillates or "
+      "diverges; lower gains, slower adaptation or the muscle identified anew help\n",
+      100.0 * summary.unasked_limit_ratio());
+}
+
 void print_noise(const Summary& summary, const Scenario& scenario) {
   const double noise_W = summary.power_noise_W();
   const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
-  if (!(noise_W > config::much_noise_ratio * range_W)) return;
+  if (!summary.tells_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
   std::printf(
       "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
       "for: "
@@ -61,9 +71,11 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
 /// What had been promised of it.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
-  std::printf("promised: %.1f um rms%s%s\n", json["promised_rms_m"].get<double>() * 1e6,
+  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; it showed %.1f um\n",
+              json["promised_rms_m"].get<double>() * 1e6,
               json["promised_by"] == "own" ? "" : " by the recommended controller",
-              json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup");
+              json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup",
+              json["tracking_shown_rms_m"].get<double>() * 1e6);
 }
 
 /// How identify, calibrate and the first motion ended, if there were any.
@@ -115,6 +127,7 @@ void print_summary(const Summary& summary, const Scenario& scenario,
     const std::string infeasible = describe_infeasible(*summary.infeasible(), scenario);
     if (!infeasible.empty()) std::printf("%s\n", infeasible.c_str());
   }
+  print_divergence(summary);
   print_noise(summary, scenario);
   print_modes(json);
   for (const auto& fault : json["faults"]) {

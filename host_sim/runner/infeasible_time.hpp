@@ -22,12 +22,16 @@ constexpr bool is_of_heat(LimitedBy limit) {
 /// infeasible_lasts_s or longer on end.
 class InfeasibleTime {
  public:
-  void add(LimitedBy limit, double time_s) {
+  void add(LimitedBy limit, double time_s) { add(limit, is_infeasible(limit), time_s); }
+  /// asked: the reference asks for too much, at a limit or not. It begins and ends with that.
+  void add(LimitedBy limit, bool asked, double time_s) {
     ++following_;
-    if (!is_infeasible(limit)) return interrupt();
+    if (!asked) return interrupt();
     if (std::isnan(since_s_)) since_s_ = time_s;
+    if (!is_infeasible(limit)) return leave_limit();
+    if (std::isnan(at_limit_since_s_)) at_limit_since_s_ = time_s;
     ++open_.at(static_cast<std::size_t>(limit));
-    if (time_s - since_s_ < infeasible_lasts_s - rounding_s) return;
+    if (time_s - at_limit_since_s_ < infeasible_lasts_s - rounding_s) return;
     if (std::isnan(first_s_)) first_s_ = since_s_;
     if (first_s_ == since_s_) first_until_s_ = time_s;
     for (std::size_t i = 0; i < open_.size(); ++i)
@@ -36,7 +40,7 @@ class InfeasibleTime {
   /// No position is followed at this tick.
   void interrupt() {
     since_s_ = NAN;
-    open_.fill(0);
+    leave_limit();
   }
 
   /// For how long is no matter: a step that cannot be made is none in a long run either.
@@ -60,10 +64,16 @@ class InfeasibleTime {
   static constexpr double rounding_s = 1e-9;
   using Ticks = std::array<std::int64_t, limit_names.size()>;
 
+  void leave_limit() {
+    at_limit_since_s_ = NAN;
+    open_.fill(0);
+  }
+
   std::int64_t following_ = 0;
   Ticks counted_{};
-  Ticks open_{};          ///< at a limit, and not for long enough yet
-  double since_s_ = NAN;  ///< at a limit
+  Ticks open_{};                   ///< at a limit, and not for long enough yet
+  double since_s_ = NAN;           ///< the reference asks for too much
+  double at_limit_since_s_ = NAN;  ///< and the muscle is at a limit
   double first_s_ = NAN;
   double first_until_s_ = NAN;
 };

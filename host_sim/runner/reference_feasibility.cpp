@@ -14,7 +14,7 @@
 #include "loop/feasibility.hpp"
 #include "runner/board_of.hpp"
 #include "runner/power_left.hpp"
-#include "runner/wanted_motion.hpp"
+#include "runner/reference_demand.hpp"
 
 namespace supercoil::host_sim {
 
@@ -94,40 +94,20 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
 }
 
 /// Tells when first and for how long, by how much, and how far it leads.
-void find_infeasible(const Conditions& c, double duration_s, double step, PowerLeft left,
+void find_infeasible(const Conditions& c, double duration_s, double step, const PowerLeft& left,
                      ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
-  WantedMotion motion(c, step);
-  Lag lag(c.muscle, step);
-  const PowerLeft::Most cold = left.cold();
-  const double rounding_W = 1e-9 * c.power.max_W;
+  ReferenceDemand demand(c, c.muscle, 0.0, left, step);
   InfeasibleTime found;
   std::array<double, limit_names.size()> excess_W{};
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
-    const double reference_m = c.reference.at(time_s);
-    const double asked_W = motion.power_W(reference_m);
-    const double needed_W = motion.left_W(asked_W);
-    motion.step(reference_m);
-    const PowerLeft::Most most = left.now();
-    const double wanted_W = needed_W + lag.made_up_by_W();
-    const double given_W = std::fmin(std::fmax(wanted_W, c.power.min_W), most.power_W);
-    left.step(given_W);
-    lag.step(needed_W - given_W);
-    f.max_m = std::fmax(f.max_m, motion.asked_m());
-    f.behind_m =
-        std::fmax(f.behind_m, std::abs(motion.asked_m() - motion.shaped_m() + lag.behind_m()));
-
-    LimitedBy by = LimitedBy::nothing;
-    if (std::fmin(asked_W, wanted_W) < c.power.min_W - rounding_W) {
-      by = LimitedBy::cooling;
-    } else if (std::fmax(asked_W, wanted_W) > most.power_W + rounding_W) {
-      // Heat is no reason where a cold muscle could not either.
-      by = asked_W > cold.power_W + rounding_W ? cold.by : most.by;
-    }
+    const auto [by, by_W] = demand.step(c.reference.at(time_s));
+    f.max_m = std::fmax(f.max_m, demand.asked_m());
+    f.behind_m = std::fmax(f.behind_m, std::abs(demand.behind_m()));
     found.add(by, time_s);
     double& excess = excess_W.at(static_cast<std::size_t>(by));
-    excess = std::fmax(excess, std::fmax(c.power.min_W - asked_W, asked_W - most.power_W));
+    excess = std::fmax(excess, by_W);
   }
   f.max_m = std::fmin(f.max_m, c.reference.highest());  // a model may swing beyond
   f.infeasible_ratio = found.ratio();

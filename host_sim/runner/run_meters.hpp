@@ -16,6 +16,7 @@ class ErrorMeter {
     max_ = std::fmax(max_, std::abs(error));
     ++count_;
   }
+  double square_sum() const { return square_sum_; }
   double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
   double largest() const { return max_; }
   std::int64_t count() const { return count_; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runner/board_of.hpp"
+#include "runner/infeasible_time.hpp"
 
 namespace supercoil::host_sim {
 
@@ -16,6 +17,12 @@ constexpr int max_waits = 3600;
 constexpr std::uint32_t commanded = 1;
 /// Ticks between two looks into the recorder's ring, which holds 2 s.
 constexpr std::uint32_t rows_every = 32;
+
+/// That moves what the board commands: a joint's spring and a bundle's others are in what the board
+/// believes.
+const control::PhysicalParameters& true_muscle(const Conditions& c) {
+  return c.joint || !c.companions.empty() ? c.muscle : c.plant.parameters;
+}
 
 }  // namespace
 
@@ -94,6 +101,7 @@ void Simulation::pass_rows() {
 void Simulation::apply_event(const Event& event) {
   const Conditions& before = *conditions_;
   conditions_ = &event.conditions;
+  if (demand_) demand_->change(*conditions_, true_muscle(*conditions_), conditions_->plant.load_N);
   MuscleChannel& muscle = board_.channel(0);
   const MuscleChannelSettings settings = muscle_channel_of(*scenario_, *conditions_);
   muscle.set(settings);
@@ -251,7 +259,32 @@ TickRecord Simulation::step() {
   housekeep();
   if (first_motion_) first_motion_->judge(time_s, loop_.channel(0).snapshot());
   ++tick_;
-  return record(time_s, reference);
+  TickRecord r = record(time_s, reference);
+  r.reference_limited_by = reference_limited_by();
+  return r;
+}
+
+LimitedBy Simulation::reference_limited_by() {
+  const Snapshot& s = loop_.channel(0).snapshot();
+  const Conditions& c = *conditions_;
+  if (s.mode != Mode::position) {
+    demand_.reset();
+    return LimitedBy::nothing;
+  }
+  // What two muscles that pull against each other can do is known by their limits only.
+  if (c.antagonist() != nullptr)
+    return is_infeasible(s.limited_by) ? s.limited_by : loop_.channel(1).snapshot().limited_by;
+  if (!demand_) {
+    const PowerLeft left(firmware_of(*scenario_), c.power.supply_V, step_s_);
+    // Noise put the model's beginning off by this much.
+    constexpr double tolerated_ratio = 0.02;
+    demand_.emplace(c, true_muscle(c), c.plant.load_N, left, step_s_, tolerated_ratio);
+    demand_->start_at(s.model_m);
+  }
+  const LimitedBy by = demand_->step(s.reference).by;
+  if (by != LimitedBy::nothing) return by;
+  // The board knows more of heat, and has found out what it can prove.
+  return is_of_heat(s.limited_by) ? s.limited_by : LimitedBy::nothing;
 }
 
 TickRecord Simulation::record(double time_s, double reference) const {
@@ -277,6 +310,8 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.fault = s.fault;
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
+  r.clipped_power_W =
+      control::PowerRange{conditions_->power.min_W, conditions_->power.max_W}.clip(s.demanded_W);
   if (conditions_->antagonist() != nullptr) r.antagonist = antagonist_record();
   if (!conditions_->companions.empty()) r.bundle = bundle_record(r);
   return r;

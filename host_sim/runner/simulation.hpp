@@ -11,6 +11,7 @@
 #include "loop/executive.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "runner/first_motion.hpp"
+#include "runner/reference_demand.hpp"
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
@@ -57,6 +58,9 @@ struct TickRecord {
   Fault fault = Fault::none;        ///< the channel's first cause
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
   LimitedBy limited_by = LimitedBy::nothing;
+  /// Beyond which limit the reference alone goes, whatever the loop does.
+  LimitedBy reference_limited_by = LimitedBy::nothing;
+  double clipped_power_W = 0.0;                ///< power_W, within the range of power
   std::optional<AntagonistRecord> antagonist;  ///< where there is a joint
   std::optional<BundleRecord> bundle;          ///< where there is one
 };
@@ -144,6 +148,8 @@ class Simulation {
   void housekeep();
   void pass_rows();
   TickRecord record(double time_s, double reference) const;
+  /// After a tick: beyond which limit the reference alone goes.
+  LimitedBy reference_limited_by();
 
   const Scenario* scenario_;
   const Conditions* conditions_;
@@ -167,6 +173,7 @@ class Simulation {
   LearnedMuscles learned_;
   OnLearned on_learned_;
   std::optional<FirstMotionRun> first_motion_;
+  std::optional<ReferenceDemand> demand_;  ///< while a muscle without antagonist follows a position
 };
 
 }  // namespace supercoil::host_sim

@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 /// Of summary.json: grows when a key is renamed or means something else. Version 0.1.0 of the
 /// programs wrote 1, without saying so.
-constexpr int schema_version = 4;
+constexpr int schema_version = 5;
 
 std::string page_of(Fault fault) {
   return "docs/faults/" + std::string(name(fault)) + ".md";
@@ -109,9 +109,18 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
                      number_text(1e3 * motion_.size_m(), 3) + " mm that this moves";
   if (promise) text += " and " + number_text(1e3 * promise->parts.error_m(), 3) + " mm promised";
   if (oscillated()) return text + ": the loop oscillated";
-  if (infeasible_.found()) return text + ": the reference asked for more than the muscle can do";
+  if (behind_by_reference()) return text + ": the reference asked for more than the muscle can do";
+  if (diverged())
+    return text +
+           ": the loop oscillated or diverged, its power at a limit while the reference "
+           "asked for no more than the muscle can do";
   return text +
          ": the controller is too weak, or the muscle is not the one that the board believes";
+}
+
+bool Summary::behind_by_reference() const {
+  constexpr double most = 0.5;
+  return infeasible_.found() && infeasible_tracking_.square_sum() > most * tracking_.square_sum();
 }
 
 ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simulation,
@@ -134,6 +143,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
                       std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  json["tracking_shown_rms_m"] = measured ? finite(shown_.rms()) : nullptr;
   const auto promise = scenario_promise(scenario);
   json["promised_rms_m"] = promise ? finite(promise->parts.error_m()) : nullptr;
   json["promised_by"] = nullptr;
@@ -186,6 +196,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["infeasible_ratio"] = too_much != nullptr ? finite(too_much->ratio()) : nullptr;
   json["infeasible_from_s"] = too_much != nullptr ? finite(too_much->first_s()) : nullptr;
   json["infeasible_lasts_s"] = too_much != nullptr ? finite(too_much->first_lasts_s()) : nullptr;
+  json["unasked_limit_ratio"] = finite(unasked_limit_ratio());
   json["power_noise_W"] = finite(power_noise_W());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;

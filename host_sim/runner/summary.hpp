@@ -56,25 +56,29 @@ class Summary {
     }
     if (record.open_loop) {
       infeasible_.interrupt();
+      unasked_limit_.interrupt();
       power_noise_.interrupt();
     } else {
-      power_noise_.add(record.time_s, record.power_W);
-      const bool others = other && !is_infeasible(record.limited_by);
-      infeasible_.add(others ? other->limited_by : record.limited_by, record.time_s);
+      add_limit(record);
     }
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
     }
     if (record.open_loop || record.time_s < window_.from_s || record.time_s >= window_.to_s) return;
     tracking_.add(record.position_m - record.model_m);
+    shown_.add(record.measured_m - record.model_m);
+    if (is_infeasible(record.reference_limited_by))
+      infeasible_tracking_.add(record.position_m - record.model_m);
     motion_.add(record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
+  /// The same as the board's sensor shows it.
+  const ErrorMeter& shown() const { return shown_; }
   /// Of the reference model, within the window as tracking().
   const MotionMeter& motion() const { return motion_; }
-  /// By which the controller's power swings, rms; NaN: too little was followed, or the loop
-  /// oscillated.
-  double power_noise_W() const { return oscillated() ? NAN : power_noise_.rms_W(); }
+  /// By which the controller's power swings within its range, rms, while the reference is feasible;
+  /// NaN: too little of that was followed, or the loop oscillated or diverged.
+  double power_noise_W() const { return oscillated() || diverged() ? NAN : power_noise_.rms_W(); }
   /// Ticks at which the muscle, or another one of its joint or bundle, was not within the
   /// firmware's bounds of its temperature.
   std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
@@ -102,6 +106,18 @@ class Summary {
   double oscillated_at_s() const { return oscillated_at_s_; }
   bool oscillated() const { return !std::isnan(oscillated_at_s_); }
   double oscillation_period_s() const { return oscillation_period_s_; }
+  /// The power was at a limit, but for those of heat, for as long as that takes, where the
+  /// reference asks for no more than the muscle can do; of the ticks that followed a position, NaN:
+  /// none did.
+  double unasked_limit_ratio() const { return unasked_limit_.ratio(); }
+  /// So often that it is no start, and no end of what the reference asked too much of.
+  bool diverged() const {
+    const double ratio = unasked_limit_.ratio();
+    return ratio > diverged_ratio && ratio > infeasible_.ratio();
+  }
+  /// Noise is what that tells of: not where much of the reference was infeasible, after which laws
+  /// that adapt have learned wrong.
+  bool tells_noise() const { return !(infeasible_.ratio() > diverged_ratio); }
   /// When the reference asked for more than the muscle can do, and was shaped or cut. Null: nothing
   /// is known, as a loop that oscillates asks for too much by itself.
   const InfeasibleTime* infeasible() const { return oscillated() ? nullptr : &infeasible_; }
@@ -117,6 +133,21 @@ class Summary {
                                  double wall_s) const;
 
  private:
+  static constexpr double diverged_ratio = 0.05;
+
+  void add_limit(const TickRecord& record) {
+    const auto& other = record.antagonist;
+    const bool others = other && !is_infeasible(record.limited_by);
+    const LimitedBy by = others ? other->limited_by : record.limited_by;
+    const bool asked = is_infeasible(record.reference_limited_by);
+    infeasible_.add(by, asked, record.time_s);
+    unasked_limit_.add(asked || is_of_heat(by) ? LimitedBy::nothing : by, record.time_s);
+    if (asked) return power_noise_.interrupt();
+    power_noise_.add(record.time_s, record.clipped_power_W);
+  }
+  /// Most of the error was made where the reference asked for too much.
+  bool behind_by_reference() const;
+
   void note_fault(const TickRecord& record) {
     if (record.fault != fault_ && record.fault != Fault::none) {
       faults_.push_back({record.fault, record.time_s});
@@ -135,6 +166,8 @@ class Summary {
   std::vector<FaultAt> faults_;
   std::int64_t outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
+  ErrorMeter shown_;
+  ErrorMeter infeasible_tracking_;  ///< of it, while the reference asks for too much
   MotionMeter motion_;
   PowerNoiseMeter power_noise_;
   std::int64_t ticks_ = 0;
@@ -148,6 +181,7 @@ class Summary {
   double oscillated_at_s_ = NAN;
   double oscillation_period_s_ = NAN;
   InfeasibleTime infeasible_;
+  InfeasibleTime unasked_limit_;
 };
 
 }  // namespace supercoil::host_sim

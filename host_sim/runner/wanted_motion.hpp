@@ -37,6 +37,14 @@ class Lag {
     behind_m_ += step_s_ * speed_m_per_s_;
   }
   double behind_m() const { return behind_m_; }
+  /// By which it is colder or hotter, as the power that holds that.
+  double off_W() const { return muscle_.heat_transfer_W_per_K * std::abs(missing_K_); }
+  /// Another muscle in its place.
+  void go_on_from(const Lag& before) {
+    missing_K_ = before.missing_K_;
+    speed_m_per_s_ = before.speed_m_per_s_;
+    behind_m_ = before.behind_m_;
+  }
 
  private:
   control::PhysicalParameters muscle_;
@@ -57,6 +65,17 @@ class WantedMotion {
         shaped_(asked_),
         range_{c.power.min_W, c.power.max_W},
         shapes_(c.controller.shape_reference) {}
+
+  /// It begins here, at rest.
+  void start_at(double position_m) {
+    asked_.set({position_m, 0.0, 0.0});
+    shaped_ = asked_;
+  }
+  /// Other conditions in place of those.
+  void go_on_from(const WantedMotion& before) {
+    asked_.set(before.asked_.motion());
+    shaped_.set(before.shaped_.motion());
+  }
 
   /// What the muscle needs for it from now to the next step.
   double power_W(double reference_m) const {

@@ -61,3 +61,24 @@ TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
       "temperature: a smaller one",
       describe_infeasible(found, scenario).c_str());
 }
+
+TEST(InfeasibleTime, BeginsAndEndsWithTheReference) {
+  const auto follow_asked = [&](LimitedBy limit, bool asked, double end_s) {
+    for (; time_s < end_s - 0.5 * step_s; time_s += step_s)
+      found.add(limit, asked, time_s);
+  };
+  // At a limit, which the reference does not ask for.
+  follow_asked(LimitedBy::minimum, false, 1.0);
+  CHECK_FALSE(found.found());
+  follow_asked(LimitedBy::nothing, true, 2.0);
+  CHECK_FALSE(found.found());
+  follow_asked(LimitedBy::maximum, true, 3.0);
+  // Noise.
+  follow_asked(LimitedBy::nothing, true, 3.1);
+  follow_asked(LimitedBy::maximum, true, 4.0);
+  follow_asked(LimitedBy::minimum, false, 5.0);
+  DOUBLES_EQUAL(1.0, found.first_s(), 1e-9);
+  DOUBLES_EQUAL(3.0, found.first_lasts_s(), 2.0 * step_s);
+  CHECK_TRUE(found.first_ended());
+  DOUBLES_EQUAL(1.9 / 5.0, found.ratio(), 1e-3);
+}

@@ -33,7 +33,7 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(FOLLOWS)
         self.assertEqual((done.returncode, summary["did_not_follow_because"], summary["promised_by"]), (0, None, "own"), done.stderr)
         self.assertEqual(summary["promised_rms_m"], before["reference"]["promised_rms_m"])
-        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms\n", done.stdout)
+        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it", done.stdout)
 
     def test_a_reference_that_the_board_refuses_is_told_beforehand(self):
         beyond = SHORT + "reference = {kind = 'sine', offset_m = 0.02, amplitude_m = 0.015}\n"
@@ -96,6 +96,32 @@ class Outcome(ProgramCase):
         self.assertIsNotNone(summary["oscillated_at_s"], done.stdout)
         self.assertEqual([summary[key] for key in ("infeasible_ratio", "infeasible_from_s", "infeasible_lasts_s")], [None] * 3)
         self.assertNotIn("the reference asked for more", done.stdout)
+
+    def test_a_law_that_diverges_is_no_reference_that_asks_too_much_and_no_noise(self):
+        text = "simulation.duration_s = 40.0\npower.delay_s = 0.03\ncontroller = {kind = 'mrac', adaptation_scale = 100}\n"
+        told, before = self.check(text)
+        self.assertTrue(before["reference"]["feasible"])
+        done, summary = self.run_of(text)
+        self.assertEqual((done.returncode, summary["infeasible_ratio"], summary["infeasible_from_s"]), (1, 0, None))
+        self.assertIn("the loop oscillated or diverged", summary["did_not_follow_because"])
+        self.assertGreater(summary["unasked_limit_ratio"], 0.9)
+        self.assertIn(f"its power was at a limit in {100 * summary['unasked_limit_ratio']:.1f} % of all ticks that followed", done.stdout)
+        for other in ("asked for more", "power swung"):
+            self.assertNotIn(other, done.stdout + done.stderr)
+
+    def test_power_that_an_infeasible_reference_asks_for_is_no_noise(self):
+        done, summary = self.run_of("simulation.duration_s = 60.0\nplant.force_per_kelvin_N_per_K = 0.002\n", "--allow-fault")
+        self.assertIn("the reference asked for more than the muscle can do", done.stdout)
+        self.assertNotIn("power swung", done.stdout)
+        # As far as it was given: not the kilowatts that a law asks for.
+        self.assertLess(summary["power_noise_W"] or 0.0, 2.25)
+
+    def test_the_promise_is_beside_what_the_sensor_shows(self):
+        done, summary = self.run_of(FOLLOWS)
+        shown_m = summary["tracking_shown_rms_m"]
+        # Its own noise is 10 um.
+        self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
+        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it: it showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
     def test_json_is_all_that_programs_get(self):
         done, summary = self.run_of(SHORT, "--json")

@@ -77,6 +77,15 @@ class Told(ProgramCase):
                       f"{100 * summary['infeasible_ratio']:.1f} % of all ticks that followed it, after the event at 15 s (plant.load_N), mostly "
                       "limited_by temperature: a smaller one\n", told)
 
+    def test_a_step_is_told_alike_before_and_after(self):
+        # At rest noise is at the lowest power for a while, which no reference asks for.
+        step = ("simulation.duration_s = 60.0\nplant.thermal_mass_J_per_K = 2.0\n"
+                "reference = {kind = 'step', from_m = 0.0, to_m = 0.02, at_s = 5.0}\n")
+        before = json.loads(self.run_program("run", self.scenario(step), "--check", "--json").stdout)["reference"]
+        _, summary = self.after(step, 1)
+        self.assertLess(abs(summary["infeasible_from_s"] - before["first_s"]), 0.02)
+        self.assertLess(abs(summary["infeasible_lasts_s"] / before["first_lasts_s"] - 1.0), 0.2)
+
     def test_shaping_is_no_advice_where_an_event_has_switched_it_on(self):
         fast = "simulation.duration_s = 40.0\nreference.angular_frequency_rad_per_s = 2.0\ncontroller.kind = 'learned_ff'\n"
         fast += "reference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n"

@@ -130,11 +130,8 @@ void print_summary(const Summary& summary, const Scenario& scenario,
   print_divergence(summary);
   print_noise(summary, scenario);
   print_modes(json);
-  for (const auto& fault : json["faults"]) {
-    std::printf("fault %d %s at %.3f s (%s)\n", fault["number"].get<int>(),
-                fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
-                fault["page"].get<std::string>().c_str());
-  }
+  for (const auto& fault : json["faults"])
+    std::puts(fault["told"].get<std::string>().c_str());
   std::printf("hottest %.1f K above ambient\nwritten to %s\n",
               json["hottest_temperature_rise_K"].get<double>(), folder.c_str());
 }

@@ -308,6 +308,8 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.state = s.state;
   r.commands_power = conditions_->controller.kind == control::ControllerKind::power;
   r.fault = s.fault;
+  if (s.fault != Fault::none && s.margin_selector == s.fault && s.margin.judged)
+    r.fault_margin = s.margin;
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
   r.clipped_power_W =

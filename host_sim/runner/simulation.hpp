@@ -15,6 +15,7 @@
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
+#include "supervisor/detectors/margin.hpp"
 #include "telemetry/can_endpoint.hpp"
 
 namespace supercoil::host_sim {
@@ -55,7 +56,9 @@ struct TickRecord {
   bool open_loop = false;             ///< no reference model is followed
   bool commands_power = false;        ///< the reference is a power
   State state = State::disarmed;
-  Fault fault = Fault::none;        ///< the channel's first cause
+  Fault fault = Fault::none;  ///< the channel's first cause
+  /// Of that first cause: NaN where no detector measures it.
+  detectors::Margin fault_margin{.measured = NAN, .limit = NAN};
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
   LimitedBy limited_by = LimitedBy::nothing;
   /// Beyond which limit the reference alone goes, whatever the loop does.

@@ -1,5 +1,9 @@
 #include "runner/summary.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -86,6 +90,20 @@ std::string fault_text(Fault fault) {
          "; " + page_of(fault);
 }
 
+std::string Summary::FaultAt::text() const {
+  std::array<char, 64> at{};
+  std::snprintf(at.data(), at.size(), " at %.3f s", time_s);
+  std::string line = "fault " + std::to_string(static_cast<int>(fault)) + " ";
+  line += name(fault);
+  line += at.data();
+  if (std::isfinite(margin.measured) && std::isfinite(margin.limit)) {
+    const bool rounding = std::abs(margin.measured) < 1e-9 * std::abs(margin.limit);
+    line += ": " + number_text(rounding ? 0.0 : margin.measured, 3) + " measured, limit ";
+    line += number_text(margin.limit, 3);
+  }
+  return line + " (" + page_of(fault) + ")";
+}
+
 std::string Summary::never_armed_because(const Scenario& scenario,
                                          const Simulation& simulation) const {
   if (armed_) return {};
@@ -166,9 +184,12 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["never_armed_because"] = never_armed.empty() ? ordered_json() : ordered_json(never_armed);
   json["faults"] = ordered_json::array();
   for (const FaultAt& f : faults_) {
-    json["faults"].push_back({{"at_s", f.time_s},
+    json["faults"].push_back({{"told", f.text()},
+                              {"at_s", f.time_s},
                               {"number", static_cast<int>(f.fault)},
                               {"name", std::string(name(f.fault))},
+                              {"measured", finite(f.margin.measured)},
+                              {"limit", finite(f.margin.limit)},
                               {"page", page_of(f.fault)}});
   }
   const auto& learned = simulation.learned();

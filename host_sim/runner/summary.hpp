@@ -13,6 +13,7 @@
 #include "runner/infeasible_time.hpp"
 #include "runner/run_meters.hpp"
 #include "runner/simulation.hpp"
+#include "supervisor/detectors/margin.hpp"
 
 namespace supercoil::host_sim {
 
@@ -85,6 +86,9 @@ class Summary {
   struct FaultAt {
     Fault fault;
     double time_s;
+    detectors::Margin margin;
+    /// "fault 20 heater_open at 1.234 s: 0.1 measured, limit 0.27 (docs/faults/heater_open.md)"
+    std::string text() const;
   };
   /// In the order in which they latched.
   const std::vector<FaultAt>& faults() const { return faults_; }
@@ -150,11 +154,11 @@ class Summary {
 
   void note_fault(const TickRecord& record) {
     if (record.fault != fault_ && record.fault != Fault::none) {
-      faults_.push_back({record.fault, record.time_s});
+      faults_.push_back({record.fault, record.time_s, record.fault_margin});
     }
     const bool of_board = record.board_fault != board_fault_ && record.board_fault != Fault::none;
     if (of_board && record.board_fault != record.fault) {
-      faults_.push_back({record.board_fault, record.time_s});
+      faults_.push_back({record.board_fault, record.time_s, {.measured = NAN, .limit = NAN}});
     }
     fault_ = record.fault;
     board_fault_ = record.board_fault;

@@ -123,6 +123,13 @@ class Outcome(ProgramCase):
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it: it showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
+    def test_a_fault_is_told_with_what_was_measured(self):
+        done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
+        fault = summary["faults"][0]
+        self.assertGreater(fault["limit"], fault["measured"])
+        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (docs/faults/heater_open.md)", fault["told"])
+        self.assertIn(fault["told"] + "\n", done.stdout)
+
     def test_json_is_all_that_programs_get(self):
         done, summary = self.run_of(SHORT, "--json")
         self.assertEqual(json.loads(done.stdout), summary)

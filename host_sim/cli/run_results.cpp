@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/describe.hpp"
+#include "runner/mode_outcome.hpp"
 #include "runner/reference_feasibility.hpp"
 
 namespace supercoil::host_sim {
@@ -80,14 +81,9 @@ void print_promise(const nlohmann::ordered_json& json) {
 
 /// How identify, calibrate and the first motion ended, if there were any.
 void print_modes(const nlohmann::ordered_json& json) {
-  const auto result = json["mode_result"]["result"].get<std::string>();
-  if (result != "none") {
-    std::string notes;
-    for (const auto& note : json["mode_result"]["notes"])
-      notes += (notes.empty() ? " (" : ", ") + note.get<std::string>();
-    std::printf("the last identify or calibrate: %s%s\n", result.c_str(),
-                notes.empty() ? "" : (notes + ")").c_str());
-  }
+  const auto& told = json["mode_result"]["told"];
+  if (!told.is_null())
+    std::printf("the last identify or calibrate: %s\n", told.get<std::string>().c_str());
   const auto& motion = json["first_motion"];
   if (motion.is_null() || motion["rms_m"].is_null()) return;
   const double rms_m = motion["rms_m"].get<double>();
@@ -189,13 +185,16 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   const auto& motion = simulation.first_motion();
   const bool unfinished = motion && std::isnan(motion->rms_m());
   const std::string unfollowed = summary.did_not_follow_because(scenario);
+  const std::string nothing_found = mode_failed_because(scenario, simulation);
   const bool ended_well = summary.armed() && fault == Fault::none && !unfinished;
-  if (ended_well && unfollowed.empty()) return exit_done;
+  if (ended_well && unfollowed.empty() && nothing_found.empty()) return exit_done;
   std::string told = prefix(options, scenario);
   if (!summary.armed()) {
     told += "never armed: " + summary.never_armed_because(scenario, simulation);
-  } else if (ended_well) {
+  } else if (ended_well && !unfollowed.empty()) {
     told += "it did not follow: " + unfollowed;
+  } else if (ended_well) {
+    told += "identify or calibrate found nothing: " + nothing_found;
   } else if (fault == Fault::none) {
     told += "the first motion did not come to its end";
   } else {

@@ -10,6 +10,7 @@
 
 #include "supercoil/control/actuator/conversions.hpp"
 
+#include "runner/mode_outcome.hpp"
 #include "runner/scenario_promise.hpp"
 #include "text/number_text.hpp"
 #include "text/program_version.hpp"
@@ -56,8 +57,10 @@ ordered_json mode_result_json(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < identify_note_names.size(); ++i) {
     if ((snapshot.identify_notes >> i & 1U) != 0) notes.push_back(identify_note_names.at(i));
   }
+  const std::string told = describe_mode(snapshot);
   return {{"result", mode_result_names.at(static_cast<std::size_t>(snapshot.result))},
-          {"notes", notes}};
+          {"notes", notes},
+          {"told", told.empty() ? ordered_json() : ordered_json(told)}};
 }
 
 ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {

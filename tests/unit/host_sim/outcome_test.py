@@ -123,6 +123,21 @@ class Outcome(ProgramCase):
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it: it showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
+    def test_an_identify_that_finds_nothing_is_a_failure_with_its_reason(self):
+        weak = "simulation.duration_s = 300.0\noperator.action = 'identify'\nplant.force_per_kelvin_N_per_K = 2e-5\n"
+        done, summary = self.run_of(weak)
+        told = summary["mode_result"]["told"]
+        self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "too_little_motion"))
+        self.assertIn("too_little_motion: the muscle moved by less than 1 % of its travel", told)
+        self.assertEqual(told.count("too_little_motion"), 1)
+        self.assertTrue(told.endswith("(docs/running.md#commands)"))
+        self.assertIn("the last identify or calibrate: " + told, done.stdout)
+        self.assertIn("identify or calibrate found nothing: " + told, done.stderr)
+        self.assertEqual(self.run_of(weak, "--allow-fault")[0].returncode, 0)
+        done, summary = self.run_of("simulation.duration_s = 5.0\noperator.action = 'identify'\n")
+        self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "running"))
+        self.assertIn("it had not ended when the run did", done.stderr)
+
     def test_a_fault_is_told_with_what_was_measured(self):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
         fault = summary["faults"][0]

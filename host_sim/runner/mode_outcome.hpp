@@ -1,0 +1,18 @@
+// How an identify or calibrate that a scenario asks for ended, in words.
+#pragma once
+
+#include <string>
+
+#include "runner/simulation.hpp"
+
+namespace supercoil::host_sim {
+
+/// "too_little_motion: the muscle moved by less than 1 % ... (docs/running.md#commands)"; empty:
+/// there was none.
+std::string describe_mode(const Snapshot& snapshot);
+
+/// The same of one that the scenario asks for and that found nothing, or has not ended; empty:
+/// none.
+std::string mode_failed_because(const Scenario& scenario, const Simulation& simulation);
+
+}  // namespace supercoil::host_sim

@@ -37,8 +37,8 @@ void print_forecast(const Scenario& scenario) {
   print_lines("muscle", config::describe_feasibility(board, 0));
   print_lines("muscle", {describe_rest(scenario)});
   print_lines("recommended", config::describe_recommendation(board, 0));
-  print_lines("reference", {describe_reference(scenario), describe_out_of_range(scenario),
-                            describe_scenario_promise(scenario)});
+  print_lines("reference", {describe_reference(scenario), describe_passed(scenario),
+                            describe_out_of_range(scenario), describe_scenario_promise(scenario)});
   print_lines("advice", advice_of(scenario, board));
 }
 
@@ -62,6 +62,9 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
                  {"held_so_once_identified", f->once_identified},
                  {"feasible_motion_ratio", f->feasible_motion_ratio},
                  {"feasible_slowing", json_number(f->feasible_slowing)},
+                 {"passed_ratio", f->passed_ratio},
+                 {"passed_by_recommended_ratio", f->passed_by_recommended_ratio},
+                 {"off_reference_rms_m", f->off_reference_rms_m},
                  {"promised_rms_m", promise ? Json(promise->parts.error_m()) : Json()},
                  {"out_of_range", describe_out_of_range(scenario)},
                  {"told", describe_reference(scenario)}};

@@ -113,6 +113,11 @@ void print_summary(const Summary& summary, const Scenario& scenario,
                 json["window_s"][1].get<double>());
   }
   print_promise(json);
+  if (const std::string passed = describe_passed(scenario);
+      !passed.empty() && !json["off_reference_rms_m"].is_null()) {
+    std::printf("it was %.3g mm rms from the reference itself: %s\n",
+                1e3 * json["off_reference_rms_m"].get<double>(), passed.c_str());
+  }
   if (json.contains("tracking_rms_deg") && !json["tracking_rms_deg"].is_null()) {
     std::printf("that is %.3f degrees rms, %.3f at most\n", json["tracking_rms_deg"].get<double>(),
                 json["tracking_max_deg"].get<double>());

@@ -95,6 +95,18 @@ std::string describe_reference(const Scenario& scenario) {
                      : "; with shape_reference = true the muscle follows it as it can");
 }
 
+std::string describe_passed(const Scenario& scenario) {
+  const auto f = reference_feasibility(scenario);
+  if (!f || !f->passes_little()) return {};
+  std::string text = "the reference model passes " + in_digits(f->passed_ratio);
+  text += " of its amplitude: a muscle that follows the model is " + in_mm(f->off_reference_rms_m);
+  text += " rms from the reference itself";
+  if (f->passed_by_recommended_ratio > 1.1 * f->passed_ratio) {
+    text += "; the recommended reference_model passes " + in_digits(f->passed_by_recommended_ratio);
+  }
+  return text + "; a slower reference keeps more of it";
+}
+
 std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario) {
   if (!found.found()) return {};
   const Event* before = nullptr;

@@ -11,6 +11,7 @@
 #include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/tracking/reference_shaper.hpp"
 
+#include "config/recommended_controller.hpp"
 #include "loop/feasibility.hpp"
 #include "runner/board_of.hpp"
 #include "runner/power_left.hpp"
@@ -37,12 +38,39 @@ double step_s(const Reference& reference) {
   return std::fmin(max_step_s, 2.0 * std::numbers::pi / (steps_per_period * fastest));
 }
 
+/// Of a model at this frequency.
+std::complex<double> response(const control::ReferenceModelSettings& model,
+                              double angular_frequency_rad_per_s) {
+  const std::complex<double> s{0.0, angular_frequency_rad_per_s};
+  const control::Polynomial<3>& a = model.denominator;
+  return model.gain / (((s + a[2]) * s + a[1]) * s + a[0]);
+}
+
+double passed_ratio(const control::ReferenceModelSettings& model, const Reference& reference) {
+  double asked_m = 0.0;
+  double passed_m = 0.0;
+  for (const auto& [amplitude_m, angular_frequency_rad_per_s] : reference.terms) {
+    asked_m += std::abs(amplitude_m);
+    passed_m += std::abs(amplitude_m) * std::abs(response(model, angular_frequency_rad_per_s));
+  }
+  return asked_m > 0.0 ? passed_m / asked_m : 1.0;
+}
+
+double off_reference_rms_m(const control::ReferenceModelSettings& model,
+                           const Reference& reference) {
+  double square_m2 = 0.0;
+  for (const auto& [amplitude_m, angular_frequency_rad_per_s] : reference.terms) {
+    square_m2 +=
+        0.5 * std::norm(amplitude_m * (1.0 - response(model, angular_frequency_rad_per_s)));
+  }
+  return std::sqrt(square_m2);
+}
+
 /// What the muscle needs for a motion of the model by 1 m in the reference, at this frequency.
 double power_W_per_m(const Conditions& c, double angular_frequency_rad_per_s) {
   const std::complex<double> s{0.0, angular_frequency_rad_per_s};
-  const control::Polynomial<3>& a = c.controller.model.denominator;
   const control::Theta theta = control::theta_from(c.muscle);
-  const auto model = c.controller.model.gain / (((s + a[2]) * s + a[1]) * s + a[0]);
+  const auto model = response(c.controller.model, angular_frequency_rad_per_s);
   const auto muscle = ((theta[0] * c.muscle.moving_mass_kg * s + theta[1]) * s + theta[2]) * s +
                       std::complex<double>(theta[3]);
   return std::abs(model * muscle);
@@ -136,6 +164,13 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   f.held_m = muscle.held_W * channel.muscle.dc_gain_m_per_W();
   f.held_by = muscle.held_by;
   f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
+  if (is_periodic(c.reference)) {
+    const auto suits = config::recommended_controller(channel, board.step_s());
+    f.passed_ratio = passed_ratio(c.controller.model, c.reference);
+    f.off_reference_rms_m = off_reference_rms_m(c.controller.model, c.reference);
+    f.passed_by_recommended_ratio =
+        passed_ratio(suits.in_place_of(c.controller).model, c.reference);
+  }
   const double step = step_s(c.reference);
   const PowerLeft left(board, c.power.supply_V, step);
   // An event may change all of it.

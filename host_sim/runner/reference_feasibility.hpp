@@ -34,6 +34,14 @@ struct ReferenceFeasibility {
   /// How many times as slow they are feasible, 1 or more; infinite: not at 100 times.
   double feasible_slowing = 1.0;
 
+  /// How much of its amplitude a sine, or several, have left behind the reference model, and how
+  /// far the model then is from the reference itself, rms, late as it is.
+  double passed_ratio = 1.0;
+  double passed_by_recommended_ratio = 1.0;  ///< the reference model that suits the muscle
+  double off_reference_rms_m = 0.0;
+  /// So little that following the model is not following the reference.
+  bool passes_little() const { return passed_ratio < 0.9; }
+
   bool feasible() const { return std::isnan(first_s); }
   /// The muscle cannot stay as far as it leads.
   bool leads_too_far() const { return max_m > (1.0 + 1e-6) * held_m; }
@@ -47,6 +55,9 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
 
 /// What to tell of that; empty where there is no position to follow.
 std::string describe_reference(const Scenario& scenario);
+
+/// That the reference model passes little of it; empty: it passes most.
+std::string describe_passed(const Scenario& scenario);
 
 /// That it goes, now or after an event, where the board refuses to; empty: it does not, or a
 /// joint's other muscle takes it there.

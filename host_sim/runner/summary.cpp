@@ -164,6 +164,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
                       std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  json["off_reference_rms_m"] = measured ? finite(off_reference_.rms()) : nullptr;
   json["tracking_shown_rms_m"] = measured ? finite(shown_.rms()) : nullptr;
   const auto promise = scenario_promise(scenario);
   json["promised_rms_m"] = promise ? finite(promise->parts.error_m()) : nullptr;

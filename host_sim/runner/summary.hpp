@@ -68,6 +68,7 @@ class Summary {
     if (record.open_loop || record.time_s < window_.from_s || record.time_s >= window_.to_s) return;
     tracking_.add(record.position_m - record.model_m);
     shown_.add(record.measured_m - record.model_m);
+    off_reference_.add(record.position_m - record.reference);
     if (is_infeasible(record.reference_limited_by))
       infeasible_tracking_.add(record.position_m - record.model_m);
     motion_.add(record.model_m);
@@ -171,6 +172,7 @@ class Summary {
   std::int64_t outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
   ErrorMeter shown_;
+  ErrorMeter off_reference_;
   ErrorMeter infeasible_tracking_;  ///< of it, while the reference asks for too much
   MotionMeter motion_;
   PowerNoiseMeter power_noise_;

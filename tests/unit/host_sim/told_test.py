@@ -86,6 +86,24 @@ class Told(ProgramCase):
         self.assertLess(abs(summary["infeasible_from_s"] - before["first_s"]), 0.02)
         self.assertLess(abs(summary["infeasible_lasts_s"] / before["first_lasts_s"] - 1.0), 0.2)
 
+    def test_a_quick_sine_of_which_the_model_passes_little_is_told(self):
+        quick = ("simulation.duration_s = 30.0\nreference = {kind = 'sine', offset_m = 0.011, amplitude_m = 0.009, angular_frequency_rad_per_s = 3.0}\n"
+                 "controller = {kind = 'learned_ff', shape_reference = true}\n")
+        text = self.run_program("run", self.scenario(quick), "--check").stdout
+        before = json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)["reference"]
+        self.assertLess(before["passed_ratio"], 0.05)
+        self.assertGreater(before["passed_by_recommended_ratio"], 5 * before["passed_ratio"])
+        line = re.search(r"\nreference: (the reference model passes .*)\n", text)[1]
+        self.assertIn(f"passes {before['passed_ratio']:.3g} of its amplitude", line)
+        self.assertIn(f"is {1e3 * before['off_reference_rms_m']:.3g} mm rms from the reference itself", line)
+        self.assertIn(f"the recommended reference_model passes {before['passed_by_recommended_ratio']:.3g}", line)
+        told, summary = self.after(quick)
+        self.assertIn(f"\nit was {1e3 * summary['off_reference_rms_m']:.3g} mm rms from the reference itself: {line}\n", told)
+        self.assertLess(abs(summary["off_reference_rms_m"] / before["off_reference_rms_m"] - 1.0), 0.2)
+        self.assertLess(before["promised_rms_m"], 100e-6)
+        usual = self.run_program("run", self.scenario(SHORT), "--check").stdout
+        self.assertNotIn("reference model passes", usual)
+
     def test_shaping_is_no_advice_where_an_event_has_switched_it_on(self):
         fast = "simulation.duration_s = 40.0\nreference.angular_frequency_rad_per_s = 2.0\ncontroller.kind = 'learned_ff'\n"
         fast += "reference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n"

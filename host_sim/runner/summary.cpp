@@ -131,10 +131,11 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
   if (promise) text += " and " + number_text(1e3 * promise->parts.error_m(), 3) + " mm promised";
   if (oscillated()) return text + ": the loop oscillated";
   if (behind_by_reference()) return text + ": the reference asked for more than the muscle can do";
-  if (diverged())
+  if (diverged()) {
     return text +
            ": the loop oscillated or diverged, its power at a limit while the reference "
            "asked for no more than the muscle can do";
+  }
   return text +
          ": the controller is too weak, or the muscle is not the one that the board believes";
 }

@@ -276,8 +276,8 @@ LimitedBy Simulation::reference_limited_by() {
     return is_infeasible(s.limited_by) ? s.limited_by : loop_.channel(1).snapshot().limited_by;
   if (!demand_) {
     const PowerLeft left(firmware_of(*scenario_), c.power.supply_V, step_s_);
-    // Noise put the model's beginning off by this much.
-    constexpr double tolerated_ratio = 0.02;
+    // Noise puts the beginning of a model off by this much; a shaped one rides along its limit.
+    const double tolerated_ratio = c.controller.shape_reference ? 1e-9 : 0.02;
     demand_.emplace(c, true_muscle(c), c.plant.load_N, left, step_s_, tolerated_ratio);
     demand_->start_at(s.model_m);
   }

@@ -408,7 +408,10 @@ whatever holds it, conducts by itself. So the heartbeat stops and the charge pum
 
 **Detected** when the duty is 0 or the enable line low, and the current is above 50 mA, no number, or not read at all,
 for 50 ms without a gap (`off_current_A`, `stuck_on_s`). Without a reading nothing proves that the heat is off. Proof is
-the current, not what the PWM reads back: that may be the kernel's memory.
+the current, not what the PWM reads back: that may be the kernel's memory. At the end it must also be more than a sense
+that averages (`sense_filter_ms`) can still show of the current before, with a time constant that is a quarter longer: after
+0.67 A through 10 ms, 32 mA after 50 ms at 100 Hz. So a leak of little more than 50 mA may be found some time constants later, a stuck
+switch is not.
 
 **Reaction:** every channel cold, heartbeat off, whatever other fault the channel has. If another was first, the channel
 keeps that name; the other channels show this one. With the default decay of 20 ms the supply is open about 70 ms after
@@ -419,8 +422,7 @@ the switch stuck. The simulated muscle of 10 Ω at 12 V warms by 5.4 K in that t
 - no current reading: a converter, its bus, its cable ([sensor_stale](sensor_stale.md) comes first)
 - the power transistor failed to a short, as most do
 - the gate driver or the enable gate failed
-- the sense has an offset of more than 50 mA, or its filter decays too slowly: from full current it must fall below
-  50 mA within 50 ms
+- the sense has an offset of more than 50 mA, or its filter is slower than `sense_filter_ms` says
 
 ## Remedy
 

@@ -48,16 +48,15 @@ using Short = Above;
 class StuckOn final : public Detector {
  public:
   struct Settings {
-    double max_A;               ///< what a cold channel may show: offset and noise
-    double hold_s = 0.05;       ///< the time that it has for that
-    double filter_s = 0.0;      ///< time constant of the sense, >= 0; 0: it does not average
+    double max_A;           ///< what a cold channel may show: offset and noise
+    double hold_s = 0.05;   ///< the time that it has for that
+    double filter_s = 0.0;  ///< time constant of the sense, >= 0; 0: it does not average
   };
   StuckOn(const Settings& settings, double step_s)
       : settings_(settings),
         held_(settings.hold_s, step_s),
-        decay_(settings.filter_s > 0.0
-                   ? std::exp(-step_s / (filter_tolerance * settings.filter_s))
-                   : 0.0) {}
+        decay_(settings.filter_s > 0.0 ? std::exp(-step_s / (filter_tolerance * settings.filter_s))
+                                       : 0.0) {}
 
   /// off: the duty is 0 or the enable line low.
   bool step(bool off, double current_A) {

@@ -49,7 +49,7 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      "larger",
      true, true},
     {"identify",
-     "heats and lets cool four to nine times, up to 0.85 of its reach, and again in shorter "
+     "heats and lets cool three to nine times, up to 0.85 of its reach, and again in shorter "
      "strokes "
      "if it is far from linear; a minute for a quick muscle, eight for one with a time constant of "
      "a minute, and up to three times that if it is far from linear"},

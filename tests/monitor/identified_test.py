@@ -60,15 +60,43 @@ class Told(ModulesCase):
             return ["stiffness_N_per_m", "cold_resistance_Ohm", "theta1"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
             [["5.00", "–", "16.0"], ["9.00", "–", "10.0"], ["–", "–", "4.00"]])
 
+    def test_time_constant_and_gain_follow_too(self):
+        self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { thermal_mass_J_per_K: 2, heat_transfer_W_per_K: 4, stiffness_N_per_m: 5, force_per_kelvin_N_per_K: 0.5,
+                configured_thermal_mass_J_per_K: 2, configured_heat_transfer_W_per_K: 5 });
+            card.update(2);
+            return ["time_constant", "gain"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
+            [["0.500", "–", "0.400"], ["25.0", "–", "–"]])
+
+    def test_deviations_that_the_server_derives_are_shown_while_they_are_of_what_the_stream_tells(self):
+        self.assertEqual(self.ask(IDENTIFIED + """const now = globalThis.fetch;
+            const sent = { stiffness_N_per_m: 16.1, theta2_deviation_ratio: 0.02, theta3_deviation_ratio: 0.01, theta4_deviation_ratio: 0.01 };
+            globalThis.fetch = async () => new Response(JSON.stringify({ ...sent, stiffness_N_per_m_deviation_ratio: 0.034, time_constant_deviation_ratio: 0.0048 }));
+            const asking = new Identified(1, store, true);
+            const told = (time_s) => {
+                asking.update(time_s);
+                return ["stiffness_N_per_m", "time_constant", "damping_Ns_per_m", "theta2"].map((name) => asking.rows.get(name)[1].textContent);
+            };
+            status(0, "rest", "none");
+            const before = told(0.5);
+            while (!asking.answer.stiffness_N_per_m) await new Promise((done) => setTimeout(done, 5));
+            globalThis.fetch = now;
+            muscle(1, sent);
+            const same = told(2);
+            muscle(3, { stiffness_N_per_m: 17 });
+            return [before, same, told(4)];"""),
+            [["–"] * 4, ["± 3.40 %", "± 0.480 %", "–", "± 2.00 %"], ["–", "–", "–", "± 2.00 %"]])
+
 
 class OnThePage(PageCase):
     def test_a_board_is_asked_and_answers(self):
         page = self.page()
         page.wait(lambda: "Not identified since the board started" in page.text(CARD), SLACK_S, "what it goes by")
-        page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(5) td"), SLACK_S, "the first quantity")
+        page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(7) td"), SLACK_S, "the first quantity")
         self.assertEqual(page.errors(), [])
         answer = page.run("return fetch('/api/muscle/1').then((answer) => answer.json())")
-        self.assertEqual(len(answer), 44)
+        self.assertEqual(len(answer), 44 + 6)
+        for name in ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m", "time_constant", "gain"):
+            self.assertIsNone(answer[f"{name}_deviation_ratio"])
         self.assertIsNone(answer["theta1_deviation_ratio"])
         self.assertIsNone(answer["joint_lever_m"])
         self.assertFalse(page.run("return [...document.querySelectorAll('.joint')].some((card) => card.checkVisibility())"))

@@ -91,6 +91,7 @@ class SetupTest(SetupCase):
         self.start_board(port)
         identified = self.run_step(page, "identify", lambda: see(page, "identify"))
         self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ (± \S+ % )?\(configured: 17\.84, ")
+        self.in_use_as_told(page, identified["lines"])
         tuned = subprocess.run([SUPERCOIL, "tune", "1", "bandwidth_rad_per_s=3", "--can", self.source], capture_output=True, timeout=SLACK_S)
         self.assertEqual(tuned.returncode, 0)
 
@@ -108,6 +109,17 @@ class SetupTest(SetupCase):
         state = command(self.source, "state").stdout
         self.assertRegex(state, "node 1: disarmed")
         self.assertEqual(page.errors(), [])
+
+    def in_use_as_told(self, page, lines):
+        """The card of the muscle in use has the deviations that the step told."""
+        def deviation(title):
+            return page.run(f"""return [...document.querySelectorAll("section[aria-label='muscle in use, node 1'] tbody tr")]
+                .find((row) => row.firstChild.textContent === "{title}").children[3].textContent""")
+
+        for title in ("time constant", "gain"):
+            told = re.search(rf"{title}: \S+ \S+ ± (\S+) %", " ".join(lines))
+            page.wait(lambda: deviation(title) != "–", SLACK_S, f"the deviation of the {title}")
+            self.assertAlmostEqual(float(deviation(title).split()[1]), float(told[1]), delta=0.05 * float(told[1]))
 
     def test_a_wrong_answer_is_refused_with_its_range_and_asked_again(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")

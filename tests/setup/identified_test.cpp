@@ -12,6 +12,7 @@
 
 #include "supercoil/control/actuator/conversions.hpp"
 
+#include "apps/supercoil/identified_deviations.hpp"
 #include "setup/commissioned.hpp"
 #include "setup/listener.hpp"
 
@@ -21,13 +22,10 @@ using control::PhysicalParameters;
 
 namespace {
 
-/// The four parameters, time constant and gain.
-using Values = std::array<double, 6>;
-
-Values values_of(const PhysicalParameters& m) {
-  return {m.thermal_mass_J_per_K, m.heat_transfer_W_per_K,           m.stiffness_N_per_m,
-          m.damping_Ns_per_m,     -1.0 / m.thermal_pole_rad_per_s(), m.dc_gain_m_per_W()};
-}
+using Values = operating::IdentifiedValues;
+using operating::identified_deviations;
+using operating::identified_values;
+using operating::named_deviations;
 
 /// By many muscles whose theta is off at random. scaled: theta1 follows theta3.
 Values drawn(const PhysicalParameters& muscle, const std::array<double, 4>& ratios, bool scaled) {
@@ -45,7 +43,7 @@ Values drawn(const PhysicalParameters& muscle, const std::array<double, 4>& rati
         control::physical_from(off, {muscle.force_per_kelvin_N_per_K, muscle.moving_mass_kg});
     CHECK_TRUE(found.has_value());
     for (std::size_t k = 0; k < squares.size(); ++k)
-      squares[k] += std::pow(values_of(*found)[k] / values_of(muscle)[k] - 1.0, 2);
+      squares[k] += std::pow(identified_values(*found)[k] / identified_values(muscle)[k] - 1.0, 2);
   }
   for (double& square : squares)
     square = std::sqrt(square / draws);
@@ -72,7 +70,7 @@ TEST(Identified, EachParameterIsAsSureAsManyMusclesOfSuchAThetaShow) {
   for (const bool scaled : {false, true}) {
     std::array<double, 4> told = ratios;
     if (scaled) told[0] = NAN;
-    const auto by_slopes = operating::identified_deviations(muscle, told);
+    const auto by_slopes = identified_deviations(muscle, told);
     const Values by_draws = drawn(muscle, ratios, scaled);
     DOUBLES_EQUAL(1.0, by_slopes.time_constant / by_draws[4], 0.06);
     DOUBLES_EQUAL(1.0, by_slopes.gain / by_draws[5], 0.06);
@@ -98,6 +96,8 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   CHECK(found["stiffness_N_per_m_deviation_ratio"].get<double>() > 0.001);
   CHECK_TRUE(!found.contains("moving_mass_kg_deviation_ratio"));
   DOUBLES_EQUAL(0.01, found["theta4_deviation_ratio"].get<double>(), 0.0);
+  for (const auto& [name, ratio] : named_deviations(identified_deviations(known_of(muscle))))
+    DOUBLES_EQUAL(ratio, found[name].get<double>(), 0.0);
 
   STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % (configured: 6.039, -9.09 %)\n", told.c_str());
   STRCMP_CONTAINS("time constant: 1.82 s ± ", told.c_str());

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/supercoil/identified_deviations.hpp"
 #include "apps/supercoil/monitor/assets.hpp"
 #include "apps/supercoil/monitor/batch.hpp"
 #include "apps/supercoil/monitor/command_request.hpp"
@@ -89,6 +90,8 @@ json muscle_json(const KnownMuscle& known) {
   json told;
   for (std::size_t i = 0; i < known.size(); ++i)
     told[std::string(known_quantities[i])] = known[i];
+  for (const auto& [name, ratio] : named_deviations(identified_deviations(known)))
+    told[name] = ratio;
   return told;
 }
 

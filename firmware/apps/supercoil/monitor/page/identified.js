@@ -11,12 +11,20 @@ const QUANTITIES = {
   cold_resistance_Ohm: ["cold resistance", "Ω"], position_offset_m: ["sensor at zero", "m"], position_scale: ["position scale", ""],
   response_ratio: ["arrives of a small motion", ""], unexplained_ratio: ["unexplained of the power", ""],
 };
-const THETA = {
+const FOLLOWING = {
+  time_constant: ["time constant", "s", ({ c, h }) => c / h],
+  gain: ["gain", "mm/W", ({ h, k, force }) => (1e3 * force) / (h * k)],
   theta1: ["θ1", "m", ({ c, force }) => c / force],
   theta2: ["θ2", "W·s²/m", ({ c, h, d, m, force }) => (m * h + d * c) / force],
   theta3: ["θ3", "W·s/m", ({ c, h, k, d, force }) => (c * k + d * h) / force],
   theta4: ["θ4", "W/m", ({ h, k, force }) => (h * k) / force],
 };
+
+// By these is known what an answer told of; single precision, as text.
+const KEPT = ["theta2_deviation_ratio", "theta3_deviation_ratio", "theta4_deviation_ratio", "stiffness_N_per_m"];
+const SAME_RATIO = 1e-6;
+
+const is_of_same = (answer, heard) => KEPT.every((name) => Math.abs(heard[name] - answer[name]) <= SAME_RATIO * Math.abs(answer[name]));
 
 const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NONE);
 
@@ -37,9 +45,9 @@ function identified_since(store, node, now_s) {
 export class Identified {
   /** may_ask: there is a board. */
   constructor(node, store, may_ask) {
-    Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "" });
+    Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "", answer: {} });
     const body = element("tbody");
-    for (const [name, [title, unit]] of Object.entries({ ...THETA, ...QUANTITIES })) {
+    for (const [name, [title, unit]] of Object.entries({ ...FOLLOWING, ...QUANTITIES })) {
       const cells = ["value", "deviation", "value"].map((kind) => element("td", { class: kind }, NONE));
       body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, unit), ...cells.slice(1)));
       this.rows.set(name, cells);
@@ -53,7 +61,7 @@ export class Identified {
 
   async #ask() {
     this.problem = "";
-    await ask_muscle(this.node).catch(({ message }) => (this.problem = `not known: ${message}`));
+    await ask_muscle(this.node).then((answer) => (this.answer = answer), ({ message }) => (this.problem = `not known: ${message}`));
     this.key = undefined;
   }
 
@@ -62,12 +70,14 @@ export class Identified {
     const result = this.store.at(this.node, "Status", now_s)?.result;
     if (this.may_ask && result !== undefined && result !== this.result) this.#ask();
     this.result = result;
-    const known = {};
-    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) known[this.store.word("Muscle", "quantity", number)] = value;
+    const heard = {};
+    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) heard[this.store.word("Muscle", "quantity", number)] = value;
+    // The server derives deviations that no board sends.
+    const known = { ...(is_of_same(this.answer, heard) ? this.answer : {}), ...heard };
     for (const by of ["", "configured_"]) {
       const physical = { c: known[`${by}thermal_mass_J_per_K`], h: known[`${by}heat_transfer_W_per_K`], k: known[`${by}stiffness_N_per_m`],
         d: known[`${by}damping_Ns_per_m`], m: known[`${by}moving_mass_kg`], force: known[`${by}force_per_kelvin_N_per_K`] };
-      for (const [name, [, , of]] of Object.entries(THETA)) known[`${by}${name}`] = of(physical);
+      for (const [name, [, , of]] of Object.entries(FOLLOWING)) known[`${by}${name}`] = of(physical);
     }
     for (const [name, [value, deviation, configured]] of this.rows) {
       show(value, significant(known[name]));

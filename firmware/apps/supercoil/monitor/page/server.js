@@ -61,8 +61,8 @@ export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json
 /** The kinds in use of a node: {controllers: ["mrac", …], estimators: […]}. */
 export const kinds_of = async (node) => (await ask(`/api/kinds/${node}`)).json();
 
-/** Has a node tell all that it goes by of its muscle; the answers come with the stream, as Muscle. */
-export const ask_muscle = async (node) => void (await ask(`/api/muscle/${node}`));
+/** Has a node tell all that it goes by of its muscle: the stream has it too, as Muscle, but for the deviations that the server derives. */
+export const ask_muscle = async (node) => (await ask(`/api/muscle/${node}`)).json();
 
 /** Changes values (texts by name), beginning with those of a set. Resolves to the refusal's name. */
 export const tune = async (node, place, from, values) =>

@@ -31,6 +31,9 @@ CARD = """const { StateCard } = await import("/state_card.js");
     const store = new Store(protocol, false);
     const card = new StateCard(1, store, () => {}, protocol_version);
     card.element.dataset = {};  // this document is an image
+    const notes = ["theta1_kept", "theta2_uncertain", "theta3_uncertain", "theta4_uncertain", "poor_fit", "implausible", "too_little_motion", "friction"];
+    (await import("/results.js")).take_results({ none: "", running: "", found: "stored", poor_fit: "play", interrupted: "ended" },
+        notes.map((name) => ({ name, words: name.replaceAll("_", " ") })));
 """
 
 

@@ -236,12 +236,11 @@ class ModulesTest(ModulesCase):
                 card.update(time_s);
                 return card.result.hidden || card.result.textContent;
             };
-            return [shown(1, 0, 0), shown(2, 2, 0), shown(3, 2, 1), shown(4, 6, 2 + 8 + 16), shown(5, 2, 0, 1)];""")
+            return [shown(1, 0, 0), shown(2, 1, 0), shown(3, 2, 0), shown(4, 2, 1), shown(5, 6, 2 + 8 + 16), shown(6, 2, 16, 1)];""")
         last = "Last identify or calibrate: "
         self.assertEqual(told, [
-            True, last + "found and kept.", last + "found and kept; θ1 was not known well enough, its believed value is kept.",
-            last + "the muscle did not do what the fit predicted; θ2 is uncertain; θ4 is uncertain; full strokes were not explained.",
-            last + "found and kept; friction takes more than half of a small motion, and the power may be held to less for it."])
+            True, True, last + "found: stored.", last + "found: stored; theta1 kept.",
+            last + "poor fit: play; theta2 uncertain; theta4 uncertain.", last + "found: stored; poor fit; friction."])
 
     def test_what_interrupted_identify_is_told_by_the_heartbeat_that_ended_it(self):
         told = self.ask(CARD + """const values = (signal) => Object.entries(protocol.Status[signal].values);

@@ -186,7 +186,7 @@ class PageTest(PageCase):
         page.arm()
         page.click("input[value=calibrate] + span")
         page.click(".go")
-        page.wait(lambda: "found and kept" in page.text(".state"), READY_S, "told that it was found")
+        page.wait(lambda: "found: used from now on, and stored" in page.text(".state"), READY_S, "told that it was found")
 
     def test_gains_of_the_controller_are_shown_by_name(self):
         page = self.page()

@@ -21,6 +21,7 @@
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
+#include "text/result_words.hpp"
 
 namespace supercoil::operating {
 
@@ -192,8 +193,7 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
     if (!cause.empty()) json["cause"] = cause;
     std::printf("%s\n", json.dump().c_str());
   }
-  const std::string all = line + " ended: " + result + (notes.empty() ? "" : " (" + notes + ")") +
-                          (cause.empty() ? "" : ", " + cause);
+  const std::string all = line + " ended: " + told_result(result, notes, cause);
   const bool has_remedy = result != "interrupted";
   if (result != "found")
     return fail(exit_failed, all + (has_remedy ? "; docs/troubleshooting.md says what to do" : ""));

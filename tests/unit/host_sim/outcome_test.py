@@ -136,7 +136,7 @@ class Outcome(ProgramCase):
         self.assertEqual(self.run_of(weak, "--allow-fault")[0].returncode, 0)
         done, summary = self.run_of("simulation.duration_s = 5.0\noperator.action = 'identify'\n")
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "running"))
-        self.assertIn("it had not ended when the run did", done.stderr)
+        self.assertIn("running: it has not ended yet; a longer simulation.duration_s lets it", done.stderr)
 
     def test_a_fault_is_told_with_what_was_measured(self):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")

@@ -13,6 +13,7 @@
 #include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/opcodes.hpp"
+#include "text/result_words.hpp"
 
 namespace supercoil::operating {
 
@@ -114,10 +115,11 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
   if ((mode == "identify" || mode == "calibrate") && std::isfinite(progress))
     text += ", " + std::to_string(std::lround(100.0 * progress)) + " %";
   const std::string result = named(node, "Status", "result");
+  const double bits = value(node, "Estimate", "identify_notes");
+  const std::string notes =
+      bits > 0.0 ? describe_notes(static_cast<std::uint8_t>(bits), ",") : std::string();
   if (result != "none" && result != "running" && result != "-")
-    text += ", last identification or calibration: " + result;
-  if (const double notes = value(node, "Estimate", "identify_notes"); notes > 0.0)
-    text += " (" + describe_notes(static_cast<std::uint8_t>(notes)) + ")";
+    text += ", last identification or calibration: " + told_result(result, notes);
   text += '\n';
   if (value(node, "Status", "friction") == 1.0)
     text += "  friction takes more than half of a small motion: the power may be held to less\n";

@@ -17,6 +17,7 @@
 #include "telemetry/opcodes.hpp"
 #include "text/program_version.hpp"
 #include "text/refusal_words.hpp"
+#include "text/result_words.hpp"
 
 namespace supercoil::operating {
 
@@ -99,6 +100,21 @@ json refusals_json() {
   json told;
   for (std::size_t i = 1; i < refusal_names.size(); ++i)
     told[std::string(refusal_names[i])] = refusal_words(static_cast<Refusal>(i));
+  return told;
+}
+
+json results_json() {
+  json told;
+  for (std::size_t i = 0; i < mode_result_names.size(); ++i)
+    told[std::string(mode_result_names[i])] = result_words[i];
+  return told;
+}
+
+/// By their bits, from the least on.
+json notes_json() {
+  json told = json::array();
+  for (std::size_t i = 0; i < identify_note_names.size(); ++i)
+    told.push_back({{"name", identify_note_names[i]}, {"words", note_words[i]}});
   return told;
 }
 
@@ -215,6 +231,8 @@ void Api::about(const Request& request, Response& response) const {
       {"protocol", json::parse(protocol_json())},
       {"protocol_version", telemetry::protocol_version},
       {"refusals", refusals_json()},
+      {"results", results_json()},
+      {"notes", notes_json()},
       {"infeasible", infeasible_json()}};
   answer_json(response, told.dump());
 }

@@ -22,6 +22,7 @@
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
+#include "text/result_words.hpp"
 
 namespace supercoil::operating {
 
@@ -93,9 +94,8 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
-  return tl::unexpected(
-      mode + " ended: " + *result +
-      (fault.empty() ? "; docs/troubleshooting.md says what to do" : ", " + fault));
+  return tl::unexpected(mode + " ended: " + told_result(*result, "", fault) +
+                        (fault.empty() ? "; docs/troubleshooting.md says what to do" : ""));
 }
 
 Commission::Done Commission::reset_faults() {
@@ -169,7 +169,8 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     std::string whose = mode;
     if (all->size() > 1) whose += " of channel " + channel;
     if (all->size() > 1) who_.say(whose + ": " + ending.result);
-    if (!ending.notes.empty()) who_.say(whose + " notes: " + ending.notes);
+    if (!ending.notes.empty() && ending.notes != ending.result)
+      who_.say(whose + " notes: " + ending.notes);
   }
   return all->back().ending.result;
 }

@@ -9,6 +9,7 @@ import { NodeView } from "./node_view.js";
 import { OtherRun } from "./other_run.js";
 import { PlotDialog } from "./plot_dialog.js";
 import { take_refusals } from "./refusals.js";
+import { take_results } from "./results.js";
 import { Replay } from "./replay.js";
 import { RunBar } from "./run_bar.js";
 import { Setup } from "./setup.js";
@@ -35,6 +36,7 @@ function may_command(about) {
 
 function begin(about) {
   take_refusals(about.refusals);
+  take_results(about.results, about.notes);
   const is_log = about.kind === "log";
   show(by_id("source"), about.source);
   by_id("source").title = `supercoil ${about.version}`;

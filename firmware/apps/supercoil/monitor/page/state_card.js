@@ -3,6 +3,7 @@
 import { element, show } from "./dom.js";
 import { duration, fixed, significant, words } from "./format.js";
 import { UNITS } from "./margins.js";
+import { result_words } from "./results.js";
 import { TimeLeft } from "./time_left.js";
 
 // A heartbeat comes every 100 ms.
@@ -23,37 +24,12 @@ function how_hot(state, hottest_C) {
   return hottest_C < HOT_C ? `at most ${whole_C} °C` : `may ${state === "active" ? "" : "still "}be at ${whole_C} °C`;
 }
 
-// How identify and calibrate end.
-const RESULTS = {
-  found: "found and kept",
-  interrupted: "interrupted",  // #interrupted_by() says by what
-  not_cold: "the muscle did not cool within two minutes",
-  moved: "the position changed while its zero was taken",
-  poor_fit: "the muscle did not do what the fit predicted",
-  uncertain: "parameters that a controller needs are not known well enough",
-  implausible: "what was found is out of range, nothing is changed",
-  not_stored: "used, but not stored: the disk is behind",
-  too_little_motion: "the muscle hardly moved with all the power that it may have",
-  moved_backwards: "heat moved the muscle the wrong way: the sensor's sign is wrong, or a joint's heaters are swapped",
-};
-
-// What else identify has to say: the bits of identify_notes.
-const NOTES = [
-  "θ1 was not known well enough, its believed value is kept", "θ2 is uncertain", "θ3 is uncertain", "θ4 is uncertain",
-  "full strokes were not explained", "implausible", "too little motion",
-];
-
-// Status has this one.
-const FRICTION = "; friction takes more than half of a small motion, and the power may be held to less for it";
-
 /** 0.2.0 (2780ebf), as the board tells it; older ones do not. */
 function program_text(row) {
   if (!row) return "–";
   const commit = row.commit === 0 ? "" : ` (${row.commit.toString(16).padStart(7, "0")})`;
   return `${row.version_major}.${row.version_minor}.${row.version_patch}${commit}`;
 }
-
-const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) => `; ${note}`).join("");
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
@@ -120,12 +96,10 @@ export class StateCard {
     }
     const by = row ? this.#interrupted_by(name("result"), status) : "";
     const result = status && !shows ? name("result") : "none";
-    this.result.hidden = !(result in RESULTS);
-    if (!this.result.hidden) {
-      const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
-      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${by}${notes_text(notes)}` +
-        `${row.friction === 1 ? FRICTION : ""}.`);
-    }
+    const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
+    const told = result_words(result, by, notes, row?.friction === 1);
+    this.result.hidden = told === "";
+    if (told !== "") show(this.result, `Last identify or calibrate: ${told}.`);
     return status;
   }
 

@@ -37,3 +37,16 @@ TEST(Terminal, AModeWithoutProgressHasNoPercent) {
   STRCMP_CONTAINS(", identify, mrac (controller 0)", of_node.c_str());
   CHECK(of_node.find('%') == std::string::npos);
 }
+
+TEST(Terminal, HowIdentifyEndedIsToldOnceWithItsMeaning) {
+  can::Encoder<can::message::status> status(can::Node{1});
+  status.set("result", static_cast<double>(ModeResult::too_little_motion));
+  heard.add({status.frame()});
+  can::Encoder<can::message::estimate> estimate(can::Node{1});
+  estimate.set("identify_notes", note_too_little_motion + note_theta1_kept);
+  heard.add({estimate.frame()});
+  STRCMP_CONTAINS(
+      ", last identification or calibration: too_little_motion: the muscle moved by less than 1 % "
+      "of its travel with all the power that it may have; theta1_kept\n",
+      told().c_str());
+}

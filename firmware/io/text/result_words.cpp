@@ -1,0 +1,64 @@
+#include "text/result_words.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace supercoil {
+
+const std::array<std::string_view, mode_result_names.size()> result_words{
+    "not asked for since the start",
+    "it has not ended yet",
+    "used from now on, and stored",
+    "ended by a command or a fault",
+    "the muscle did not cool within two minutes",
+    "the position changed by more than 0.1 mm while its zero was taken",
+    "the muscle did not do what the fit predicted, not even in shorter strokes: play, a load that "
+    "changes, or a sensor that slips",
+    "θ3 or θ4, which controllers need, is not known well enough, or θ2 hardly at all: the sensor "
+    "is too noisy for this motion",
+    "what was found is out of range; of identify also: far from what the configuration says",
+    "used, but the results before it still wait for the disk",
+    "the muscle moved by less than 1 % of its travel with all the power that it may have",
+    "the more heat, the further the muscle moved away from where it should: the sensor's sign is "
+    "wrong, or, of a joint, both heaters are swapped"};
+
+const std::array<std::string_view, identify_note_names.size()> note_words{
+    "θ1 was not known well enough, its believed value is kept",
+    "θ2 is uncertain",
+    "θ3 is uncertain",
+    "θ4 is uncertain",
+    "full strokes were not explained",
+    "implausible",
+    "too little motion",
+    "friction takes more than half of a small motion, and the power may be held to less for it"};
+
+std::string told_result(std::string_view result, std::string_view notes, std::string_view cause) {
+  std::string text(result);
+  const auto* const found = std::ranges::find(mode_result_names, result);
+  const bool has_words =
+      found != mode_result_names.end() &&
+      *found != mode_result_names.at(static_cast<std::size_t>(ModeResult::found));
+  if (!cause.empty()) {
+    text += ", ";
+    text += cause;
+  } else if (has_words) {
+    text += ": ";
+    text += result_words.at(static_cast<std::size_t>(found - mode_result_names.begin()));
+  }
+  std::string others;
+  while (!notes.empty()) {
+    const std::string_view note = notes.substr(0, notes.find(','));
+    notes.remove_prefix(std::min(note.size() + 1, notes.size()));
+    if (note == result) continue;
+    others += others.empty() ? "; " : ", ";
+    others += note;
+  }
+  return text + others;
+}
+
+std::string told_result(ModeResult result, std::uint8_t notes) {
+  return told_result(mode_result_names.at(static_cast<std::size_t>(result)),
+                     describe_notes(notes, ","));
+}
+
+}  // namespace supercoil

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/one_bus.hpp"
+
 namespace supercoil::host_sim {
 
 tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options,
@@ -15,7 +17,7 @@ tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options,
     OutputFolder* its_folder = &folder;
     if (boards.size() > 1) {
       const std::string number = std::to_string(int{its.can.first_node});
-      its.name += ", node " + number;
+      its.name = name_on_bus(its);
       auto opened = OutputFolder::open(folder.path() / ("node-" + number));
       if (!opened) return tl::unexpected(opened.error());
       all.folders_.push_back(std::make_unique<OutputFolder>(std::move(*opened)));

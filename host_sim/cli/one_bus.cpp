@@ -68,6 +68,10 @@ tl::expected<void, Problems> check_alike(const std::string& file, const Scenario
 
 }  // namespace
 
+std::string name_on_bus(const Scenario& board) {
+  return board.name + ", node " + std::to_string(int{board.can.first_node});
+}
+
 tl::expected<std::vector<Scenario>, Problems> on_one_bus(const RunOptions& options,
                                                          std::vector<Scenario> scenarios) {
   if (scenarios.size() == 1) return copies(options, scenarios.front());

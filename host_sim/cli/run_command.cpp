@@ -183,8 +183,10 @@ int run_command(const RunOptions& given) {
   if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
 
   if (options.real_time) return live_run(options, *boards, *window, *folder, folder_of_learned);
-  for (std::size_t i = 0; !options.quiet && i < options.scenarios.size(); ++i)
+  for (std::size_t i = 0; !options.quiet && i < options.scenarios.size(); ++i) {
+    if (options.scenarios.size() > 1) std::printf("%s:\n", name_on_bus((*boards)[i]).c_str());
     print_forecast((*boards)[i]);
+  }
   return lockstep_run(options, *boards, *window, *folder, folder_of_learned);
 }
 

@@ -57,6 +57,17 @@ class Boards(ProgramCase):
         self.assertEqual({int(identifier, 16) & 0x3F for identifier in identifiers}, set(range(1, 4 + lifter_channels)))
         self.assertGreater(lifter_channels, 1)
 
+    def test_what_each_of_several_muscles_can_do_has_its_name(self):
+        for name, force in (("strong", 0.2), ("weak", 0.1)):
+            (self.path / f"{name}.toml").write_text(SHORT + f"plant.force_per_kelvin_N_per_K = {force}\n")
+        together = self.run_program("run", "strong.toml", "weak.toml", "--no-plot").stdout
+        told = re.split(r"^(\w+, node \d):\n", together, flags=re.M)[1:]
+        self.assertEqual(told[::2], ["strong, node 1", "weak, node 2"])
+        for name, block in zip(("strong", "weak"), told[1::2]):
+            alone = self.run_program("run", f"{name}.toml", "--no-plot").stdout
+            self.assertNotIn(", node", alone)
+            self.assertTrue(block.startswith(alone[:alone.index(f"{name}: ")]))
+
     def test_several_boards_files_have_the_nodes_that_they_say(self):
         example = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
         joint = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()

@@ -110,12 +110,12 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(self.identify_by_script("--for", "2", "--json"),
                          (1, '{"command":"1 identify","result":"interrupted","cause":"by the end of --for"}\n', ended + "the end of --for\n"))
 
-        def interrupt(program):
-            until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
-            program.send_signal(signal.SIGINT)
+        for words, by, cause in ((("--hold",), signal.SIGINT, "Ctrl-C"), ((), signal.SIGINT, "Ctrl-C"), ((), signal.SIGTERM, "SIGTERM")):
+            def interrupt(program, by=by):
+                until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
+                program.send_signal(by)
 
-        for words in (("--hold",), ()):
-            self.assertEqual(self.identify_by_script(*words, meanwhile=interrupt), (1, "", ended + "Ctrl-C\n"))
+            self.assertEqual(self.identify_by_script(*words, meanwhile=interrupt), (1, "", ended + cause + "\n"))
 
     def test_a_refused_value_comes_with_the_nearest_one_that_is_obeyed(self):
         refused = self.command("1", "controller", "77")

@@ -247,7 +247,8 @@ int hold(BoardLink& board, const CommandOptions& options) {
   const std::string rest = options.words[0] + " rest";
   if (!has_result(options)) return ask(board, options, rest);
   const auto answer = board.ask(rest);
-  const std::string own = interrupted != 0 ? "by Ctrl-C" : "by the end of --for";
+  const std::string own =
+      std::string("by ") + (interrupted != 0 ? interrupter() : "the end of --for");
   return answer ? ended(board, options, own) : concluded(options, rest, answer);
 }
 

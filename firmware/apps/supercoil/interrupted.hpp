@@ -8,6 +8,7 @@
 
 namespace supercoil::operating {
 
+/// The signal; 0: none came.
 inline volatile std::sig_atomic_t interrupted = 0;
 inline volatile std::sig_atomic_t terminal_echoes = 0;
 
@@ -16,7 +17,7 @@ inline volatile std::sig_atomic_t terminal_echoes = 0;
 inline void watch_for_interrupts() {
   terminal_echoes = isatty(STDERR_FILENO);
   const auto note = [](int signal) {
-    interrupted = 1;
+    interrupted = signal;
     if (signal != SIGINT || terminal_echoes == 0) return;
     const int error = errno;
     static_cast<void>(!::write(STDERR_FILENO, "\n", 1));
@@ -24,6 +25,11 @@ inline void watch_for_interrupts() {
   };
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
+}
+
+/// What interrupted it, where something did.
+inline const char* interrupter() {
+  return interrupted == SIGTERM ? "SIGTERM" : "Ctrl-C";
 }
 
 }  // namespace supercoil::operating

@@ -26,6 +26,7 @@ class FakeDaemon:
     def __init__(self, path):
         self.answers = {"senses": "1 1 1 0\n2 1.02 0.985 0.021\n",
                         "muscle": "1 nan\n2 " + " ".join(map(str, range(14))) + " nan\n"}
+        self.identified = ("found", "theta2_uncertain,friction")
         self.waits_s = {}  # before it answers a line
         self.lines = []
         self.tell("disarmed", "rest")
@@ -59,7 +60,7 @@ class FakeDaemon:
                 if answer == "ok" and line.split()[1] in ("arm", "disarm", "rest", "position", "identify"):
                     self.tell(*{"arm": ("armed", "rest"), "disarm": ("disarmed", "rest"), "rest": ("armed", "rest"),
                                 "position": ("active", "position"),
-                                "identify": ("armed", "rest", "none", "found", "theta2_uncertain,friction"),
+                                "identify": ("armed", "rest", "none", *self.identified),
                                 }[line.split()[1]])
                 time.sleep(self.waits_s.get(line, 0.0))
                 client.send(answer.encode())
@@ -111,6 +112,13 @@ class Local(unittest.TestCase):
             self.daemon.tell("fault", "rest", "heater_open")
             with self.assertRaises(supercoil.faults.HeaterOpen):
                 muscle.hold(10.0)
+
+    def test_why_identify_found_nothing_is_told_once(self):
+        self.daemon.identified = ("too_little_motion", "theta1_kept,too_little_motion")
+        with self.muscle() as muscle, self.assertRaises(supercoil.OutcomeError) as raised:
+            muscle.identify()
+        self.assertRegex(str(raised.exception), r"identify ended: too_little_motion: the muscle moved by less than .* may have; theta1_kept$")
+        self.assertEqual(raised.exception.notes, ("theta1_kept", "too_little_motion"))
 
     def test_what_is_learned_and_known_is_told(self):
         with self.muscle() as muscle:

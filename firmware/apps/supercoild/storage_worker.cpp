@@ -7,16 +7,11 @@
 #include "config/describe.hpp"
 #include "recorder/names.hpp"
 #include "recorder/pump.hpp"
+#include "text/result_words.hpp"
 
 namespace supercoil::daemon {
 
 namespace {
-
-/// In brackets, what identify has to say beside its result.
-std::string notes_text(const Row& row) {
-  const std::string notes = describe_notes(row.identify_notes);
-  return notes.empty() ? notes : " (" + notes + ")";
-}
 
 /// Of rows that wait for the storage worker while it waits for the disk.
 constexpr double relayed_s = 1.0;
@@ -179,9 +174,9 @@ void StorageWorker::watch(const Row& row) {
     log(fault ? Level::problem : Level::info, text);
   }
   if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
-    log(Level::warning,
-        "channel " + std::to_string(row.channel + 1) + ": " + recorder::mode_name(before.mode) +
-            " ended, nothing is stored: " + recorder::result_name(row.result) + notes_text(row));
+    log(Level::warning, "channel " + std::to_string(row.channel + 1) + ": " +
+                            recorder::mode_name(before.mode) + " ended, nothing is stored: " +
+                            told_result(static_cast<ModeResult>(row.result), row.identify_notes));
   }
   before = row;
 }

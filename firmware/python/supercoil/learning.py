@@ -59,8 +59,9 @@ class Learning(Commands):
         notes = tuple(note for bit, note in enumerate(results.NOTES) if bits >> bit & 1)
         if status.result not in (Result.found, Result.not_stored):
             meaning = results.MEANINGS.get(status.result, "")
+            others = ", ".join(note for note in notes if note != str(status.result))
             raise OutcomeError(f"node {self.node}: {opcode.name} ended: {status.result}: {meaning}"
-                               + (f" ({', '.join(notes)})" if notes else ""), str(status.result), notes)
+                               + (f"; {others}" if others else ""), str(status.result), notes)
         return Outcome(status.result, notes)
 
     async def scale(self, true_position_m: float) -> None:

@@ -9,7 +9,7 @@ import tomllib
 import unittest
 
 from live import DEADLINE_S, TRIES, Simulator
-from setup_case import EXAMPLE, STARVED, SUPERCOIL, SetupCase, Terminal
+from setup_case import EXAMPLE, RESTART, STARVED, SUPERCOIL, SetupCase, Terminal
 
 
 class SetupOfABoard(SetupCase):
@@ -22,7 +22,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn("has no channel 3, but 2", done.stderr)
 
     def test_a_board_that_does_not_run_the_file_is_neither_heated_nor_taught(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         simulator = Simulator(self.path, "bench")  # whose muscle is another one
         self.addCleanup(simulator.end)
         bus = f"socketcand:{simulator.port}"
@@ -48,7 +48,7 @@ class SetupOfABoard(SetupCase):
         self.assertNotIn("last identification or calibration", told)  # it was given nothing to do
 
     def test_what_another_board_does_not_have_is_not_done(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
@@ -93,7 +93,7 @@ class SetupOfABoard(SetupCase):
         return told
 
     def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         learned = self.path / "learned"
         learned.mkdir()
         simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
@@ -135,7 +135,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
 
     def test_after_a_master_that_was_killed_its_fault_is_told_and_reset_by_whoever_says_so(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
@@ -166,7 +166,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn("  1: its cause is gone, reset the fault; 0: leave it: 1\n", done.stdout)
 
     def test_on_a_terminal_an_interruption_is_said_on_a_line_of_its_own(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
@@ -204,7 +204,7 @@ class SetupOfABoard(SetupCase):
         self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?$")
 
     def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
@@ -239,7 +239,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "gains"})
 
     def test_a_limit_that_is_answered_goes_into_the_boards_file(self):
-        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        self.describe()
         before = self.board.read_text()
         self.assertIn("max_travel_m = 0.025", before)
         simulator = Simulator(self.path, "bench", "--board", self.board)
@@ -276,7 +276,7 @@ class SetupOfABoard(SetupCase):
         power_W, supply_V = 0.1, 12.0
         script = self.script("[senses]", f"power_W = {power_W}", f"supply_V = [{supply_V}, {supply_V}]",
                              f"current_A = [{0.5 * power_W / supply_V}, {power_W / supply_V}]", "[limits]", "stop_mm = 4")
-        self.assertEqual(self.setup_program(*script).returncode, 0)
+        self.describe(*script)
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
@@ -285,7 +285,7 @@ class SetupOfABoard(SetupCase):
             subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
             return self.setup_program(*script, *bus, stdin=subprocess.DEVNULL)
 
-        told = self.patiently(unattended).stdout
+        told = self.patiently(unattended, RESTART).stdout
         self.assertIn(f"left; supercoil setup scale --config {self.board} {' '.join(bus)} does it", told)
         self.assertIn("lets go where the script says", told)
         limit = float(re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)[1])

@@ -20,6 +20,7 @@ EXAMPLE = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"]) / "raspberry-pi-pwm-ads
 ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
            "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "max_W": 4.5, "max_travel_mm": 25,
            "uncertainty_percent": 30}
+RESTART = 3  # the board, with the changed file
 # What a busy machine does to any master in real time.
 STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
 
@@ -89,17 +90,23 @@ class SetupCase(unittest.TestCase):
         self.board.write_text(self.example)
         self.record = self.path / "board.toml.setup.json"
 
+    def describe(self, *script):
+        """Up to where the board has to be started with the file."""
+        done = self.setup_program(*(script or self.script()))
+        self.assertEqual((done.returncode, done.stderr), (RESTART, ""))
+        return done
+
     def setup_program(self, *arguments, **options):
         return subprocess.run([SUPERCOIL, "setup", "--config", self.board, *arguments], capture_output=True, text=True,
                               timeout=DEADLINE_S, **options)
 
-    def patiently(self, run):
+    def patiently(self, run, status=0):
         """Again while this program was kept from the processor for so long that its lease ended."""
         for _ in range(TRIES):
             done = run()
-            if done.returncode == 0 or not any(why in done.stderr for why in STARVED):
+            if done.returncode == status or not any(why in done.stderr for why in STARVED):
                 break
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, status, done.stderr)
         return done
 
     def script(self, *tables, **changes):

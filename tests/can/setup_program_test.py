@@ -6,13 +6,12 @@ import subprocess
 import unittest
 
 from live import DEADLINE_S
-from setup_case import ANSWERS, EXAMPLE, SUPERCOILD, SetupCase, Terminal
+from setup_case import ANSWERS, EXAMPLE, RESTART, SUPERCOILD, SetupCase, Terminal
 
 
 class SetupProgram(SetupCase):
     def test_a_description_completes_the_boards_file_and_keeps_its_comments(self):
-        done = self.setup_program(*self.script())
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.describe()
         self.assertIn("stiffness_N_per_m = 17.84  (stretch_weight_g and stretch_mm)", done.stdout)
         told = re.findall("^  (holds .*|may be armed .*|controller 0.*)$", done.stdout, re.M)
         self.assertRegex(told[2], r"controller 0: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 7\.\d+ rad/s")
@@ -26,6 +25,14 @@ class SetupProgram(SetupCase):
             self.assertIn(f" {line}\n", checked.stdout)
         self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
         self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
+
+    def test_a_script_is_told_that_the_board_must_be_started_again(self):
+        done = self.setup_program(*self.script(), "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (RESTART, True))
+        self.assertIn("start the board with it, and run setup again to go on", done.stderr)
+        # A step that is named is all that was asked for.
+        done = self.setup_program("describe", *self.script(), "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (0, False))
 
     def test_asks_what_no_script_answers_and_asks_again_after_a_slip(self):
         lines = [str(value) for value in ANSWERS.values()]
@@ -68,8 +75,7 @@ class SetupProgram(SetupCase):
         measured = {key: None for key in ANSWERS} | {"stretch_weight_g": 100, "stretch_mm": 55, "half_cooling_s": 1.3}
         _, script = self.script(**measured)
         script.write_text(script.read_text() + "[nameplate]\n" + "".join(f"{key} = {value}\n" for key, value in self.PLATE.items()))
-        done = self.setup_program("--script", script)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.describe("--script", script)
         by_script = self.board.read_text()
         for line in ("cold_resistance_Ohm = 10", "max_W = 2", "max_travel_m = 0.012", "trip_C = 120", "derate_from_C = 101",
                      "heat_transfer_W_per_K = 0.02105", "moving_mass_kg = 0.09"):
@@ -126,8 +132,7 @@ class SetupProgram(SetupCase):
 
     def test_a_list_of_controllers_stays_as_it_was_chosen(self):
         self.board.write_text((EXAMPLE.parent / "on-chip-pwm-fast-converter.toml").read_text())
-        done = self.setup_program(*self.script())
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.describe()
         text = self.board.read_text()
         self.assertIn('kind = "mrac"', text)
         self.assertNotIn("learned_ff", text)

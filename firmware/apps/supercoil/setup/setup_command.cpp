@@ -26,6 +26,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Steps are left: the board has to be started with the changed file before they can be done.
+constexpr int exit_restart_board = 3;
+
 std::vector<std::string> step_names() {
   std::vector<std::string> names(setup_steps.size());
   std::ranges::transform(setup_steps, names.begin(), &SetupStep::name);
@@ -55,7 +58,7 @@ int concluded(const SetupOptions& options, const Json& results, int status, std:
   // What is wrong with a file is whole lines.
   if (error.ends_with('\n')) error.pop_back();
   if (options.json) {
-    Json told{{"steps", results}};
+    Json told{{"steps", results}, {"restart_board", status == exit_restart_board}};
     if (!error.empty()) told["error"] = error;
     std::printf("%s\n", told.dump(2).c_str());
   }
@@ -115,6 +118,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (wrote_file(*found) && options.steps.empty()) {
       std::fprintf(out, "%s is %s: start the board with it, and run setup again to go on\n",
                    options.config.c_str(), describes ? "complete" : "changed");
+      status = exit_restart_board;
       break;
     }
   }
@@ -184,7 +188,8 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   setup
       ->add_option("--script", o.script,
                    "Answers in a TOML file's tables [muscle], [nameplate], [senses], [scale] and "
-                   "[limits]; a step that they do not answer is skipped")
+                   "[limits]; a step that they do not answer is skipped. Exit status 3: start the "
+                   "board with the changed file, and run the same command again")
       ->type_name("FILE");
   CLI::Option* socket =
       setup->add_option("--socket", o.socket, "Where supercoild listens")->capture_default_str();

@@ -13,6 +13,7 @@ import socket
 import struct
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -220,11 +221,25 @@ class Sources(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""), source)
             self.assertIn(why, done.stderr)
 
-    def test_whoever_is_no_socketcand_is_told_so(self):
-        with socket.create_server(("127.0.0.1", 0)) as other:
-            done = self.run_monitor(f"socketcand:{other.getsockname()[1]}")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("is not socketcand", done.stderr)
+    def test_whoever_does_not_answer_as_a_socketcand_is_told_with_what_was_seen(self):
+        def greet(client):
+            client.send(b"< hi >")
+            client.recv(100)
+            time.sleep(2.5)  # longer than a first try
+
+        silent = "took the connection, but did not say '< hi >' in time: it is stopped or busy, or no socketcand"
+        for act, why in ((None, silent), (lambda client: None, "closed the connection"),
+                         (greet, "did not answer '< open can0 >' in time: it is stopped or busy")):
+            with socket.create_server(("127.0.0.1", 0)) as other:
+                def serve(act=act, other=other):
+                    with other.accept()[0] as client:
+                        act(client)
+
+                if act:
+                    threading.Thread(target=serve, daemon=True).start()
+                source = f"socketcand:{other.getsockname()[1]}"
+                done = self.run_monitor(source)
+            self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {source}: {why}\n"))
 
     def test_a_log_with_damaged_lines_is_shown_without_them(self):
         log = self.path / "can.log"

@@ -15,6 +15,14 @@ namespace {
 constexpr auto first_try = std::chrono::seconds(2);
 constexpr auto later_try = std::chrono::seconds(1);
 
+/// What was seen, and what it may be. request: empty before the greeting.
+std::string silence(const std::string& request, bool is_open) {
+  if (!is_open) return "closed the connection";
+  if (!request.empty()) return "did not answer '" + request + "' in time: it is stopped or busy";
+  return "took the connection, but did not say '< hi >' in time: it is stopped or busy, or no "
+         "socketcand";
+}
+
 }  // namespace
 
 tl::expected<std::unique_ptr<SocketcandBus>, std::string> SocketcandBus::open(
@@ -56,7 +64,7 @@ tl::expected<void, std::string> SocketcandBus::connect(Clock::duration within) {
     const std::string expected = request.empty() ? "hi" : "ok";
     if (!request.empty() && !write(request)) return fail("closed the connection");
     const auto answer = element_until(deadline);
-    if (!answer) return fail("is not socketcand: no answer in time");
+    if (!answer) return fail(silence(request, socket_.is_open()));
     if (*answer != expected) return fail("answered '" + *answer + "' to '" + request + "'");
   }
   return {};

@@ -59,7 +59,7 @@ class Dbc(unittest.TestCase):
                     signal.choices = None
                     taken += 1
                 self.assertEqual(signal_of(other), signal_of(signal))
-        self.assertEqual(taken, 11)
+        self.assertEqual(taken, 19)
 
     def test_it_is_written_to_a_file(self):
         with tempfile.TemporaryDirectory() as folder:

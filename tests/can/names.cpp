@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loop/snapshot.hpp"
+#include "telemetry/joint_frame.hpp"
 #include "telemetry/opcodes.hpp"
 #include "telemetry/run_settings.hpp"
 #include "telemetry/tuning_frames.hpp"
@@ -59,6 +60,7 @@ int main() {
                                       {"setting", settings()},
                                       {"tunable", tunables()},
                                       {"set", table(tuning_set_names)},
+                                      {"part", table(telemetry::joint_part_names)},
                                       {"version", telemetry::protocol_version}};
     std::puts(json.dump(1).c_str());
   } catch (const std::exception& error) {

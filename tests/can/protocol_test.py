@@ -59,7 +59,7 @@ class Protocol(unittest.TestCase):
         self.assertEqual(len(set(bases)), len(bases))
         for base in bases:
             self.assertEqual(base % 0x40, 0)
-            self.assertTrue(0x040 <= base <= 0x740)
+            self.assertTrue(0x040 <= base <= 0x780)
 
     def test_everything_is_said_in_words(self):
         for message, signal, _ in self.signals():

@@ -27,10 +27,12 @@ def is_there(master):
 
 
 class OnTheBus(unittest.TestCase):
+    scenario = "bench"
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.simulator = Simulator(folder.name)
+        self.simulator = Simulator(folder.name, self.scenario)
         self.addCleanup(self.simulator.end)
         self.master = self.new_master()
 
@@ -52,6 +54,36 @@ class OnTheBus(unittest.TestCase):
     def assert_nothing_but_starved(self):
         """A command may have expired where this program was starved; no other fault may have come."""
         self.assertLessEqual(set(self.master.faults), {"command_timeout"})
+
+    def example_without(self, message):
+        """The example, with the protocol of before this message."""
+        folder = pathlib.Path(self.simulator.out).with_name("old")
+        folder.mkdir()
+        (folder / EXAMPLE.name).write_text(EXAMPLE.read_text())
+        number = cantools.database.load_file(DBC).get_message_by_name(message).frame_id
+        dbc = re.sub(rf"BO_ {number} {message}.*?\n\n", "", DBC.read_text(), flags=re.S)
+        (folder / "supercoil.dbc").write_text("".join(line for line in dbc.splitlines(True) if f" {number} " not in line))
+        self.assertNotIn(message, [known.name for known in cantools.database.load_file(folder / "supercoil.dbc").messages])
+        return folder / EXAMPLE.name
+
+    def assert_it_moves_the_muscle(self, example):
+        words = ["interface=socketcand", "host=127.0.0.1", f"port={self.simulator.port}", "channel=can0"]
+        for _ in range(TRIES):
+            done = subprocess.run([sys.executable, example, *words], capture_output=True, text=True, timeout=DEADLINE_S)
+            if done.returncode == 0:
+                break
+            # Starved: its command expired.
+            self.master.hear_next("Status")
+            self.assert_nothing_but_starved()
+            self.master.steer_until(0.0, lambda m: True)
+            self.master.ask("disarm")
+            self.master.ask("lease", -1.0)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 10)
+        self.assertRegex(lines[-1], r"^0\.00(49|50)\d* m, \d+(\.\d+)? °C at most$")
+        self.master.hear_until(lambda heard: heard.message == "Status" and not heard.signals["leased"]
+                               and heard.signals["state"] == "disarmed")
 
 
 class Commanded(OnTheBus):
@@ -174,34 +206,18 @@ class Example(OnTheBus):
         self.assert_it_moves_the_muscle(EXAMPLE)
 
     def test_it_does_so_by_the_protocol_of_before_boot(self):
-        folder = pathlib.Path(self.simulator.out).with_name("old")
-        folder.mkdir()
-        old = folder / EXAMPLE.name
-        old.write_text(EXAMPLE.read_text())
-        dbc = re.sub(r"BO_ 1857 Boot.*?\n\n", "", DBC.read_text(), flags=re.S)
-        (folder / "supercoil.dbc").write_text("".join(line for line in dbc.splitlines(True) if " 1857 " not in line))
-        self.assertNotIn("Boot", [message.name for message in cantools.database.load_file(folder / "supercoil.dbc").messages])
+        old = self.example_without("Boot")
         self.master.hear_next("Boot")
         self.assert_it_moves_the_muscle(old)
 
-    def assert_it_moves_the_muscle(self, example):
-        words = ["interface=socketcand", "host=127.0.0.1", f"port={self.simulator.port}", "channel=can0"]
-        for _ in range(TRIES):
-            done = subprocess.run([sys.executable, example, *words], capture_output=True, text=True, timeout=DEADLINE_S)
-            if done.returncode == 0:
-                break
-            # Starved: its command expired.
-            self.master.hear_next("Status")
-            self.assert_nothing_but_starved()
-            self.master.steer_until(0.0, lambda m: True)
-            self.master.ask("disarm")
-            self.master.ask("lease", -1.0)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        lines = done.stdout.splitlines()
-        self.assertEqual(len(lines), 10)
-        self.assertRegex(lines[-1], r"^0\.00(49|50)\d* m, \d+(\.\d+)? °C at most$")
-        self.master.hear_until(lambda heard: heard.message == "Status" and not heard.signals["leased"]
-                               and heard.signals["state"] == "disarmed")
+
+class ExampleOnAJoint(OnTheBus):
+    scenario = "joint-bench"
+
+    def test_it_moves_the_agonist_by_the_protocol_of_before_joint(self):
+        old = self.example_without("Joint")
+        self.master.hear_next("Joint")
+        self.assert_it_moves_the_muscle(old)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,9 @@ def random_frames(message, chance):
     for _ in range(FRAMES):
         data = bytearray(chance.randbytes(message.length))
         if message.is_multiplexed():
-            data[0] = chance.randrange(14)
+            selector = message.signals[0]
+            mask = (1 << selector.length) - 1
+            data[0] = data[0] & ~mask & 0xFF | chance.choice(list(selector.choices))
         yield bytes(data)
     # All ones and the sign alone: not available.
     if not message.is_multiplexed():
@@ -95,7 +97,7 @@ class Codec(unittest.TestCase):
 
     def test_what_is_of_another_length_or_unknown_is_no_message(self):
         self.assertIsNone(codec.decode(0x280, bytes(7)))
-        self.assertIsNone(codec.decode(0x780, bytes(8)))
+        self.assertIsNone(codec.decode(0x7C0, bytes(8)))
 
     def test_a_number_without_a_name_keeps_its_number(self):
         fault = codec.decode(0x700, bytes([0, 99, 0, 0, 0, 0, 4, 0])).fault

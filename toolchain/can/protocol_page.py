@@ -60,7 +60,7 @@ def unavailable(signal):
 def meaning(signal):
     text = signal.comment
     if signal.multiplexer_ids:
-        text = f"While parameter is {signal.multiplexer_ids[0]}: {text}"
+        text = f"While {signal.multiplexer_signal} is {signal.multiplexer_ids[0]}: {text}"
     if signal.choices and not is_scaled(signal):
         text += f" [Names](#names-of-{signal.name})"
     return text

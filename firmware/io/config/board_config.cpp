@@ -132,7 +132,7 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   bundles.finish(config);
   Section can = root.section("can");
   if (root.has("can"))
-    config.can = read_can(can, config.settings.rate_Hz, config.settings.channels.size());
+    config.can = read_can(can, config.settings.rate_Hz, config.settings.channels);
   root.finish();
   if (!refuse_number(channels, diagnostics)) refuse_settings(board, config.settings, diagnostics);
   refuse_slow_buses(buses, config.wiring, config.settings.step_s());

@@ -78,17 +78,21 @@ void describe_can(std::ostream& out, const BoardConfig& config) {
     return;
   }
   const telemetry::CanSettings& can = *config.can;
-  const std::size_t channels = config.settings.channels.size();
+  const std::vector<ChannelSettings>& channels = config.settings.channels;
+  const bool has_joint = std::ranges::any_of(
+      channels, [](const ChannelSettings& channel) { return channel.joint.turns(); });
   const double load = telemetry::bus_load(can, channels);
   out << " on " << can.interface << " at " << 1e-3 * can.bit_rate << " kbit/s, nodes "
-      << int{can.first_node} << " to " << can.first_node + channels - 1 << "\n  load    "
+      << int{can.first_node} << " to " << can.first_node + channels.size() - 1 << "\n  load    "
       << rounded(100.0 * load, 0.1) << " % at worst, beside commands (at most "
       << rounded(100.0 * can.max_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
       << " ms unused ends it\n";
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
     const telemetry::PeriodicMessage& message = telemetry::periodic_messages()[i];
+    const bool of_joint = i == static_cast<std::size_t>(telemetry::Message::joint);
+    if (of_joint && !has_joint) continue;
     out << "  " << message.name << " " << can.rates_Hz[i] << " Hz"
-        << (message.of_board ? ", of the board\n" : "\n");
+        << (message.of_board ? ", of the board" : "") << (of_joint ? ", of each joint\n" : "\n");
   }
 }
 

@@ -24,7 +24,8 @@ struct CommandRules {
 /// [command].
 CommandRules read_command(Section section, double step_s);
 
-/// [can]. channels: that the board has.
-telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t channels);
+/// [can]. channels: the board's, which know their joints.
+telemetry::CanSettings read_can(Section section, double tick_Hz,
+                                const std::vector<ChannelSettings>& channels);
 
 }  // namespace supercoil::config

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <vector>
 
 #include "config/read_board.hpp"
 #include "telemetry/schedule.hpp"
@@ -30,7 +31,8 @@ telemetry::Rates read_rates(Section section, double tick_Hz) {
   return rates;
 }
 
-void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_t channels) {
+void refuse_load(Section& section, const telemetry::CanSettings& can,
+                 const std::vector<ChannelSettings>& channels) {
   const double load = telemetry::bus_load(can, channels);
   if (!(load > can.max_load)) return;
   std::ostringstream message;
@@ -42,7 +44,8 @@ void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_
 
 }  // namespace
 
-telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t channels) {
+telemetry::CanSettings read_can(Section section, double tick_Hz,
+                                const std::vector<ChannelSettings>& channels) {
   telemetry::CanSettings can;
   can.interface = section.text("interface", can.interface);
   if (can.interface.empty() || can.interface.size() > max_interface) {
@@ -50,7 +53,7 @@ telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t cha
   }
   can.bit_rate = static_cast<double>(
       section.integer("bit_rate", std::lround(can.bit_rate), 10'000, 1'000'000));
-  const auto last_first = can::max_nodes + 1 - static_cast<std::int64_t>(channels);
+  const auto last_first = can::max_nodes + 1 - static_cast<std::int64_t>(channels.size());
   can.first_node = static_cast<can::Node>(
       section.integer("first_node", can.first_node, 1, std::max<std::int64_t>(last_first, 1)));
   can.max_load = section.number("max_load", can.max_load, {0.01, 0.9});

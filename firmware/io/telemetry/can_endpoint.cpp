@@ -20,14 +20,6 @@ constexpr bool names_agree() {
 }
 static_assert(names_agree(), "what is known of a muscle has the same names over CAN");
 
-std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
-  std::vector<control::KnownParameters> muscles;
-  for (const ChannelSettings& channel : board.channels) {
-    muscles.push_back({channel.muscle.force_per_kelvin_N_per_K, channel.muscle.moving_mass_kg});
-  }
-  return muscles;
-}
-
 }  // namespace
 
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
@@ -48,7 +40,7 @@ CanEndpoint::CanEndpoint(const CanSettings& settings, const BoardSettings& board
                          hal::CanBus& bus, Leases::Random random)
     : loop_(&loop),
       bus_(&bus),
-      publisher_(settings, muscles_of(board), loop.timing(), bus),
+      publisher_(settings, board.channels, loop.timing(), bus),
       leases_(settings.lease_s, board.channels.size(), std::move(random)),
       commands_(settings, leases_),
       settings_(settings, board, leases_, publisher_, loop),

@@ -46,6 +46,7 @@ const std::array<PeriodicMessage, messages>& periodic_messages() {
       {"timing", &message::timing, true},
       {"status", &message::status},
       {"gain", &message::gain},
+      {"joint", &message::joint},
   }};
   return all;
 }

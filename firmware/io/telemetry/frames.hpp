@@ -27,8 +27,9 @@ enum class Message : std::uint8_t {
   timing,
   status,
   gain,
+  joint,  ///< by the node of a joint only
 };
-inline constexpr std::size_t messages = 11;
+inline constexpr std::size_t messages = 12;
 
 struct PeriodicMessage {
   std::string_view name;  ///< as in configurations

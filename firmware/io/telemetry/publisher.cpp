@@ -10,20 +10,26 @@ constexpr std::size_t max_answers = 32;
 
 }  // namespace
 
-Publisher::Publisher(const CanSettings& settings,
-                     const std::vector<control::KnownParameters>& muscles, LoopTiming& timing,
-                     hal::CanBus& bus)
+Publisher::Publisher(const CanSettings& settings, const std::vector<ChannelSettings>& channels,
+                     LoopTiming& timing, hal::CanBus& bus)
     : first_node_(settings.first_node),
-      channels_(muscles.size()),
-      schedule_(std::vector<Rates>(muscles.size(), settings.rates_Hz)),
+      channels_(channels.size()),
+      schedule_(rates_of(settings, channels)),
       timing_(&timing),
       bus_(&bus),
-      emergencies_(8 * muscles.size()),
+      emergencies_(8 * channels.size()),
       answers_(max_answers),
       messages_(settings.queue) {
-  for (std::size_t i = 0; i < muscles.size(); ++i) {
-    channels_[i].muscle = muscles[i];
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const control::PhysicalParameters& muscle = channels[i].muscle;
+    const PlaceInJoint& joint = channels[i].joint;
+    channels_[i].muscle = {muscle.force_per_kelvin_N_per_K, muscle.moving_mass_kg};
     channels_[i].sent_ns.fill(-1);
+    channels_[i].lever = joint.lever;
+    if (joint.direction > 0 && joint.has_other()) {
+      channels_[i].antagonist =
+          static_cast<std::size_t>(static_cast<double>(i) + joint.other_channel_offset);
+    }
   }
 }
 
@@ -83,10 +89,21 @@ hal::CanFrame Publisher::frame_of(can::Node node, Channel& channel, Message mess
       return gain(node, row);
     case Message::timing:
       return timing(node, take_timing());
+    case Message::joint:
+      return next_of_joint(node, channel);
     case Message::status:
       break;
   }
   return status(node, row, leased, channel.counter++);
+}
+
+hal::CanFrame Publisher::next_of_joint(can::Node node, Channel& agonist) const {
+  const auto part = static_cast<JointPart>(agonist.joint_part);
+  agonist.joint_part = static_cast<std::uint8_t>((agonist.joint_part + 1) %
+                                                 joint_parts(agonist.antagonist.has_value()));
+  const Channel* const antagonist = agonist.antagonist ? &channels_[*agonist.antagonist] : nullptr;
+  const bool told = antagonist != nullptr && antagonist->known;
+  return joint(node, part, agonist.lever, agonist.row, told ? &antagonist->row : nullptr);
 }
 
 BoardTiming Publisher::take_timing() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <boost/circular_buffer.hpp>
@@ -9,6 +10,7 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "loop/loop.hpp"
+#include "telemetry/joint_frame.hpp"
 #include "telemetry/schedule.hpp"
 
 namespace supercoil::telemetry {
@@ -19,8 +21,8 @@ namespace supercoil::telemetry {
 /// news when the bus is back.
 class Publisher {
  public:
-  /// muscles: what θ alone cannot tell, of each channel. timing and bus outlive the publisher.
-  Publisher(const CanSettings& settings, const std::vector<control::KnownParameters>& muscles,
+  /// channels: the board's. timing and bus outlive the publisher.
+  Publisher(const CanSettings& settings, const std::vector<ChannelSettings>& channels,
             LoopTiming& timing, hal::CanBus& bus);
 
   /// The newest row of its channel. A change of its fault is sent at once, before all that waits.
@@ -53,9 +55,12 @@ class Publisher {
     bool known = false;                            ///< there was a row
     std::array<std::int64_t, messages> sent_ns{};  ///< time of the row that each was made from
     MultiplexedValues multiplexed;
-    std::uint8_t parameter = 0;  ///< the next one of Estimate
-    std::uint8_t counter = 0;    ///< of Status
-    control::KnownParameters muscle{};
+    std::uint8_t parameter = 0;             ///< the next one of Estimate
+    std::uint8_t counter = 0;               ///< of Status
+    std::uint8_t joint_part = 0;            ///< the next one of Joint
+    control::KnownParameters muscle{};      ///< what θ alone cannot tell
+    control::Lever lever;                   ///< of its joint
+    std::optional<std::size_t> antagonist;  ///< channel of the muscle that turns it back
   };
 
   using Queue = boost::circular_buffer<hal::CanFrame>;
@@ -63,6 +68,7 @@ class Publisher {
   void push(Queue& queue, const hal::CanFrame& frame);
   void publish(std::uint8_t index, Message message, bool leased);
   hal::CanFrame frame_of(can::Node node, Channel& channel, Message message, bool leased);
+  hal::CanFrame next_of_joint(can::Node node, Channel& agonist) const;
   BoardTiming take_timing();
   void flush();
 

@@ -13,9 +13,14 @@
 namespace supercoil::telemetry {
 
 /// 0: the power that a channel gets at most, in W, up to the configured maximum. The others: how
-/// often each message of its node is sent, in Hz, in the order of Message. The last three are only
-/// read: what the channel's senses were found to be by a comparison with a meter.
-enum SenseSetting : std::uint8_t { supply_gain = 1 + messages, current_gain, sense_error };
+/// often each message of its node is sent, in Hz, in the order of Message; that of Joint is the
+/// file's. The last three are only read: what the channel's senses were found to be by a comparison
+/// with a meter.
+enum SenseSetting : std::uint8_t {
+  supply_gain = 1 + static_cast<std::uint8_t>(Message::joint),
+  current_gain,
+  sense_error
+};
 inline constexpr std::uint8_t run_settings = sense_error + 1;
 static_assert(run_settings <= 16, "a setting has 4 bits");
 /// As in the DBC, with its unit.

@@ -25,6 +25,15 @@ Rates default_rates() {
   return rates;
 }
 
+std::vector<Rates> rates_of(const CanSettings& can, const std::vector<ChannelSettings>& channels) {
+  std::vector<Rates> rates_Hz(channels.size(), can.rates_Hz);
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].joint.direction <= 0)
+      rates_Hz[i][static_cast<std::size_t>(Message::joint)] = 0.0;
+  }
+  return rates_Hz;
+}
+
 bool is_allowed(Message message, double rate_Hz, double tick_Hz) {
   const bool heartbeat = message == Message::status;
   if (rate_Hz == 0.0) return !heartbeat;
@@ -45,8 +54,8 @@ double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
   return bits_per_s / bit_rate;
 }
 
-double bus_load(const CanSettings& can, std::size_t channels) {
-  return bus_load(std::vector<Rates>(channels, can.rates_Hz), can.bit_rate);
+double bus_load(const CanSettings& can, const std::vector<ChannelSettings>& channels) {
+  return bus_load(rates_of(can, channels), can.bit_rate);
 }
 
 Schedule::Schedule(std::vector<Rates> of_channels_Hz) : rates_Hz_(std::move(of_channels_Hz)) {

@@ -22,8 +22,8 @@ constexpr int max_bits(int bytes) {
 /// The part of the bus that is busy with what is sent at a rate and with Boot: 1 is all of it.
 /// Commands, their answers and emergencies come on top.
 double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate);
-/// With the rates that are configured, for all channels.
-double bus_load(const CanSettings& can, std::size_t channels);
+/// With the rates that are configured.
+double bus_load(const CanSettings& can, const std::vector<ChannelSettings>& channels);
 
 /// Each message of each channel has its own place within its period, evenly spread, so that frames
 /// do not come in bursts. What was missed is not made up for.

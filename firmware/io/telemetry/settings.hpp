@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "loop/settings.hpp"
 #include "telemetry/frames.hpp"
 
 namespace supercoil::telemetry {
@@ -39,5 +40,8 @@ struct CanSettings {
   double lease_s = 1.0;    ///< a master that is silent for so long loses its lease
   std::size_t queue = 64;  ///< frames that wait for the bus at most
 };
+
+/// Of each channel's node: 0 of Joint where it is not the node of a joint.
+std::vector<Rates> rates_of(const CanSettings& can, const std::vector<ChannelSettings>& channels);
 
 }  // namespace supercoil::telemetry

@@ -4782,6 +4782,586 @@ bool supercoil_boot_commit_is_in_phys_range(double value)
     return ((value >= 0.0) && (value <= 268435455.0));
 }
 
+int supercoil_joint_pack(
+    uint8_t *dst_p,
+    const struct supercoil_joint_t *src_p,
+    size_t size)
+{
+    uint16_t agonist_coldest_c;
+    uint16_t agonist_hottest_c;
+    uint16_t antagonist_coldest_c;
+    uint16_t antagonist_hottest_c;
+    uint16_t error_deg;
+    uint32_t angle_deg;
+    uint32_t effort_w;
+    uint32_t reference_deg;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->part, 0u, 0x0fu);
+    dst_p[0] |= pack_left_shift_u8(src_p->agonist_limited, 4u, 0x10u);
+    dst_p[0] |= pack_left_shift_u8(src_p->agonist_slack, 5u, 0x20u);
+    dst_p[0] |= pack_left_shift_u8(src_p->antagonist_limited, 6u, 0x40u);
+    dst_p[0] |= pack_left_shift_u8(src_p->antagonist_slack, 7u, 0x80u);
+    angle_deg = (uint32_t)src_p->angle_deg;
+    dst_p[1] |= pack_left_shift_u32(angle_deg, 0u, 0xffu);
+    dst_p[2] |= pack_right_shift_u32(angle_deg, 8u, 0xffu);
+    dst_p[3] |= pack_right_shift_u32(angle_deg, 16u, 0x0fu);
+
+    switch (src_p->part) {
+
+    case 0:
+        reference_deg = (uint32_t)src_p->reference_deg;
+        dst_p[3] |= pack_left_shift_u32(reference_deg, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u32(reference_deg, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(reference_deg, 12u, 0xffu);
+        error_deg = (uint16_t)src_p->error_deg;
+        dst_p[6] |= pack_left_shift_u16(error_deg, 0u, 0xffu);
+        dst_p[7] |= pack_right_shift_u16(error_deg, 8u, 0xffu);
+        break;
+
+    case 1:
+        effort_w = (uint32_t)src_p->effort_w;
+        dst_p[3] |= pack_left_shift_u32(effort_w, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u32(effort_w, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(effort_w, 12u, 0x3fu);
+        dst_p[5] |= pack_left_shift_u32(src_p->co_contraction_w, 6u, 0xc0u);
+        dst_p[6] |= pack_right_shift_u32(src_p->co_contraction_w, 2u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(src_p->co_contraction_w, 10u, 0xffu);
+        break;
+
+    case 2:
+        agonist_coldest_c = (uint16_t)src_p->agonist_coldest_c;
+        dst_p[3] |= pack_left_shift_u16(agonist_coldest_c, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u16(agonist_coldest_c, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u16(agonist_coldest_c, 12u, 0x0fu);
+        agonist_hottest_c = (uint16_t)src_p->agonist_hottest_c;
+        dst_p[5] |= pack_left_shift_u16(agonist_hottest_c, 4u, 0xf0u);
+        dst_p[6] |= pack_right_shift_u16(agonist_hottest_c, 4u, 0xffu);
+        dst_p[7] |= pack_right_shift_u16(agonist_hottest_c, 12u, 0x0fu);
+        break;
+
+    case 3:
+        dst_p[3] |= pack_left_shift_u32(src_p->agonist_applied_w, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u32(src_p->agonist_applied_w, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(src_p->agonist_applied_w, 12u, 0x1fu);
+        dst_p[5] |= pack_left_shift_u32(src_p->agonist_resistance_ohm, 5u, 0xe0u);
+        dst_p[6] |= pack_right_shift_u32(src_p->agonist_resistance_ohm, 3u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(src_p->agonist_resistance_ohm, 11u, 0xffu);
+        break;
+
+    case 4:
+        antagonist_coldest_c = (uint16_t)src_p->antagonist_coldest_c;
+        dst_p[3] |= pack_left_shift_u16(antagonist_coldest_c, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u16(antagonist_coldest_c, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u16(antagonist_coldest_c, 12u, 0x0fu);
+        antagonist_hottest_c = (uint16_t)src_p->antagonist_hottest_c;
+        dst_p[5] |= pack_left_shift_u16(antagonist_hottest_c, 4u, 0xf0u);
+        dst_p[6] |= pack_right_shift_u16(antagonist_hottest_c, 4u, 0xffu);
+        dst_p[7] |= pack_right_shift_u16(antagonist_hottest_c, 12u, 0x0fu);
+        break;
+
+    case 5:
+        dst_p[3] |= pack_left_shift_u32(src_p->antagonist_applied_w, 4u, 0xf0u);
+        dst_p[4] |= pack_right_shift_u32(src_p->antagonist_applied_w, 4u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(src_p->antagonist_applied_w, 12u, 0x1fu);
+        dst_p[5] |= pack_left_shift_u32(src_p->antagonist_resistance_ohm, 5u, 0xe0u);
+        dst_p[6] |= pack_right_shift_u32(src_p->antagonist_resistance_ohm, 3u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(src_p->antagonist_resistance_ohm, 11u, 0xffu);
+        break;
+
+    default:
+        break;
+    }
+
+    return (8);
+}
+
+int supercoil_joint_unpack(
+    struct supercoil_joint_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint16_t agonist_coldest_c;
+    uint16_t agonist_hottest_c;
+    uint16_t antagonist_coldest_c;
+    uint16_t antagonist_hottest_c;
+    uint16_t error_deg;
+    uint32_t angle_deg;
+    uint32_t effort_w;
+    uint32_t reference_deg;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->part = unpack_right_shift_u8(src_p[0], 0u, 0x0fu);
+    dst_p->agonist_limited = unpack_right_shift_u8(src_p[0], 4u, 0x10u);
+    dst_p->agonist_slack = unpack_right_shift_u8(src_p[0], 5u, 0x20u);
+    dst_p->antagonist_limited = unpack_right_shift_u8(src_p[0], 6u, 0x40u);
+    dst_p->antagonist_slack = unpack_right_shift_u8(src_p[0], 7u, 0x80u);
+    angle_deg = unpack_right_shift_u32(src_p[1], 0u, 0xffu);
+    angle_deg |= unpack_left_shift_u32(src_p[2], 8u, 0xffu);
+    angle_deg |= unpack_left_shift_u32(src_p[3], 16u, 0x0fu);
+
+    if ((angle_deg & (1u << 19)) != 0u) {
+        angle_deg |= 0xfff00000u;
+    }
+
+    dst_p->angle_deg = (int32_t)angle_deg;
+
+    switch (dst_p->part) {
+
+    case 0:
+        reference_deg = unpack_right_shift_u32(src_p[3], 4u, 0xf0u);
+        reference_deg |= unpack_left_shift_u32(src_p[4], 4u, 0xffu);
+        reference_deg |= unpack_left_shift_u32(src_p[5], 12u, 0xffu);
+
+        if ((reference_deg & (1u << 19)) != 0u) {
+            reference_deg |= 0xfff00000u;
+        }
+
+        dst_p->reference_deg = (int32_t)reference_deg;
+        error_deg = unpack_right_shift_u16(src_p[6], 0u, 0xffu);
+        error_deg |= unpack_left_shift_u16(src_p[7], 8u, 0xffu);
+        dst_p->error_deg = (int16_t)error_deg;
+        break;
+
+    case 1:
+        effort_w = unpack_right_shift_u32(src_p[3], 4u, 0xf0u);
+        effort_w |= unpack_left_shift_u32(src_p[4], 4u, 0xffu);
+        effort_w |= unpack_left_shift_u32(src_p[5], 12u, 0x3fu);
+
+        if ((effort_w & (1u << 17)) != 0u) {
+            effort_w |= 0xfffc0000u;
+        }
+
+        dst_p->effort_w = (int32_t)effort_w;
+        dst_p->co_contraction_w = unpack_right_shift_u32(src_p[5], 6u, 0xc0u);
+        dst_p->co_contraction_w |= unpack_left_shift_u32(src_p[6], 2u, 0xffu);
+        dst_p->co_contraction_w |= unpack_left_shift_u32(src_p[7], 10u, 0xffu);
+        break;
+
+    case 2:
+        agonist_coldest_c = unpack_right_shift_u16(src_p[3], 4u, 0xf0u);
+        agonist_coldest_c |= unpack_left_shift_u16(src_p[4], 4u, 0xffu);
+        agonist_coldest_c |= unpack_left_shift_u16(src_p[5], 12u, 0x0fu);
+        dst_p->agonist_coldest_c = (int16_t)agonist_coldest_c;
+        agonist_hottest_c = unpack_right_shift_u16(src_p[5], 4u, 0xf0u);
+        agonist_hottest_c |= unpack_left_shift_u16(src_p[6], 4u, 0xffu);
+        agonist_hottest_c |= unpack_left_shift_u16(src_p[7], 12u, 0x0fu);
+        dst_p->agonist_hottest_c = (int16_t)agonist_hottest_c;
+        break;
+
+    case 3:
+        dst_p->agonist_applied_w = unpack_right_shift_u32(src_p[3], 4u, 0xf0u);
+        dst_p->agonist_applied_w |= unpack_left_shift_u32(src_p[4], 4u, 0xffu);
+        dst_p->agonist_applied_w |= unpack_left_shift_u32(src_p[5], 12u, 0x1fu);
+        dst_p->agonist_resistance_ohm = unpack_right_shift_u32(src_p[5], 5u, 0xe0u);
+        dst_p->agonist_resistance_ohm |= unpack_left_shift_u32(src_p[6], 3u, 0xffu);
+        dst_p->agonist_resistance_ohm |= unpack_left_shift_u32(src_p[7], 11u, 0xffu);
+        break;
+
+    case 4:
+        antagonist_coldest_c = unpack_right_shift_u16(src_p[3], 4u, 0xf0u);
+        antagonist_coldest_c |= unpack_left_shift_u16(src_p[4], 4u, 0xffu);
+        antagonist_coldest_c |= unpack_left_shift_u16(src_p[5], 12u, 0x0fu);
+        dst_p->antagonist_coldest_c = (int16_t)antagonist_coldest_c;
+        antagonist_hottest_c = unpack_right_shift_u16(src_p[5], 4u, 0xf0u);
+        antagonist_hottest_c |= unpack_left_shift_u16(src_p[6], 4u, 0xffu);
+        antagonist_hottest_c |= unpack_left_shift_u16(src_p[7], 12u, 0x0fu);
+        dst_p->antagonist_hottest_c = (int16_t)antagonist_hottest_c;
+        break;
+
+    case 5:
+        dst_p->antagonist_applied_w = unpack_right_shift_u32(src_p[3], 4u, 0xf0u);
+        dst_p->antagonist_applied_w |= unpack_left_shift_u32(src_p[4], 4u, 0xffu);
+        dst_p->antagonist_applied_w |= unpack_left_shift_u32(src_p[5], 12u, 0x1fu);
+        dst_p->antagonist_resistance_ohm = unpack_right_shift_u32(src_p[5], 5u, 0xe0u);
+        dst_p->antagonist_resistance_ohm |= unpack_left_shift_u32(src_p[6], 3u, 0xffu);
+        dst_p->antagonist_resistance_ohm |= unpack_left_shift_u32(src_p[7], 11u, 0xffu);
+        break;
+
+    default:
+        break;
+    }
+
+    return (0);
+}
+
+int supercoil_joint_init(struct supercoil_joint_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_joint_t));
+
+    return 0;
+}
+
+uint8_t supercoil_joint_part_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_joint_part_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_joint_part_is_in_range(uint8_t value)
+{
+    return (value <= 5u);
+}
+
+bool supercoil_joint_part_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 5.0));
+}
+
+uint8_t supercoil_joint_agonist_limited_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_joint_agonist_limited_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_joint_agonist_limited_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_joint_agonist_limited_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_joint_agonist_slack_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_joint_agonist_slack_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_joint_agonist_slack_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_joint_agonist_slack_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_joint_antagonist_limited_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_joint_antagonist_limited_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_joint_antagonist_limited_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_joint_antagonist_limited_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_joint_antagonist_slack_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_joint_antagonist_slack_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_joint_antagonist_slack_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_joint_antagonist_slack_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+int32_t supercoil_joint_angle_deg_encode(double value)
+{
+    return (int32_t)(round(value / 0.0005));
+}
+
+double supercoil_joint_angle_deg_decode(int32_t value)
+{
+    return ((double)value * 0.0005);
+}
+
+bool supercoil_joint_angle_deg_is_in_range(int32_t value)
+{
+    return ((value >= -524287) && (value <= 524287));
+}
+
+bool supercoil_joint_angle_deg_is_in_phys_range(double value)
+{
+    return ((value >= -262.1435) && (value <= 262.1435));
+}
+
+int32_t supercoil_joint_reference_deg_encode(double value)
+{
+    return (int32_t)(round(value / 0.0005));
+}
+
+double supercoil_joint_reference_deg_decode(int32_t value)
+{
+    return ((double)value * 0.0005);
+}
+
+bool supercoil_joint_reference_deg_is_in_range(int32_t value)
+{
+    return ((value >= -524287) && (value <= 524287));
+}
+
+bool supercoil_joint_reference_deg_is_in_phys_range(double value)
+{
+    return ((value >= -262.1435) && (value <= 262.1435));
+}
+
+int32_t supercoil_joint_effort_w_encode(double value)
+{
+    return (int32_t)(round(value / 0.001));
+}
+
+double supercoil_joint_effort_w_decode(int32_t value)
+{
+    return ((double)value * 0.001);
+}
+
+bool supercoil_joint_effort_w_is_in_range(int32_t value)
+{
+    return ((value >= -131071) && (value <= 131071));
+}
+
+bool supercoil_joint_effort_w_is_in_phys_range(double value)
+{
+    return ((value >= -131.071) && (value <= 131.071));
+}
+
+int16_t supercoil_joint_agonist_coldest_c_encode(double value)
+{
+    return (int16_t)(round(value / 0.01));
+}
+
+double supercoil_joint_agonist_coldest_c_decode(int16_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_agonist_coldest_c_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_joint_agonist_coldest_c_is_in_phys_range(double value)
+{
+    return ((value >= -327.67) && (value <= 327.67));
+}
+
+uint32_t supercoil_joint_agonist_applied_w_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 0.001)));
+}
+
+double supercoil_joint_agonist_applied_w_decode(uint32_t value)
+{
+    return ((double)value * 0.001);
+}
+
+bool supercoil_joint_agonist_applied_w_is_in_range(uint32_t value)
+{
+    return (value <= 131070u);
+}
+
+bool supercoil_joint_agonist_applied_w_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 131.07));
+}
+
+int16_t supercoil_joint_antagonist_coldest_c_encode(double value)
+{
+    return (int16_t)(round(value / 0.01));
+}
+
+double supercoil_joint_antagonist_coldest_c_decode(int16_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_antagonist_coldest_c_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_joint_antagonist_coldest_c_is_in_phys_range(double value)
+{
+    return ((value >= -327.67) && (value <= 327.67));
+}
+
+uint32_t supercoil_joint_antagonist_applied_w_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 0.001)));
+}
+
+double supercoil_joint_antagonist_applied_w_decode(uint32_t value)
+{
+    return ((double)value * 0.001);
+}
+
+bool supercoil_joint_antagonist_applied_w_is_in_range(uint32_t value)
+{
+    return (value <= 131070u);
+}
+
+bool supercoil_joint_antagonist_applied_w_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 131.07));
+}
+
+int16_t supercoil_joint_agonist_hottest_c_encode(double value)
+{
+    return (int16_t)(round(value / 0.01));
+}
+
+double supercoil_joint_agonist_hottest_c_decode(int16_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_agonist_hottest_c_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_joint_agonist_hottest_c_is_in_phys_range(double value)
+{
+    return ((value >= -327.67) && (value <= 327.67));
+}
+
+int16_t supercoil_joint_antagonist_hottest_c_encode(double value)
+{
+    return (int16_t)(round(value / 0.01));
+}
+
+double supercoil_joint_antagonist_hottest_c_decode(int16_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_antagonist_hottest_c_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_joint_antagonist_hottest_c_is_in_phys_range(double value)
+{
+    return ((value >= -327.67) && (value <= 327.67));
+}
+
+uint32_t supercoil_joint_agonist_resistance_ohm_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 0.01)));
+}
+
+double supercoil_joint_agonist_resistance_ohm_decode(uint32_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_agonist_resistance_ohm_is_in_range(uint32_t value)
+{
+    return (value <= 524286u);
+}
+
+bool supercoil_joint_agonist_resistance_ohm_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 5242.86));
+}
+
+uint32_t supercoil_joint_antagonist_resistance_ohm_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 0.01)));
+}
+
+double supercoil_joint_antagonist_resistance_ohm_decode(uint32_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_joint_antagonist_resistance_ohm_is_in_range(uint32_t value)
+{
+    return (value <= 524286u);
+}
+
+bool supercoil_joint_antagonist_resistance_ohm_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 5242.86));
+}
+
+uint32_t supercoil_joint_co_contraction_w_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 0.001)));
+}
+
+double supercoil_joint_co_contraction_w_decode(uint32_t value)
+{
+    return ((double)value * 0.001);
+}
+
+bool supercoil_joint_co_contraction_w_is_in_range(uint32_t value)
+{
+    return (value <= 262142u);
+}
+
+bool supercoil_joint_co_contraction_w_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 262.142));
+}
+
+int16_t supercoil_joint_error_deg_encode(double value)
+{
+    return (int16_t)(round(value / 0.0005));
+}
+
+double supercoil_joint_error_deg_decode(int16_t value)
+{
+    return ((double)value * 0.0005);
+}
+
+bool supercoil_joint_error_deg_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_joint_error_deg_is_in_phys_range(double value)
+{
+    return ((value >= -16.3835) && (value <= 16.3835));
+}
+
 int supercoil_tuning_write_pack(
     uint8_t *dst_p,
     const struct supercoil_tuning_write_t *src_p,

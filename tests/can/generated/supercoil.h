@@ -73,6 +73,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_FRAME_ID (0x641u)
 #define SUPERCOIL_STATUS_FRAME_ID (0x701u)
 #define SUPERCOIL_BOOT_FRAME_ID (0x741u)
+#define SUPERCOIL_JOINT_FRAME_ID (0x781u)
 #define SUPERCOIL_TUNING_WRITE_FRAME_ID (0x6c1u)
 
 /* Frame lengths in bytes. */
@@ -104,6 +105,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_LENGTH (8u)
 #define SUPERCOIL_STATUS_LENGTH (8u)
 #define SUPERCOIL_BOOT_LENGTH (8u)
+#define SUPERCOIL_JOINT_LENGTH (8u)
 #define SUPERCOIL_TUNING_WRITE_LENGTH (8u)
 
 /* Extended or standard frame types. */
@@ -135,6 +137,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_IS_EXTENDED (0)
 #define SUPERCOIL_STATUS_IS_EXTENDED (0)
 #define SUPERCOIL_BOOT_IS_EXTENDED (0)
+#define SUPERCOIL_JOINT_IS_EXTENDED (0)
 #define SUPERCOIL_TUNING_WRITE_IS_EXTENDED (0)
 
 /* Frame cycle times in milliseconds. */
@@ -150,6 +153,7 @@ extern "C" {
 #define SUPERCOIL_GAIN_CYCLE_TIME_MS (200u)
 #define SUPERCOIL_STATUS_CYCLE_TIME_MS (100u)
 #define SUPERCOIL_BOOT_CYCLE_TIME_MS (1000u)
+#define SUPERCOIL_JOINT_CYCLE_TIME_MS (20u)
 
 /* Signal choices. */
 #define SUPERCOIL_EMERGENCY_FAULT_NONE_CHOICE (0u)
@@ -778,6 +782,39 @@ extern "C" {
 #define SUPERCOIL_STATUS_RESULT_TOO_LITTLE_MOTION_CHOICE (10u)
 #define SUPERCOIL_STATUS_RESULT_MOVED_BACKWARDS_CHOICE (11u)
 
+#define SUPERCOIL_JOINT_PART_MOTION_CHOICE (0u)
+#define SUPERCOIL_JOINT_PART_EFFORT_CHOICE (1u)
+#define SUPERCOIL_JOINT_PART_AGONIST_HEAT_CHOICE (2u)
+#define SUPERCOIL_JOINT_PART_AGONIST_POWER_CHOICE (3u)
+#define SUPERCOIL_JOINT_PART_ANTAGONIST_HEAT_CHOICE (4u)
+#define SUPERCOIL_JOINT_PART_ANTAGONIST_POWER_CHOICE (5u)
+
+#define SUPERCOIL_JOINT_ANGLE_DEG_NOT_AVAILABLE_CHOICE (-524288)
+
+#define SUPERCOIL_JOINT_REFERENCE_DEG_NOT_AVAILABLE_CHOICE (-524288)
+
+#define SUPERCOIL_JOINT_EFFORT_W_NOT_AVAILABLE_CHOICE (-131072)
+
+#define SUPERCOIL_JOINT_AGONIST_COLDEST_C_NOT_AVAILABLE_CHOICE (-32768)
+
+#define SUPERCOIL_JOINT_AGONIST_APPLIED_W_NOT_AVAILABLE_CHOICE (131071u)
+
+#define SUPERCOIL_JOINT_ANTAGONIST_COLDEST_C_NOT_AVAILABLE_CHOICE (-32768)
+
+#define SUPERCOIL_JOINT_ANTAGONIST_APPLIED_W_NOT_AVAILABLE_CHOICE (131071u)
+
+#define SUPERCOIL_JOINT_AGONIST_HOTTEST_C_NOT_AVAILABLE_CHOICE (-32768)
+
+#define SUPERCOIL_JOINT_ANTAGONIST_HOTTEST_C_NOT_AVAILABLE_CHOICE (-32768)
+
+#define SUPERCOIL_JOINT_AGONIST_RESISTANCE_OHM_NOT_AVAILABLE_CHOICE (524287u)
+
+#define SUPERCOIL_JOINT_ANTAGONIST_RESISTANCE_OHM_NOT_AVAILABLE_CHOICE (524287u)
+
+#define SUPERCOIL_JOINT_CO_CONTRACTION_W_NOT_AVAILABLE_CHOICE (262143u)
+
+#define SUPERCOIL_JOINT_ERROR_DEG_NOT_AVAILABLE_CHOICE (-32768)
+
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_INTEGRAL_W_PER_M_S_CHOICE (2u)
@@ -857,6 +894,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_NAME "Tuning"
 #define SUPERCOIL_STATUS_NAME "Status"
 #define SUPERCOIL_BOOT_NAME "Boot"
+#define SUPERCOIL_JOINT_NAME "Joint"
 #define SUPERCOIL_TUNING_WRITE_NAME "TuningWrite"
 
 /* Signal Names. */
@@ -990,6 +1028,24 @@ extern "C" {
 #define SUPERCOIL_BOOT_VERSION_MINOR_NAME "version_minor"
 #define SUPERCOIL_BOOT_VERSION_PATCH_NAME "version_patch"
 #define SUPERCOIL_BOOT_COMMIT_NAME "commit"
+#define SUPERCOIL_JOINT_PART_NAME "part"
+#define SUPERCOIL_JOINT_AGONIST_LIMITED_NAME "agonist_limited"
+#define SUPERCOIL_JOINT_AGONIST_SLACK_NAME "agonist_slack"
+#define SUPERCOIL_JOINT_ANTAGONIST_LIMITED_NAME "antagonist_limited"
+#define SUPERCOIL_JOINT_ANTAGONIST_SLACK_NAME "antagonist_slack"
+#define SUPERCOIL_JOINT_ANGLE_DEG_NAME "angle_deg"
+#define SUPERCOIL_JOINT_REFERENCE_DEG_NAME "reference_deg"
+#define SUPERCOIL_JOINT_EFFORT_W_NAME "effort_W"
+#define SUPERCOIL_JOINT_AGONIST_COLDEST_C_NAME "agonist_coldest_C"
+#define SUPERCOIL_JOINT_AGONIST_APPLIED_W_NAME "agonist_applied_W"
+#define SUPERCOIL_JOINT_ANTAGONIST_COLDEST_C_NAME "antagonist_coldest_C"
+#define SUPERCOIL_JOINT_ANTAGONIST_APPLIED_W_NAME "antagonist_applied_W"
+#define SUPERCOIL_JOINT_AGONIST_HOTTEST_C_NAME "agonist_hottest_C"
+#define SUPERCOIL_JOINT_ANTAGONIST_HOTTEST_C_NAME "antagonist_hottest_C"
+#define SUPERCOIL_JOINT_AGONIST_RESISTANCE_OHM_NAME "agonist_resistance_Ohm"
+#define SUPERCOIL_JOINT_ANTAGONIST_RESISTANCE_OHM_NAME "antagonist_resistance_Ohm"
+#define SUPERCOIL_JOINT_CO_CONTRACTION_W_NAME "co_contraction_W"
+#define SUPERCOIL_JOINT_ERROR_DEG_NAME "error_deg"
 #define SUPERCOIL_TUNING_WRITE_CRC_NAME "crc"
 #define SUPERCOIL_TUNING_WRITE_COUNTER_NAME "counter"
 #define SUPERCOIL_TUNING_WRITE_PLACE_NAME "place"
@@ -2417,6 +2473,177 @@ struct supercoil_boot_t {
      * Offset: 0
      */
     uint32_t commit;
+};
+
+/**
+ * Signals in message Joint.
+ *
+ * The joint and both of its heaters, one part after the other: from the agonist's node, and where a spring or gravity draws one muscle back, from that muscle's. Such a joint has the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. What is wrong with the joint is in Emergency and Status of the same node: a fault of either muscle is both's.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_joint_t {
+    /**
+     * Which one this frame carries.
+     *
+     * Range: 0..5 (0..5 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t part;
+
+    /**
+     * As limited in Power of its node.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t agonist_limited;
+
+    /**
+     * As slack in Status of its node.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t agonist_slack;
+
+    /**
+     * As limited in Power of its node. 0: no second muscle.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t antagonist_limited;
+
+    /**
+     * As slack in Status of its node. 0: no second muscle.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t antagonist_slack;
+
+    /**
+     * Positive towards the agonist. Not available: no fresh reading.
+     *
+     * Range: -524287..524287 (-262.1435..262.1435 deg)
+     * Scale: 0.0005
+     * Offset: 0
+     */
+    int32_t angle_deg;
+
+    /**
+     * The angle that is asked for. Available in mode position only.
+     *
+     * Range: -524287..524287 (-262.1435..262.1435 deg)
+     * Scale: 0.0005
+     * Offset: 0
+     */
+    int32_t reference_deg;
+
+    /**
+     * Wanted by the controller of both muscles, before any limit, in watts of the agonist; below 0 it turns the joint back. Available in mode position only.
+     *
+     * Range: -131071..131071 (-131.071..131.071 W)
+     * Scale: 0.001
+     * Offset: 0
+     */
+    int32_t effort_w;
+
+    /**
+     * As coldest_C in Temperature of its node.
+     *
+     * Range: -32767..32767 (-327.67..327.67 degC)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    int16_t agonist_coldest_c;
+
+    /**
+     * As applied_W in Power of its node.
+     *
+     * Range: 0..131070 (0..131.07 W)
+     * Scale: 0.001
+     * Offset: 0
+     */
+    uint32_t agonist_applied_w;
+
+    /**
+     * As coldest_C in Temperature of its node.
+     *
+     * Range: -32767..32767 (-327.67..327.67 degC)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    int16_t antagonist_coldest_c;
+
+    /**
+     * As applied_W in Power of its node.
+     *
+     * Range: 0..131070 (0..131.07 W)
+     * Scale: 0.001
+     * Offset: 0
+     */
+    uint32_t antagonist_applied_w;
+
+    /**
+     * As hottest_C in Temperature of its node.
+     *
+     * Range: -32767..32767 (-327.67..327.67 degC)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    int16_t agonist_hottest_c;
+
+    /**
+     * As hottest_C in Temperature of its node.
+     *
+     * Range: -32767..32767 (-327.67..327.67 degC)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    int16_t antagonist_hottest_c;
+
+    /**
+     * As resistance_Ohm in Measurement of its node, more coarsely.
+     *
+     * Range: 0..524286 (0..5242.86 Ohm)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    uint32_t agonist_resistance_ohm;
+
+    /**
+     * As resistance_Ohm in Measurement of its node, more coarsely.
+     *
+     * Range: 0..524286 (0..5242.86 Ohm)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    uint32_t antagonist_resistance_ohm;
+
+    /**
+     * With how much both muscles are to pull while no effort is asked for, in watts of the antagonist. Not available: no second muscle, or it is not led.
+     *
+     * Range: 0..262142 (0..262.142 W)
+     * Scale: 0.001
+     * Offset: 0
+     */
+    uint32_t co_contraction_w;
+
+    /**
+     * Angle less that of the reference model, both of the same tick. A larger error is shown as the largest. Available in mode position only.
+     *
+     * Range: -32767..32767 (-16.3835..16.3835 deg)
+     * Scale: 0.0005
+     * Offset: 0
+     */
+    int16_t error_deg;
 };
 
 /**
@@ -8717,6 +8944,763 @@ bool supercoil_boot_commit_is_in_range(uint32_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_boot_commit_is_in_phys_range(double value);
+
+/**
+ * Pack message Joint.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_joint_pack(
+    uint8_t *dst_p,
+    const struct supercoil_joint_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Joint.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_joint_unpack(
+    struct supercoil_joint_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Joint.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_joint_init(struct supercoil_joint_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_joint_part_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_part_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_part_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_part_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_joint_agonist_limited_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_limited_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_limited_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_limited_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_joint_agonist_slack_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_slack_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_slack_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_slack_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_joint_antagonist_limited_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_limited_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_limited_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_limited_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_joint_antagonist_slack_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_slack_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_slack_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_slack_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int32_t supercoil_joint_angle_deg_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_angle_deg_decode(int32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_angle_deg_is_in_range(int32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_angle_deg_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int32_t supercoil_joint_reference_deg_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_reference_deg_decode(int32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_reference_deg_is_in_range(int32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_reference_deg_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int32_t supercoil_joint_effort_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_effort_w_decode(int32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_effort_w_is_in_range(int32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_effort_w_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_joint_agonist_coldest_c_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_coldest_c_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_coldest_c_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_coldest_c_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_joint_agonist_applied_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_applied_w_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_applied_w_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_applied_w_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_joint_antagonist_coldest_c_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_coldest_c_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_coldest_c_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_coldest_c_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_joint_antagonist_applied_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_applied_w_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_applied_w_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_applied_w_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_joint_agonist_hottest_c_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_hottest_c_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_hottest_c_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_hottest_c_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_joint_antagonist_hottest_c_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_hottest_c_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_hottest_c_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_hottest_c_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_joint_agonist_resistance_ohm_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_agonist_resistance_ohm_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_resistance_ohm_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_agonist_resistance_ohm_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_joint_antagonist_resistance_ohm_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_antagonist_resistance_ohm_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_resistance_ohm_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_antagonist_resistance_ohm_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_joint_co_contraction_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_co_contraction_w_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_co_contraction_w_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_co_contraction_w_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_joint_error_deg_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_joint_error_deg_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_error_deg_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_joint_error_deg_is_in_phys_range(double value);
 
 /**
  * Pack message TuningWrite.

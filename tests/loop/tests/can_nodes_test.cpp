@@ -1,9 +1,12 @@
 // Who speaks and holds the lease of which node, where a bus or a joint has several.
+#include <array>
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
 
 #include "loop/support/can_rig.hpp"
+#include "telemetry/joint_frame.hpp"
+#include "unit/firmware/io/can/support/unpacked.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -96,4 +99,64 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   CHECK(joint.command(stranger, Verb::rest) == Refusal::none);
   for (const std::size_t channel : {0U, 1U})
     CHECK(joint.loop.channel(channel).state().state() == State::armed);
+}
+
+/// Who listens to one node of a joint knows the other muscle as well.
+TEST(NodesOnCan, TheAgonistsNodeTellsTheJointAndBothHeaters) {
+  CanRig joint(joint_board());
+  const auto seconds = [&](int count) {
+    for (int i = 0; i < 10 * count; ++i) {
+      CHECK(joint.command(master, Verb::position, -0.002F) == Refusal::none);
+      joint.run(0.1);
+    }
+  };
+  joint.run(16.0);
+  joint.claim(master);
+  joint.command(master, Verb::arm);
+  joint.run(0.2);
+  seconds(3);
+  CHECK(joint.command(master, Verb::renew) == Refusal::none);
+  joint.heard_of.clear();
+  std::array<supercoil_joint_t, telemetry::joint_parts(true)> told{};
+  const auto hear = joint.bus.listener;
+  joint.bus.listener = [&](const hal::CanFrame& frame) {
+    hear(frame);
+    if (frame.id != SUPERCOIL_JOINT_FRAME_ID) return;
+    const auto m = unpacked(frame, supercoil_joint_unpack);
+    told.at(m.part) = m;
+  };
+  joint.run(0.2);
+  const Snapshot& agonist = joint.loop.channel(0).snapshot();
+  const Snapshot& antagonist = joint.loop.channel(1).snapshot();
+  DOUBLES_EQUAL(10, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID], 2);
+  LONGS_EQUAL(0, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);
+  CHECK(agonist.mode == Mode::position && antagonist.mode == Mode::joint);
+
+  constexpr double deg_per_m = 180.0 / 3.14159265358979 / 0.015;
+  for (const supercoil_joint_t& part : told) {
+    DOUBLES_EQUAL(deg_per_m * agonist.position_m, supercoil_joint_angle_deg_decode(part.angle_deg),
+                  0.3);
+  }
+  DOUBLES_EQUAL(-0.002 * deg_per_m, supercoil_joint_reference_deg_decode(told[0].reference_deg),
+                0.001);
+  DOUBLES_EQUAL(antagonist.demanded_W,
+                supercoil_joint_co_contraction_w_decode(told[1].co_contraction_w), 0.05);
+  const auto is_of = [](const Snapshot& muscle, double hottest_C, double applied_W, double Ohm) {
+    DOUBLES_EQUAL(muscle.hottest_C, hottest_C, 1.0);
+    DOUBLES_EQUAL(muscle.applied_W, applied_W, 0.3);  // with the noise of the sensor
+    DOUBLES_EQUAL(muscle.resistance_Ohm, Ohm, 0.1);
+  };
+  is_of(agonist, supercoil_joint_agonist_hottest_c_decode(told[2].agonist_hottest_c),
+        supercoil_joint_agonist_applied_w_decode(told[3].agonist_applied_w),
+        supercoil_joint_agonist_resistance_ohm_decode(told[3].agonist_resistance_ohm));
+  is_of(antagonist, supercoil_joint_antagonist_hottest_c_decode(told[4].antagonist_hottest_c),
+        supercoil_joint_antagonist_applied_w_decode(told[5].antagonist_applied_w),
+        supercoil_joint_antagonist_resistance_ohm_decode(told[5].antagonist_resistance_ohm));
+  CHECK(antagonist.hottest_C > agonist.hottest_C + 2.0);
+}
+
+TEST(NodesOnCan, WithoutAJointNobodyTellsOne) {
+  rig.run(1.0);
+  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID]);
+  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);
 }

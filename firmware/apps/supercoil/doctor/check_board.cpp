@@ -46,7 +46,7 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
   const std::string interface = can && options.can.empty() ? can->interface : options.can;
   if (!interface.empty()) check_can_interface(options.machine, interface, sink);
   if (!can) return;
-  const double load = telemetry::bus_load(*can, config.settings.channels.size());
+  const double load = telemetry::bus_load(*can, config.settings.channels);
   sink({"CAN load", Severity::ok,
         in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
             " kbit/s at worst, beside commands; at most " + in_percent(can->max_load),

@@ -123,6 +123,15 @@ inline constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
+inline constexpr std::array<ValueName, 6> names_of_part{{
+    {0, "motion"},
+    {1, "effort"},
+    {2, "agonist_heat"},
+    {3, "agonist_power"},
+    {4, "antagonist_heat"},
+    {5, "antagonist_power"},
+}};
+
 inline constexpr std::array<ValueName, 6> names_of_playback{{
     {0, "empty"},
     {1, "loaded"},
@@ -517,6 +526,27 @@ inline constexpr std::array<SignalInfo, 4> signals_of_Boot{{
     {"commit", "", 32, 28, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
+inline constexpr std::array<SignalInfo, 18> signals_of_Joint{{
+    {"part", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_part},
+    {"agonist_limited", "", 4, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"agonist_slack", "", 5, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"antagonist_limited", "", 6, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"antagonist_slack", "", 7, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"angle_deg", "deg", 8, 20, Raw::signed_integer, 0.0005, -524288, always, {}},
+    {"reference_deg", "deg", 28, 20, Raw::signed_integer, 0.0005, -524288, 0, {}},
+    {"error_deg", "deg", 48, 16, Raw::signed_integer, 0.0005, -32768, 0, {}},
+    {"effort_W", "W", 28, 18, Raw::signed_integer, 0.001, -131072, 1, {}},
+    {"co_contraction_W", "W", 46, 18, Raw::unsigned_integer, 0.001, 262143, 1, {}},
+    {"agonist_coldest_C", "degC", 28, 16, Raw::signed_integer, 0.01, -32768, 2, {}},
+    {"agonist_hottest_C", "degC", 44, 16, Raw::signed_integer, 0.01, -32768, 2, {}},
+    {"agonist_applied_W", "W", 28, 17, Raw::unsigned_integer, 0.001, 131071, 3, {}},
+    {"agonist_resistance_Ohm", "Ohm", 45, 19, Raw::unsigned_integer, 0.01, 524287, 3, {}},
+    {"antagonist_coldest_C", "degC", 28, 16, Raw::signed_integer, 0.01, -32768, 4, {}},
+    {"antagonist_hottest_C", "degC", 44, 16, Raw::signed_integer, 0.01, -32768, 4, {}},
+    {"antagonist_applied_W", "W", 28, 17, Raw::unsigned_integer, 0.001, 131071, 5, {}},
+    {"antagonist_resistance_Ohm", "Ohm", 45, 19, Raw::unsigned_integer, 0.01, 524287, 5, {}},
+}};
+
 inline constexpr std::array<SignalInfo, 6> signals_of_TuningWrite{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
@@ -555,11 +585,12 @@ inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_M
 inline constexpr MessageInfo tuning{"Tuning", 0x640, 8, 0, signals_of_Tuning};
 inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
 inline constexpr MessageInfo boot{"Boot", 0x740, 8, 1000, signals_of_Boot};
+inline constexpr MessageInfo joint{"Joint", 0x780, 8, 20, signals_of_Joint};
 inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite};
 }  // namespace message
 
 /// In the order of identifiers.
-inline constexpr std::array<MessageInfo, 29> all_messages{{
+inline constexpr std::array<MessageInfo, 30> all_messages{{
     message::sync,
     message::emergency,
     message::first_cause,
@@ -588,6 +619,7 @@ inline constexpr std::array<MessageInfo, 29> all_messages{{
     message::tuning,
     message::status,
     message::boot,
+    message::joint,
     message::tuning_write,
 }};
 

@@ -306,6 +306,30 @@ class Boot(NamedTuple):
     commit: int
 
 
+class Joint(NamedTuple):
+    """The joint and both of its heaters, one part after the other: from the agonist's node, and where a spring or gravity draws one muscle back, from that muscle's. Such a joint has the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. What is wrong with the joint is in Emergency and Status of the same node: a fault of either muscle is both's."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    part: names.Part
+    agonist_limited: bool
+    agonist_slack: bool
+    antagonist_limited: bool
+    antagonist_slack: bool
+    angle_deg: float
+    reference_deg: float
+    error_deg: float
+    effort_W: float
+    co_contraction_W: float
+    agonist_coldest_C: float
+    agonist_hottest_C: float
+    agonist_applied_W: float
+    agonist_resistance_Ohm: float
+    antagonist_coldest_C: float
+    antagonist_hottest_C: float
+    antagonist_applied_W: float
+    antagonist_resistance_Ohm: float
+
+
 class TuningWrite(NamedTuple):
     """Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
 
@@ -505,6 +529,26 @@ LAYOUTS = (
         Signal("version_patch", "", 16, 8, Raw.unsigned, 1.0, None, None, int),
         Signal("commit", "", 32, 28, Raw.unsigned, 1.0, None, None, int),
     )),
+    Layout(Joint, 0x780, 8, 20, True, (
+        Signal("part", "", 0, 4, Raw.unsigned, 1.0, None, None, names.Part),
+        Signal("agonist_limited", "", 4, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("agonist_slack", "", 5, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("antagonist_limited", "", 6, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("antagonist_slack", "", 7, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("angle_deg", "deg", 8, 20, Raw.signed, 0.0005, -524288, None, float),
+        Signal("reference_deg", "deg", 28, 20, Raw.signed, 0.0005, -524288, 0, float),
+        Signal("error_deg", "deg", 48, 16, Raw.signed, 0.0005, -32768, 0, float),
+        Signal("effort_W", "W", 28, 18, Raw.signed, 0.001, -131072, 1, float),
+        Signal("co_contraction_W", "W", 46, 18, Raw.unsigned, 0.001, 262143, 1, float),
+        Signal("agonist_coldest_C", "degC", 28, 16, Raw.signed, 0.01, -32768, 2, float),
+        Signal("agonist_hottest_C", "degC", 44, 16, Raw.signed, 0.01, -32768, 2, float),
+        Signal("agonist_applied_W", "W", 28, 17, Raw.unsigned, 0.001, 131071, 3, float),
+        Signal("agonist_resistance_Ohm", "Ohm", 45, 19, Raw.unsigned, 0.01, 524287, 3, float),
+        Signal("antagonist_coldest_C", "degC", 28, 16, Raw.signed, 0.01, -32768, 4, float),
+        Signal("antagonist_hottest_C", "degC", 44, 16, Raw.signed, 0.01, -32768, 4, float),
+        Signal("antagonist_applied_W", "W", 28, 17, Raw.unsigned, 0.001, 131071, 5, float),
+        Signal("antagonist_resistance_Ohm", "Ohm", 45, 19, Raw.unsigned, 0.01, 524287, 5, float),
+    )),
     Layout(TuningWrite, 0x6c0, 8, 0, False, (
         Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
         Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
@@ -544,4 +588,5 @@ MUSCLE_READ = 0x680
 TUNING = 0x640
 STATUS = 0x700
 BOOT = 0x740
+JOINT = 0x780
 TUNING_WRITE = 0x6c0

@@ -123,6 +123,15 @@ class Parameter(Named):
     bias_deviation = 13
 
 
+class Part(Named):
+    motion = 0
+    effort = 1
+    agonist_heat = 2
+    agonist_power = 3
+    antagonist_heat = 4
+    antagonist_power = 5
+
+
 class Playback(Named):
     empty = 0
     loaded = 1

@@ -147,7 +147,7 @@ TEST(Codec, TheReservedRawValueIsNaN) {
       ++reserved;
     }
   }
-  LONGS_EQUAL(22, reserved);
+  LONGS_EQUAL(35, reserved);
 }
 
 TEST(Codec, AnEstimateHasTheParameterThatItCarriesAndNoOther) {

@@ -56,6 +56,20 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
     CHECK_FALSE(channel.supervision.proof_of_response);
 }
 
+/// 135 bits, 50 times a second, of 500 kbit/s.
+TEST(JointConfig, TheJointIsPartOfTheLoadOfTheCanBus) {
+  const auto described = [](const std::string& text) {
+    return describe(read_joint_board(text + "[can]\n"));
+  };
+  const std::string with_joint = described(board_with_joint);
+  STRCMP_CONTAINS("load    19.1 % at worst", with_joint.c_str());
+  STRCMP_CONTAINS("\n  joint 50 Hz, of each joint\n", with_joint.c_str());
+  const std::string alone = described(small_board);
+  CHECK(alone.find("joint") == std::string::npos);
+  check_answer("can.rates.joint_Hz = 2000: must be 0 to 1000",
+               board_with_joint + "[can]\nrates = {joint_Hz = 2000}\n");
+}
+
 TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   const std::string spring =
       "[[joint]]\nname = 'finger'\nopposed_by = 'spring'\nagonist = 1\nlever_m = 0.015\n";

@@ -1,5 +1,8 @@
 #include "telemetry/publisher.hpp"
 
+#include <initializer_list>
+#include <vector>
+
 #include <supercoil.h>
 
 #include <CppUTest/TestHarness.h>
@@ -51,7 +54,7 @@ TEST_GROUP(Publisher) {
 };
 
 TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
-  Publisher publisher(only(Message::measurement, 100.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::measurement, 100.0), {1, ChannelSettings()}, timing, bus);
   publish(publisher, 0, 1000);
   LONGS_EQUAL(100, bus.sent.size());
   LONGS_EQUAL(0x280 + 5, bus.sent[0].id);
@@ -59,7 +62,7 @@ TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
 }
 
 TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
-  Publisher publisher(only(Message::estimate, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::estimate, 1000.0), {1, ChannelSettings()}, timing, bus);
   int expected = 0;
   const auto hear = [&](int from_ms, bool told, int all) {
     bus.sent.clear();
@@ -87,10 +90,10 @@ TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
 
 TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
   test::TestBus free;
-  Publisher twin(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, free);
+  Publisher twin(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, free);
   publish(twin, 0, 20);
   const std::size_t dropped = free.sent.size() - 8;
-  Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 20);
   LONGS_EQUAL(0, bus.sent.size());
@@ -107,7 +110,7 @@ TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
 }
 
 TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
-  Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::gone;
   publish(publisher, 0, 20);
   bus.answer = hal::Status::ok;
@@ -118,7 +121,7 @@ TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
 }
 
 TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
-  Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 20);
   publisher.offer(row_at(20ms, Fault::over_travel));
@@ -137,7 +140,7 @@ TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
 }
 
 TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
-  Publisher publisher(only(Message::status, 10.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::status, 10.0), {1, ChannelSettings()}, timing, bus);
   publish(publisher, 0, 1000);
   const std::size_t sent = bus.sent.size();
   for (int ms = 1000; ms < 2000; ++ms)
@@ -146,7 +149,7 @@ TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
 }
 
 TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
-  Publisher publisher(only(Message::timing, 10.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::timing, 10.0), {1, ChannelSettings()}, timing, bus);
   timing.add({30us, 5us}, 0);
   timing.add({20us, 8us}, 2);
   publish(publisher, 0, 150);
@@ -160,8 +163,57 @@ TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
   LONGS_EQUAL(0xFFFFF, m.late_s);  // no tick since
 }
 
+/// Of three channels: a muscle alone, and a joint whose agonist is the last one.
+TEST(Publisher, TellsAJointByTheAgonistsNodeOnePartAfterTheOther) {
+  std::vector<ChannelSettings> channels(3);
+  channels[2].joint = {.direction = 1, .lever = control::Lever(0.02), .other_channel_offset = -1};
+  channels[1].joint = {.direction = -1, .lever = control::Lever(0.02), .other_channel_offset = 1};
+  Publisher publisher(only(Message::joint, 1000.0), channels, timing, bus);
+  const auto publish_to = [&](int ms, std::initializer_list<std::uint8_t> told) {
+    for (const std::uint8_t channel : told) {
+      Row row = row_at(ms * 1ms);
+      row.channel = channel;
+      row.position_m = 0.002F;
+      row.hottest_C = static_cast<float>(20 + channel);
+      publisher.offer(row);
+    }
+    publisher.poll(ms * 1ms, [](std::uint8_t) { return false; });
+  };
+  const auto joint_of = [&](const hal::CanFrame& frame) {
+    LONGS_EQUAL(0x780 + 5 + 2, frame.id);
+    supercoil_joint_t m{};
+    LONGS_EQUAL(0, supercoil_joint_unpack(&m, frame.data.data(), frame.length));
+    return m;
+  };
+  // No row of the antagonist yet.
+  for (int ms = 0; bus.sent.size() < 6; ++ms)
+    publish_to(ms, {0, 2});
+  LONGS_EQUAL(-32768, joint_of(bus.sent[4]).antagonist_hottest_c);
+  bus.sent.clear();
+  for (int ms = 100; ms < 112; ++ms)
+    publish_to(ms, {0, 1, 2});
+  CHECK(bus.sent.size() >= 11);
+  for (std::size_t i = 0; i < bus.sent.size(); ++i) {
+    const auto m = joint_of(bus.sent[i]);
+    LONGS_EQUAL(i % 6, m.part);
+    DOUBLES_EQUAL(0.1 * 180.0 / 3.14159265, supercoil_joint_angle_deg_decode(m.angle_deg), 3e-4);
+    if (m.part == 2) LONGS_EQUAL(2200, m.agonist_hottest_c);
+    if (m.part == 4) LONGS_EQUAL(2100, m.antagonist_hottest_c);
+  }
+}
+
+TEST(Publisher, TellsAMuscleAgainstASpringInFourParts) {
+  std::vector<ChannelSettings> channels(1);
+  channels[0].joint = {.direction = 1};
+  Publisher publisher(only(Message::joint, 1000.0), channels, timing, bus);
+  publish(publisher, 0, 20);
+  CHECK(bus.sent.size() >= 19);
+  for (std::size_t i = 0; i < bus.sent.size(); ++i)
+    LONGS_EQUAL(i % 4, bus.sent[i].data[0] & 0xFU);
+}
+
 TEST(Publisher, SendsAnswersBeforeTheMessagesThatWaitAndEmergenciesBeforeThem) {
-  Publisher publisher(only(Message::measurement, 100.0), {1, {0.0086, 0.09}}, timing, bus);
+  Publisher publisher(only(Message::measurement, 100.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 50);
   hal::CanFrame answer;

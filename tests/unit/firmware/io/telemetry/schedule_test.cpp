@@ -92,6 +92,32 @@ TEST(Schedule, CountsTheBitsOfAFrameAtItsWorst) {
   LONGS_EQUAL(135, max_bits(8));
 }
 
+/// Those without a joint have the load, and the places of their messages, that they had before.
+TEST(Schedule, OnlyTheNodeOfAJointTellsIt) {
+  CanSettings can;
+  can.rates_Hz = {};
+  can.rates_Hz[static_cast<std::size_t>(Message::joint)] = 50.0;
+  std::vector<ChannelSettings> channels(3);
+  const double boot = bus_load(can, channels);
+  DOUBLES_EQUAL(3 * 135.0 / 500e3, boot, 1e-12);
+  Schedule none(rates_of(can, channels));
+  for (const int count : frames_per_ms(none, 1000))
+    LONGS_EQUAL(0, count);
+  channels[1].joint.direction = -1;
+  channels[2].joint.direction = 1;
+  DOUBLES_EQUAL(50 * 135.0 / 500e3, bus_load(can, channels) - boot, 1e-12);
+  Schedule schedule(rates_of(can, channels));
+  int sent = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    schedule.due(ms * 1ms, [&](std::uint8_t channel, Message message) {
+      LONGS_EQUAL(2, channel);
+      CHECK(message == Message::joint);
+      ++sent;
+    });
+  }
+  LONGS_EQUAL(50, sent);
+}
+
 TEST(Schedule, TellsTheLoadOfTheBus) {
   Rates rates{};
   rates[static_cast<std::size_t>(Message::measurement)] = 100.0;

@@ -224,6 +224,32 @@ inline Values boot(const hal::CanFrame& frame) {
                  supercoil_boot_version_patch_decode(m.version_patch),
                  supercoil_boot_commit_decode(m.commit)});
 }
+inline Values joint(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_joint_unpack);
+  // NOLINTNEXTLINE(bugprone-easily-swappable-parameters)
+  const auto only = [&](int part, double value) { return m.part == part ? value : NAN; };
+  return values(
+      {supercoil_joint_part_decode(m.part),
+       supercoil_joint_agonist_limited_decode(m.agonist_limited),
+       supercoil_joint_agonist_slack_decode(m.agonist_slack),
+       supercoil_joint_antagonist_limited_decode(m.antagonist_limited),
+       supercoil_joint_antagonist_slack_decode(m.antagonist_slack),
+       unless(-524288, m.angle_deg, supercoil_joint_angle_deg_decode),
+       only(0, unless(-524288, m.reference_deg, supercoil_joint_reference_deg_decode)),
+       only(0, unless(-32768, m.error_deg, supercoil_joint_error_deg_decode)),
+       only(1, unless(-131072, m.effort_w, supercoil_joint_effort_w_decode)),
+       only(1, unless(262143, m.co_contraction_w, supercoil_joint_co_contraction_w_decode)),
+       only(2, unless(-32768, m.agonist_coldest_c, supercoil_joint_agonist_coldest_c_decode)),
+       only(2, unless(-32768, m.agonist_hottest_c, supercoil_joint_agonist_hottest_c_decode)),
+       only(3, unless(131071, m.agonist_applied_w, supercoil_joint_agonist_applied_w_decode)),
+       only(3, unless(524287, m.agonist_resistance_ohm,
+                      supercoil_joint_agonist_resistance_ohm_decode)),
+       only(4, unless(-32768, m.antagonist_coldest_c, supercoil_joint_antagonist_coldest_c_decode)),
+       only(4, unless(-32768, m.antagonist_hottest_c, supercoil_joint_antagonist_hottest_c_decode)),
+       only(5, unless(131071, m.antagonist_applied_w, supercoil_joint_antagonist_applied_w_decode)),
+       only(5, unless(524287, m.antagonist_resistance_ohm,
+                      supercoil_joint_antagonist_resistance_ohm_decode))});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -247,7 +273,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 29> codec_messages{{
+constexpr std::array<CodecMessage, 30> codec_messages{{
     {"Sync", SUPERCOIL_SYNC_FRAME_ID, SUPERCOIL_SYNC_LENGTH, sync},
     {"Knot", SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, knot},
     {"Play", SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, play},
@@ -278,6 +304,7 @@ constexpr std::array<CodecMessage, 29> codec_messages{{
     {"TuningWrite", SUPERCOIL_TUNING_WRITE_FRAME_ID, SUPERCOIL_TUNING_WRITE_LENGTH, tuning_write},
     {"TuningRead", SUPERCOIL_TUNING_READ_FRAME_ID, SUPERCOIL_TUNING_READ_LENGTH, tuning_read},
     {"Boot", SUPERCOIL_BOOT_FRAME_ID, SUPERCOIL_BOOT_LENGTH, boot},
+    {"Joint", SUPERCOIL_JOINT_FRAME_ID, SUPERCOIL_JOINT_LENGTH, joint},
     {"Status", SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, status},
 }};
 

@@ -9,7 +9,8 @@ import numpy as np
 from patience import patient
 
 import supercoil
-from supercoil import joints, sync
+from supercoil import codec, joints, messages, sync
+from supercoil.generated.names import Part
 
 SCENARIO = """[simulation]
 duration_s = 86400.0
@@ -30,6 +31,34 @@ class AgainstASpring(unittest.TestCase):
         told[supercoil.Quantity.joint_lever_m] = 0.015
         self.assertEqual(joints.joint_of(3, told), supercoil.Joint(0.015, None))
         self.assertAlmostEqual(joints.joint_of(3, told).angle_deg(0.00523599), 20.0, places=4)
+
+
+class Parts(unittest.TestCase):
+    """Of Joint, as they come one after the other."""
+
+    def setUp(self):
+        self.telemetry = supercoil.Telemetry(1)
+        self.time_s = 0.0
+
+    def hear(self, part, **values):
+        self.time_s += 1.0
+        data = codec.encode(codec.LAYOUTS[messages.JOINT], {"part": part, **values})
+        self.telemetry.take(messages.JOINT, self.time_s, data)
+
+    def test_the_newest_frame_has_what_the_others_told(self):
+        self.hear(Part.motion, angle_deg=1.0, reference_deg=20.0, error_deg=math.nan)
+        self.hear(Part.antagonist_heat, angle_deg=2.0, antagonist_hottest_C=50.0, antagonist_slack=1)
+        told = self.telemetry.joint
+        self.assertEqual((told.time_s, told.part), (2.0, Part.antagonist_heat))
+        self.assertEqual((told.angle_deg, told.reference_deg), (2.0, 20.0))
+        self.assertEqual((told.antagonist_hottest_C, told.antagonist_slack, told.agonist_slack), (50.0, True, False))
+        self.assertTrue(math.isnan(told.error_deg) and math.isnan(told.agonist_hottest_C))
+
+    def test_a_part_takes_the_place_of_its_last_one_whatever_else_changed(self):
+        for reference_deg, slack in ((20.0, 1), (10.0, 0), (5.0, 1), (math.nan, 0)):
+            self.hear(Part.motion, reference_deg=reference_deg, agonist_slack=slack)
+            self.hear(Part.effort, effort_W=1.0, agonist_slack=slack)
+            np.testing.assert_equal(self.telemetry.joint.reference_deg, reference_deg)
 
 
 class OnSimulatedJoint(unittest.TestCase):
@@ -54,6 +83,26 @@ class Joint(OnSimulatedJoint):
             self.assertEqual(left.joint(), supercoil.Joint(-0.015, 1))
             self.assertAlmostEqual(left.joint().angle_deg(left.joint().position_m(ANGLE_DEG)), ANGLE_DEG)
             self.assertAlmostEqual(left.joint().position_m(ANGLE_DEG), -right.joint().position_m(ANGLE_DEG))
+
+    @patient
+    def test_one_node_tells_the_angle_and_both_heaters(self):
+        with self.muscle(1) as right, self.muscle(2) as left:
+            if right.state == supercoil.State.fault:
+                right.reset()
+            right.arm()
+            right.move_to(right.joint().position_m(ANGLE_DEG))
+            right.hold(0.5)
+            told = right.telemetry.joint
+            self.assertAlmostEqual(told.angle_deg, right.joint().angle_deg(right.position_m), delta=0.3)
+            self.assertAlmostEqual(told.reference_deg, ANGLE_DEG, delta=0.001)
+            self.assertAlmostEqual(told.co_contraction_W, left.telemetry.power.demanded_W, delta=0.01)
+            self.assertGreater(told.agonist_applied_W, 0.0)
+            self.assertAlmostEqual(told.agonist_hottest_C, right.telemetry.temperature.hottest_C, delta=2.0)
+            self.assertAlmostEqual(told.antagonist_hottest_C, left.telemetry.temperature.hottest_C, delta=2.0)
+            self.assertAlmostEqual(told.antagonist_resistance_Ohm, left.telemetry.measurement.resistance_Ohm, delta=0.2)
+            self.assertFalse(any(math.isnan(value) for value in told))
+            with self.assertRaisesRegex(supercoil.NoAnswerError, "node 2 has sent no Joint yet"):
+                _ = left.telemetry.joint
 
     @patient
     def test_it_turns_to_an_angle(self):

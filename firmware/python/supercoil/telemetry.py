@@ -11,8 +11,9 @@ from supercoil.named import unknown
 M = TypeVar("M", bound=tuple[Any, ...])
 Listener = Callable[[int, float, bytes], None]
 
-# Their first byte says whose value a frame carries.
-_ROUNDS = (messages.ESTIMATE, messages.MARGIN, messages.LIMIT, messages.GAIN, messages.MUSCLE)
+# Their first signal, which begins with the first bit, says whose value a frame carries; here the bits that it has.
+_ROUNDS = {base: codec.LAYOUTS[base].signals[0].mask for base in (
+    messages.ESTIMATE, messages.MARGIN, messages.LIMIT, messages.GAIN, messages.MUSCLE, messages.JOINT)}
 _BASES: dict[type[Any], int] = {layout.type: layout.base for layout in messages.LAYOUTS}
 
 
@@ -38,7 +39,7 @@ class Telemetry:
         """From the thread that reads the bus."""
         self._newest[base] = (time_s, data)
         if data and base in self._rounds:
-            self._rounds[base][data[0]] = (time_s, data)
+            self._rounds[base][data[0] & _ROUNDS[base]] = (time_s, data)
         for listen in self._listeners:
             listen(base, time_s, data)
 
@@ -93,6 +94,14 @@ class Telemetry:
     @property
     def timing(self) -> messages.Timing:
         return self.of(messages.Timing)
+
+    @property
+    def joint(self) -> messages.Joint:
+        """Of the node of a joint, its agonist's: the newest frame, with the newest of what other parts carry."""
+        told = self.of(messages.Joint)
+        parts = {signal.name: getattr(message, signal.name) for message in self._round(messages.Joint)
+                 for signal in codec.LAYOUTS[messages.JOINT].signals if signal.selected_by == message.part}
+        return told._replace(**parts)
 
     @property
     def estimates(self) -> dict[names.Parameter, float]:

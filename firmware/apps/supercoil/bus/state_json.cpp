@@ -30,10 +30,11 @@ Json state_json(const FrameHistory& frame_history) {
     Json& message = nodes[decoded->node][std::string(decoded->message->name)];
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i) {
       const can::SignalInfo& signal = decoded->message->signals[i];
-      const bool absent = std::isnan(decoded->values.at(i));
       const std::string name(signal.name);
       // A multiplexed signal stays as the last frame that had it told it.
-      if (absent && signal.selected_by != can::always && message.contains(name)) continue;
+      const bool elsewhere =
+          signal.selected_by != can::always && decoded->values[0] != signal.selected_by;
+      if (elsewhere && message.contains(name)) continue;
       message[name] = value_json(signal, decoded->values.at(i));
     }
   }

@@ -140,6 +140,8 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
     text += "  the loop oscillated by itself: its feedback is slower now\n";
   if (value(node, "Status", "slack") == 1.0)
     text += "  by its model this muscle is slack where the joint stands\n";
+  const double angle_deg = value(node, "Joint", "angle_deg");
+  if (node.contains("Joint")) text += shown("angle", angle_deg, 3, "deg") + '\n';
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
           shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +
           shown("error", 1e6 * value(node, "Tracking", "error_m"), 0, "um") + '\n';

@@ -6,9 +6,11 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "apps/supercoil/bus/state_json.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 #include "loop/snapshot.hpp"
+#include "telemetry/joint_frame.hpp"
 
 using namespace supercoil;
 using namespace supercoil::operating;
@@ -16,7 +18,7 @@ using namespace supercoil::operating;
 TEST_GROUP(Terminal) {
   FrameHistory heard{10.0, 500e3};
 
-  std::string told() {
+  std::string told() const {
     return state_text(heard, {{1, "mrac"}});
   }
 };
@@ -26,6 +28,41 @@ TEST(Terminal, WithoutAStatusNoControllerIsNumbered) {
   frame.set("position_m", 0.005);
   heard.add({frame.frame()});
   STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", told().c_str());
+}
+
+/// Whichever part of Joint came last.
+TEST(Terminal, TheNodeOfAJointHasItsAngle) {
+  Row agonist{};
+  agonist.position_m = 0.005236F;
+  for (const telemetry::JointPart part :
+       {telemetry::JointPart::motion, telemetry::JointPart::agonist_heat}) {
+    heard.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
+    STRCMP_CONTAINS("  angle            20.000 deg\n  position", told().c_str());
+  }
+  agonist.position_m = NAN;
+  heard.add(
+      {telemetry::joint(1, telemetry::JointPart::motion, control::Lever(0.015), agonist, nullptr)});
+  STRCMP_CONTAINS("  angle                 - deg\n", told().c_str());
+}
+
+TEST(Terminal, OnlyANodeOfAJointHasAnAngle) {
+  heard.add({can::Encoder<can::message::measurement>(can::Node{1}).frame()});
+  CHECK(told().find("angle") == std::string::npos);
+}
+
+/// Another part that came since leaves it as it was; its own part takes it back.
+TEST(Terminal, WhatIsNotAvailableAnyMoreIsNotToldInJson) {
+  Row agonist{};
+  agonist.mode = static_cast<std::uint8_t>(Mode::position);
+  agonist.reference = 0.005236F;
+  const auto hear = [&](telemetry::JointPart part) {
+    heard.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
+    return state_json(heard)["nodes"][0]["Joint"]["reference_deg"];
+  };
+  DOUBLES_EQUAL(20.0, hear(telemetry::JointPart::motion).get<double>(), 1e-3);
+  agonist.mode = static_cast<std::uint8_t>(Mode::rest);
+  DOUBLES_EQUAL(20.0, hear(telemetry::JointPart::effort).get<double>(), 1e-3);
+  CHECK(hear(telemetry::JointPart::motion).is_null());
 }
 
 TEST(Terminal, AModeWithoutProgressHasNoPercent) {

@@ -65,6 +65,7 @@ class InfeasibleTime {
   using Ticks = std::array<std::int64_t, limit_names.size()>;
 
   void leave_limit() {
+    if (std::isnan(at_limit_since_s_)) return;  // nothing is open
     at_limit_since_s_ = NAN;
     open_.fill(0);
   }

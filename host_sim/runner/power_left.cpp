@@ -1,5 +1,6 @@
 #include "runner/power_left.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "loop/feasibility.hpp"
@@ -14,6 +15,18 @@ double provable_W(const ChannelSettings& channel, const BoardSettings& board) {
   const bool proves = channel.supervision.proof_of_response && channel.muscle_identified;
   if (!proves) return INFINITY;
   return plan_proof(proof_settings(channel, board), channel.muscle, board.rate_Hz).provable_W;
+}
+
+control::ThermalBounds thermal_bounds(const ChannelSettings& channel) {
+  return board::known_thermal_bounds(channel.thermal, channel.heat).bounds;
+}
+
+/// As RiseIntervalObserver's where no heat transfer is known better at some rises.
+control::BasicIntervalEnd<double> board_hot_end(control::ThermalBounds bounds, double step_s) {
+  const double lowest_W_per_K = bounds.min_transfer_W_per_K;
+  bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
+                                       bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);
+  return control::hot_end(lowest_W_per_K, bounds, step_s);
 }
 
 /// What is left of the heat that it may have had at boot.
@@ -31,12 +44,8 @@ PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
       provable_W_(provable_W(board.channels[0], board)),
       warmest_C_(board.channels[0].thermal.air.warmest_C),
       max_power_ratio_(power_bounds(board.channels[0], board).true_over_measured(supply_V).max),
-      hot_(board::known_thermal_bounds(board.channels[0].thermal, board.channels[0].heat).bounds,
-           step_s) {
-  const ChannelSettings& channel = board.channels[0];
-  hot_.reset(first_rise_K(channel, board,
-                          board::known_thermal_bounds(channel.thermal, channel.heat).bounds));
-}
+      hot_(board_hot_end(thermal_bounds(board.channels[0]), step_s)),
+      hottest_K_(first_rise_K(board.channels[0], board, thermal_bounds(board.channels[0]))) {}
 
 PowerLeft::Most PowerLeft::at(double hottest_C) const {
   Most most{limiter_.max_W(), LimitedBy::maximum};

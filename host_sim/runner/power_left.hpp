@@ -1,7 +1,7 @@
 // The power that a board's limiter leaves to a muscle over time, as it must believe it to be hot.
 #pragma once
 
-#include "supercoil/control/thermal/rise_interval_observer.hpp"
+#include "supercoil/control/thermal/interval_observer.hpp"
 
 #include "loop/settings.hpp"
 
@@ -18,11 +18,11 @@ class PowerLeft {
   /// supply_V: that it has.
   PowerLeft(const BoardSettings& board, double supply_V, double step_s);
 
-  Most now() const { return at(warmest_C_ + hot_.max_K()); }
+  Most now() const { return at(warmest_C_ + hottest_K_); }
   /// Of a cold muscle.
   Most cold() const { return at(warmest_C_); }
   /// That power is given for a step.
-  void step(double power_W) { hot_.step(0.0, max_power_ratio_ * power_W); }
+  void step(double power_W) { hottest_K_ = hot_.moved(hottest_K_, max_power_ratio_ * power_W); }
 
  private:
   Most at(double hottest_C) const;
@@ -31,7 +31,8 @@ class PowerLeft {
   double provable_W_;  ///< infinite: nothing is to be proven yet
   double warmest_C_;
   double max_power_ratio_;
-  control::RiseIntervalObserver hot_;
+  control::BasicIntervalEnd<double> hot_;  ///< of the board's interval
+  double hottest_K_;
 };
 
 }  // namespace supercoil::host_sim

@@ -1,5 +1,6 @@
 #include "runner/reference_demand.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace supercoil::host_sim {
@@ -46,19 +47,20 @@ ReferenceDemand::Excess ReferenceDemand::step(double reference_m) {
   const double needed_W = (motion_.left_W(of_motion_W) + load_W_) / given_ratio_;
   motion_.step(reference_m);
   const PowerLeft::Most most = left_.now();
-  const double max_W = std::fmin(most.power_W, range_.max_W);
+  const double max_W = std::min(most.power_W, range_.max_W);
   const double wanted_W = needed_W + lag_.made_up_by_W();
-  const double given_W = std::fmin(std::fmax(wanted_W, range_.min_W), max_W);
+  // Of a NaN the least; std::fmin would be a call.
+  const double given_W = std::min(max_W, std::max(range_.min_W, wanted_W));
   left_.step(given_W);
   lag_.step(needed_W - given_W);
 
-  Excess excess{.power_W = std::fmax(range_.min_W - asked_W, asked_W - max_W)};
+  Excess excess{.power_W = std::max(range_.min_W - asked_W, asked_W - max_W)};
   const double off_W =
       lag_.off_W() + std::abs(motion_.asked_m() - motion_.shaped_m()) / gain_m_per_W_;
   const bool behind = off_W > tolerated_W_;
   const double tolerated_W = behind ? rounding_ratio * range_.max_W : tolerated_W_;
-  const double least_W = behind ? std::fmin(asked_W, wanted_W) : asked_W;
-  const double most_W = behind ? std::fmax(asked_W, wanted_W) : asked_W;
+  const double least_W = behind ? std::min(asked_W, wanted_W) : asked_W;
+  const double most_W = behind ? std::max(asked_W, wanted_W) : asked_W;
   if (least_W < range_.min_W - tolerated_W) {
     excess.by = LimitedBy::cooling;
   } else if (most_W > max_W + tolerated_W) {

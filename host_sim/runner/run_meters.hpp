@@ -13,7 +13,7 @@ class ErrorMeter {
  public:
   void add(double error) {
     square_sum_ += error * error;
-    max_ = std::fmax(max_, std::abs(error));
+    max_ = std::max(max_, std::abs(error));  // a NaN is none
     ++count_;
   }
   double square_sum() const { return square_sum_; }

@@ -20,7 +20,9 @@ class Lag {
       : muscle_(muscle),
         step_s_(step_s),
         kept_ratio_(std::exp(muscle.thermal_pole_rad_per_s() * step_s)),
-        K_per_W_((1.0 - kept_ratio_) / muscle.heat_transfer_W_per_K) {}
+        K_per_W_((1.0 - kept_ratio_) / muscle.heat_transfer_W_per_K),
+        moved_kg_(muscle.moving_mass_kg +
+                  step_s * (muscle.damping_Ns_per_m + step_s * muscle.stiffness_N_per_m)) {}
 
   /// The power that makes up for it within a step.
   double made_up_by_W() const { return kept_ratio_ * missing_K_ / K_per_W_; }
@@ -31,9 +33,7 @@ class Lag {
     const control::PhysicalParameters& m = muscle_;
     const double force_N =
         m.force_per_kelvin_N_per_K * missing_K_ - m.stiffness_N_per_m * behind_m_;
-    speed_m_per_s_ =
-        (m.moving_mass_kg * speed_m_per_s_ + step_s_ * force_N) /
-        (m.moving_mass_kg + step_s_ * (m.damping_Ns_per_m + step_s_ * m.stiffness_N_per_m));
+    speed_m_per_s_ = (m.moving_mass_kg * speed_m_per_s_ + step_s_ * force_N) / moved_kg_;
     behind_m_ += step_s_ * speed_m_per_s_;
   }
   double behind_m() const { return behind_m_; }
@@ -51,6 +51,7 @@ class Lag {
   double step_s_;
   double kept_ratio_;  ///< of a difference in temperature, over a step
   double K_per_W_;     ///< after a step
+  double moved_kg_;    ///< mass, and what damping and stiffness are like in a step
   double missing_K_ = 0.0;
   double speed_m_per_s_ = 0.0;
   double behind_m_ = 0.0;
@@ -74,27 +75,29 @@ class WantedMotion {
   /// Other conditions in place of those.
   void go_on_from(const WantedMotion& before) {
     asked_.set(before.asked_.motion());
-    shaped_.set(before.shaped_.motion());
+    shaped_.set(before.made().motion());
   }
 
   /// What the muscle needs for it from now to the next step.
   double power_W(double reference_m) const {
-    return inverse_.power_W(reference_m, shaped_.motion());
+    return inverse_.power_W(reference_m, made().motion());
   }
   void step(double reference_m) {
     asked_.step(reference_m);
-    shaped_.step(shapes_ ? inverse_.step(reference_m, shaped_.motion(), range_).reference_m
-                         : reference_m);
+    if (shapes_) shaped_.step(inverse_.step(reference_m, shaped_.motion(), range_).reference_m);
   }
   /// Of what it needs, the part that shaping leaves to the muscle.
   double left_W(double power_W) const { return shapes_ ? range_.clip(power_W) : power_W; }
   double asked_m() const { return asked_.motion().position; }
-  double shaped_m() const { return shaped_.motion().position; }
+  double shaped_m() const { return made().motion().position; }
 
  private:
+  /// Without shaping both are one, and a step of one model is enough.
+  const control::ReferenceModel<double>& made() const { return shapes_ ? shaped_ : asked_; }
+
   control::ReferenceShaper inverse_;
   control::ReferenceModel<double> asked_;
-  control::ReferenceModel<double> shaped_;
+  control::ReferenceModel<double> shaped_;  ///< stands still where nothing shapes
   control::PowerRange range_;
   bool shapes_;
 };

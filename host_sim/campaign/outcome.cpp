@@ -60,7 +60,7 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
   double hottest_C = -std::numeric_limits<double>::infinity();
   while (!simulation.done()) {
     if (simulation.tick() % look_every_ticks == 0 && stop) return std::nullopt;
-    const TickRecord record = simulation.step();
+    const TickRecord& record = simulation.step();
     meters.add(record);
     summary.add(record);
     hottest_rise_K = std::fmax(hottest_rise_K, record.temperature_rise_K);

@@ -30,9 +30,9 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
   if (options.plot) plot_.emplace(scenario_);
 }
 
-TickRecord NodeRun::step() {
+const TickRecord& NodeRun::step() {
   const std::int64_t tick = simulation_.tick();
-  const TickRecord record = simulation_.step();
+  const TickRecord& record = simulation_.step();
   summary_.add(record);
   if (trace_ && trace_->wants(tick)) trace_->add(record, simulation_.estimate());
   if (plot_ && plot_->wants(tick)) plot_->add(record, simulation_.estimate());

@@ -24,7 +24,7 @@ class NodeRun {
   NodeRun(const NodeRun&) = delete;
   NodeRun& operator=(const NodeRun&) = delete;
 
-  TickRecord step();
+  const TickRecord& step();
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.

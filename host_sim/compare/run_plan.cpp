@@ -23,7 +23,7 @@ std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::at
   Fault fault = Fault::none;
   while (!simulation.done()) {
     if (simulation.tick() % look_every_ticks == 0 && stop) return std::nullopt;
-    const TickRecord record = simulation.step();
+    const TickRecord& record = simulation.step();
     meters.add(record);
     if (fault == Fault::none) fault = record.fault;
     if (fault == Fault::none) fault = record.board_fault;

@@ -59,7 +59,7 @@ std::array<ErrorMeter, 3> track(Scenario scenario, const Contender& contender, P
   Curve off = at;
   while (!simulation.done()) {
     const std::int64_t tick = simulation.tick();
-    const TickRecord r = simulation.step();
+    const TickRecord& r = simulation.step();
     for (std::size_t i = 0; i < windows.size(); ++i) {
       const Window& w = windows[i].window;
       if (r.time_s >= w.from_s && r.time_s < w.to_s) meters[i].add(r.position_m - r.model_m);

@@ -247,7 +247,7 @@ Answer Simulation::command(Verb verb, double value, std::uint8_t channel) {
   return answer_;
 }
 
-TickRecord Simulation::step() {
+const TickRecord& Simulation::step() {
   const double time_s = static_cast<double>(tick_) * step_s_;
   board_.advance_to(executive_.next_wake());
   while (next_event_ < scenario_->events.size() && scenario_->events[next_event_].at_s <= time_s) {
@@ -259,9 +259,8 @@ TickRecord Simulation::step() {
   housekeep();
   if (first_motion_) first_motion_->judge(time_s, loop_.channel(0).snapshot());
   ++tick_;
-  TickRecord r = record(time_s, reference);
-  r.reference_limited_by = reference_limited_by();
-  return r;
+  record(time_s, reference);
+  return record_;
 }
 
 LimitedBy Simulation::reference_limited_by() {
@@ -287,10 +286,10 @@ LimitedBy Simulation::reference_limited_by() {
   return is_of_heat(s.limited_by) ? s.limited_by : LimitedBy::nothing;
 }
 
-TickRecord Simulation::record(double time_s, double reference) const {
+void Simulation::record(double time_s, double reference) {
   const Snapshot& s = loop_.channel(0).snapshot();
   const double ambient_C = conditions_->ambient.air_C;
-  TickRecord r;
+  TickRecord& r = record_;
   r.time_s = time_s;
   r.reference = reference;
   r.model_m = s.model_m;
@@ -305,18 +304,18 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.limited = s.limited;
   r.oscillation_period_s = s.oscillation_period_s;
   r.open_loop = s.mode != Mode::position;
-  r.state = s.state;
   r.commands_power = conditions_->controller.kind == control::ControllerKind::power;
+  r.state = s.state;
   r.fault = s.fault;
-  if (s.fault != Fault::none && s.margin_selector == s.fault && s.margin.judged)
-    r.fault_margin = s.margin;
+  const bool told = s.fault != Fault::none && s.margin_selector == s.fault && s.margin.judged;
+  r.fault_margin = told ? s.margin : detectors::Margin{.measured = NAN, .limit = NAN};
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
+  r.reference_limited_by = reference_limited_by();
   r.clipped_power_W =
       control::PowerRange{conditions_->power.min_W, conditions_->power.max_W}.clip(s.demanded_W);
   if (conditions_->antagonist() != nullptr) r.antagonist = antagonist_record();
   if (!conditions_->companions.empty()) r.bundle = bundle_record(r);
-  return r;
 }
 
 AntagonistRecord Simulation::antagonist_record() const {

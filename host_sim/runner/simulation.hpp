@@ -90,8 +90,9 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   bool done() const { return tick_ >= ticks_; }
-  /// One tick: events, what is asked for, and the firmware's tick.
-  TickRecord step();
+  /// One tick: events, what is asked for, and the firmware's tick. What is returned lasts until the
+  /// next.
+  const TickRecord& step();
   /// One tick as well, with a command beside the scenario's, and what the board answers to it.
   Answer command(Verb verb, double value, std::uint8_t channel = 0);
 
@@ -150,7 +151,7 @@ class Simulation {
   void send(Verb verb, double value = 0.0);
   void housekeep();
   void pass_rows();
-  TickRecord record(double time_s, double reference) const;
+  void record(double time_s, double reference);
   /// After a tick: beyond which limit the reference alone goes.
   LimitedBy reference_limited_by();
 
@@ -159,6 +160,7 @@ class Simulation {
   std::int64_t ticks_;
   double step_s_;
   std::int64_t tick_ = 0;
+  TickRecord record_;  ///< of the last step; only what changes is written
   std::size_t next_event_ = 0;
   std::size_t controllers_used_ = 0;
   std::size_t estimators_used_ = 0;

@@ -26,6 +26,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
                   board.supervision.min_supply_V, settings.heater.sense_filter_s, board.step_s()) {}
 
 void Channel::add_tuning(Command& command) {
+  if (command.verb != Verb::store && command.verb != Verb::tune) return;
   control::PhysicalParameters muscle;
   std::size_t quantity = 0;
   for (const control::PhysicalRange& range : control::physical_ranges)

@@ -45,7 +45,7 @@ void Estimation::publish(std::uint32_t selector, Snapshot& s) const {
   s.theta = e.theta;
   s.error_bound = e.relative_error_bound;
   s.trusted = e.trusted;
-  s.deviation = e.deviation.unaryExpr(&nan_if_infinite);
+  s.deviation = e.deviation.unaryExpr([](double each) { return nan_if_infinite(each); });
   s.bias_deviation_W = nan_if_infinite(e.bias_deviation_W);
   // No bias without a standard deviation.
   const bool told = !std::isnan(s.bias_deviation_W);

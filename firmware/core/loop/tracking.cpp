@@ -55,8 +55,9 @@ control::ControllerOutput Tracking::step(const control::ControllerInput& input,
   control::Controller& controller = controllers_[chosen_];
   if (estimate) controller.learn(*estimate);
   const control::ControllerOutput output = controller.step(input);
-  power_W_.step(input.applied_power_W);
+  // In this order: g++ reads what is before error_m_ together with it, and would wait for power_W_.
   error_m_.step(input.position_m - output.model_m);
+  power_W_.step(input.applied_power_W);
   return output;
 }
 

@@ -112,18 +112,26 @@ control::PowerRange Axis::allowed_range() const {
   return {range.min_W, std::min({range.max_W, cool_W, proof_.max_W()})};
 }
 
+double Axis::held_W() const {
+  const double own_W = bundle_ ? bundle_->range.max_W : heater_.power_range().max_W;
+  return std::min({own_W, max_hot_W(), proof_.held_W()});
+}
+
+control::PowerRange Axis::held_range() const {
+  const double min_W = bundle_ ? bundle_->range.min_W : heater_.power_range().min_W;
+  return {min_W - other_.held_W, held_W() - other_.range.min_W};
+}
+
 Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
   const board::AppliedPower& acting = heater_.acting();
   const control::PowerRange own = heater_.power_range();
   detectors::NotResponding::Expected expected_m = heater_.heat().expected_m();
   for (double& each_m : expected_m)
     each_m *= lever_ratio;
-  return {gain_ratio * acting.power_W,
-          acting.limited,
-          {gain_ratio * own.min_W, gain_ratio * own.max_W},
-          expected_m,
-          heater_.heat().hottest_K(),
-          inputs_.expected_anew};
+  return {
+      gain_ratio * acting.power_W, acting.limited, {gain_ratio * own.min_W, gain_ratio * own.max_W},
+      gain_ratio * held_W(),       expected_m,     heater_.heat().hottest_K(),
+      inputs_.expected_anew};
 }
 
 void Axis::lead(const WholeBundle& whole) {
@@ -197,7 +205,7 @@ bool Axis::control() {
       input.position_m = inputs_.position.value;
       input.applied_power_W = moving_W();
       input.limited = is_limited();
-      input.range = range();
+      input.range = held_range();
       demanded_ = tracking_.step(input, estimation_.estimate());
       return false;
     }
@@ -223,6 +231,15 @@ bool Axis::control() {
   return false;
 }
 
+/// Why a reference was shaped that needs more heating.
+LimitedBy Axis::held_by() const {
+  const double max_W = bundle_ ? bundle_->range.max_W : heater_.power_range().max_W;
+  const double hot_W = max_hot_W();
+  const double proven_W = proof_.held_W();
+  if (std::min(hot_W, proven_W) >= max_W) return LimitedBy::maximum;
+  return hot_W <= proven_W ? LimitedBy::temperature : LimitedBy::unproven;
+}
+
 /// A reference that was shaped says why, where the limiter knows nothing better.
 LimitedBy Axis::limited_by() const {
   using control::Infeasible;
@@ -230,7 +247,7 @@ LimitedBy Axis::limited_by() const {
   if (by == LimitedBy::nothing && followers_limited()) by = bundle_->limited_by;
   const bool at_an_end = by <= LimitedBy::maximum;
   if (!at_an_end || demanded_.infeasible == Infeasible::nothing) return by;
-  return demanded_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
+  return demanded_.infeasible == Infeasible::cooling ? LimitedBy::cooling : held_by();
 }
 
 void Axis::rest() {

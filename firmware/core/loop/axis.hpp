@@ -35,6 +35,7 @@ struct Opposition {
   double power_W = 0.0;  ///< that acts, in watts of this muscle: by so much it moves the joint less
   bool limited = false;  ///< that is not what was wanted
   control::PowerRange range{0.0, 0.0};  ///< of power_W
+  double held_W = 0.0;                  ///< of that, as Axis::held_W()
   /// By how much its heat moves the joint against this muscle, as HeaterInputs::expected_m.
   detectors::NotResponding::Expected expected_m{};
   double hottest_K = 0.0;      ///< above the air
@@ -185,8 +186,12 @@ class Axis {
   }
   /// That moves the muscle, in watts of its own.
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }
-  /// What a controller may count on.
+  /// That there is for a while.
   control::PowerRange range() const;
+  /// Of that, what a reference may count on: it falls to what can be held for good as the muscle,
+  /// or the other one, may become hot.
+  control::PowerRange held_range() const;
+  double held_W() const;  ///< of its own heater
   /// What acts is not what was wanted.
   bool is_limited() const {
     return heater_.acting().limited || other_.limited || followers_limited();
@@ -199,6 +204,7 @@ class Axis {
   double max_hot_W() const;
   void learn_heat();
   LimitedBy limited_by() const;
+  LimitedBy held_by() const;
   void enter(Mode mode);
 
   bool step_identify();

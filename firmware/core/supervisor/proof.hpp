@@ -91,6 +91,9 @@ class Proof {
   }
   /// No more power than this.
   double max_W() const { return max_W_; }
+  /// The same for longer than it takes to see whether a muscle moves: what a reference may count
+  /// on.
+  double held_W() const { return stage_ == Stage::released ? plan_.provable_W : max_W_; }
   /// In m: how far the position moved with the power since that was taken away, and the least that
   /// it must have.
   detectors::Margin margin() const;

@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "loop/feasibility.hpp"
+#include "runner/board_of.hpp"
 #include "runner/simulation.hpp"
 #include "scenario/read_scenario.hpp"
 
@@ -40,6 +42,49 @@ Fall fall(const std::string& controller) {
   return fall;
 }
 
+/// What was told of a set point that asks for more than can be held for good.
+struct Held {
+  Fault fault = Fault::none;
+  double highest_m = 0.0;   ///< of the model
+  double last_m = 0.0;      ///< of it, at the end
+  double furthest_m = 0.0;  ///< of the muscle from the model, once it has come up
+  LimitedBy by = LimitedBy::nothing;
+};
+
+Held held_at(double set_point_m, const std::string& conditions, bool identified = false) {
+  auto scenario = parse_scenario(
+      "simulation.duration_s = 200.0\n"
+      "reference = {kind = 'steps', levels_m = [" +
+          std::to_string(set_point_m) +
+          "], hold_s = 500.0}\n"
+          "controller = {kind = 'learned_ff', shape_reference = true}\n" +
+          conditions,
+      "held.toml");
+  if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
+  scenario->known[0].muscle_identified = identified;
+  Simulation simulation(*scenario);
+  Held held;
+  while (!simulation.done()) {
+    simulation.step();
+    const Snapshot& s = simulation.loop().channel(0).snapshot();
+    held.fault = s.fault;
+    held.highest_m = std::fmax(held.highest_m, s.model_m);
+    held.last_m = s.model_m;
+    held.by = s.limited_by;
+    if (hal::seconds(s.time - simulation.start()) > 20.0)
+      held.furthest_m = std::fmax(held.furthest_m, std::abs(s.position_m - s.model_m));
+  }
+  return held;
+}
+
+double believed_held_m(const std::string& conditions, bool identified = false) {
+  auto scenario = parse_scenario(conditions, "held.toml");
+  if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
+  scenario->known[0].muscle_identified = identified;
+  const BoardSettings board = firmware_of(*scenario);
+  return feasibility(board.channels[0], board).travel_m;
+}
+
 }  // namespace
 
 TEST_GROUP(Shaping){};
@@ -52,4 +97,31 @@ TEST(Shaping, MuscleKeepsToAShapedFallAndItIsSaidWhy) {
   const Fall shaped = fall("shape_reference = true\n");
   CHECK(shaped.cooling > 500);
   CHECK(shaped.furthest_m < 0.1e-3);
+}
+
+/// It leads there for as long as the heat allows, and then comes to what is held.
+TEST(Shaping, MuscleStaysWhereItIsHeldForGoodAndItIsSaidWhy) {
+  const Held held = held_at(0.027, "");
+  CHECK(held.fault == Fault::none);
+  CHECK(held.by == LimitedBy::temperature);
+  CHECK(held.highest_m > 1.05 * believed_held_m(""));
+  DOUBLES_EQUAL(believed_held_m(""), held.last_m, 0.1e-3);
+  CHECK(held.furthest_m < 0.1e-3);
+}
+
+TEST(Shaping, IdentifiedMuscleStaysWhereItCanProveThatItAnswers) {
+  const std::string noisy =
+      "thermal.power_ratio = [0.75, 1.0]\nsensor.position.noise_rms_m = 100e-6\n";
+  const Held held = held_at(0.011, noisy, true);
+  CHECK(held.fault == Fault::none);
+  CHECK(held.by == LimitedBy::unproven);
+  DOUBLES_EQUAL(believed_held_m(noisy, true), held.last_m, 0.1e-3);
+  CHECK(held.furthest_m < 0.8e-3);  // the sensor's own noise is in it
+}
+
+/// One that does not do what its model does is no reference's fault, and is found out as ever.
+TEST(Shaping, MuscleThatIsWeakerThanItIsKnownIsStillFoundOut) {
+  const Held held = held_at(
+      0.027, "plant.force_per_kelvin_N_per_K = 0.0077\nmuscle.force_per_kelvin_N_per_K = 0.0086\n");
+  CHECK(held.fault == Fault::controller_invalid);
 }

@@ -33,7 +33,7 @@ void print_lines(const char* title, const std::vector<std::string>& lines) {
 }  // namespace
 
 void print_forecast(const Scenario& scenario) {
-  const BoardSettings board = firmware_of(scenario);
+  const BoardSettings board = forecast_board_of(scenario);
   print_lines("muscle", config::describe_feasibility(board, 0));
   print_lines("muscle", {describe_rest(scenario)});
   print_lines("recommended", config::describe_recommendation(board, 0));
@@ -44,7 +44,7 @@ void print_forecast(const Scenario& scenario) {
 
 nlohmann::ordered_json forecast_json(const Scenario& scenario) {
   using Json = nlohmann::ordered_json;
-  const BoardSettings board = firmware_of(scenario);
+  const BoardSettings board = forecast_board_of(scenario);
   Json reference;
   if (const auto f = reference_feasibility(scenario)) {
     const auto promise = scenario_promise(scenario);
@@ -55,6 +55,7 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
                  {"limited_by", name(f->limited_by)},
                  {"excess_W", f->excess_W},
                  {"behind_m", f->behind_m},
+                 {"controller_invalid_s", json_number(f->invalid_s)},
                  {"infeasible_ratio", f->infeasible_ratio},
                  {"max_m", f->max_m},
                  {"held_m", f->held_m},

@@ -338,4 +338,12 @@ BoardSettings firmware_of(const Scenario& scenario) {
   return board;
 }
 
+BoardSettings forecast_board_of(const Scenario& scenario) {
+  BoardSettings board = firmware_of(scenario);
+  const Conditions& c = scenario.start;
+  const bool alone = !c.joint && c.companions.empty();
+  board.channels[0].simulated = {c.joint ? 0.0 : c.plant.load_N, alone && !c.plant.effects.any()};
+  return board;
+}
+
 }  // namespace supercoil::host_sim

@@ -20,5 +20,8 @@ SimulatedJointSettings simulated_joint_of(const Conditions& conditions);
 /// One channel, an agonist's and its antagonist's, or a bundle's. Its controllers and estimators
 /// are those of the start and of each event that names one, in that order.
 BoardSettings firmware_of(const Scenario& scenario);
+/// The same with what the simulation knows of the first channel's muscle: to tell beforehand what
+/// it will do.
+BoardSettings forecast_board_of(const Scenario& scenario);
 
 }  // namespace supercoil::host_sim

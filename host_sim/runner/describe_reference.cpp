@@ -65,6 +65,19 @@ std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) 
          "; so it is for " + in_digits(100.0 * f.infeasible_ratio) + " % of the time";
 }
 
+/// "; it ends in controller_invalid at about 125 s (docs/faults/controller_invalid.md)"
+std::string end_text(const ReferenceFeasibility& f) {
+  if (std::isnan(f.invalid_s)) return "";
+  return "; it ends in controller_invalid at about " + in_digits(f.invalid_s) +
+         " s, as it lacks power for too long (docs/faults/controller_invalid.md)";
+}
+
+/// It knows nothing of what else pulls at the muscle, which then gets no more power.
+bool shaping_would_do(const Conditions& c, LimitedBy limited_by) {
+  if (c.controller.shape_reference) return false;
+  return !is_of_heat(limited_by) || c.plant.load_N <= 0.0;
+}
+
 /// What would be feasible in place of sines.
 std::string motion_text(const ReferenceFeasibility& f) {
   if (f.feasible_motion_ratio == 1.0) return "";
@@ -86,13 +99,15 @@ std::string describe_reference(const Scenario& scenario) {
     line += "; the muscle " + held_text(*f);
     if (f->once_identified) line += " once it is identified";
   }
+  line += end_text(*f);
   if (f->feasible_motion_ratio == 0.0) return line + "; not even its middle can be held";
   line += motion_text(*f);
-  // It knows the greatest power and no heat.
-  if (is_of_heat(f->limited_by)) return line;
-  return line + (scenario.start.controller.shape_reference
+  if (shaping_would_do(scenario.start, f->limited_by))
+    return line + "; with shape_reference = true the muscle follows it as it can";
+  if (!scenario.start.controller.shape_reference) return line;
+  return line + (std::isnan(f->invalid_s)
                      ? "; it is shaped, so that the muscle follows it as it can"
-                     : "; with shape_reference = true the muscle follows it as it can");
+                     : "; shaping knows nothing of plant.load_N");
 }
 
 std::string describe_passed(const Scenario& scenario) {
@@ -124,9 +139,8 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
     line += ", after the event at " + number_text(before->at_s, 6) + " s (" + before->changes + ")";
   line += ", mostly limited_by " + std::string(name(found.mostly_by()));
   const Conditions& then = before != nullptr ? before->conditions : scenario.start;
-  if (is_of_heat(found.mostly_by())) return line + ": a smaller one";
-  return line + ": a slower or smaller one" +
-         (then.controller.shape_reference ? "" : ", or shape_reference = true");
+  return line + (is_of_heat(found.mostly_by()) ? ": a smaller one" : ": a slower or smaller one") +
+         (shaping_would_do(then, found.mostly_by()) ? ", or shape_reference = true" : "");
 }
 
 std::string describe_out_of_range(const Scenario& scenario) {

@@ -13,7 +13,7 @@
 
 namespace supercoil::host_sim {
 
-/// What shaping of the reference does not know.
+/// A muscle that were surely colder, or had proven more, would get more.
 constexpr bool is_of_heat(LimitedBy limit) {
   return limit == LimitedBy::temperature || limit == LimitedBy::unproven;
 }

@@ -42,19 +42,21 @@ void ReferenceDemand::change(const Conditions& c, const control::PhysicalParamet
 }
 
 ReferenceDemand::Excess ReferenceDemand::step(double reference_m) {
+  const PowerLeft::Most most = left_.now();
+  const double max_W = std::min(most.power_W, range_.max_W);
+  motion_.leave(max_W);
   const double of_motion_W = motion_.power_W(reference_m);
   const double asked_W = (of_motion_W + load_W_) / given_ratio_;
   const double needed_W = (motion_.left_W(of_motion_W) + load_W_) / given_ratio_;
   motion_.step(reference_m);
-  const PowerLeft::Most most = left_.now();
-  const double max_W = std::min(most.power_W, range_.max_W);
   const double wanted_W = needed_W + lag_.made_up_by_W();
   // Of a NaN the least; std::fmin would be a call.
   const double given_W = std::min(max_W, std::max(range_.min_W, wanted_W));
   left_.step(given_W);
   lag_.step(needed_W - given_W);
 
-  Excess excess{.power_W = std::max(range_.min_W - asked_W, asked_W - max_W)};
+  Excess excess{.power_W = std::max(range_.min_W - asked_W, asked_W - max_W),
+                .unmet = wanted_W > max_W + unmet_ratio * range_.max_W};
   const double off_W =
       lag_.off_W() + std::abs(motion_.asked_m() - motion_.shaped_m()) / gain_m_per_W_;
   const bool behind = off_W > tolerated_W_;

@@ -24,6 +24,7 @@ class ReferenceDemand {
   struct Excess {
     LimitedBy by = LimitedBy::nothing;  ///< which limit it asks to go beyond
     double power_W = 0.0;               ///< by how much; below 0: it stays within
+    bool unmet = false;                 ///< the muscle, or its shaped motion, lacks power
   };
   /// Over the step that begins now.
   Excess step(double reference_m);
@@ -33,6 +34,7 @@ class ReferenceDemand {
 
  private:
   static constexpr double rounding_ratio = 1e-9;
+  static constexpr double unmet_ratio = 1e-3;  ///< of the greatest power: noise hides less
 
   double step_s_;
   control::PowerRange range_;

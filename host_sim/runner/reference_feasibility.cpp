@@ -88,7 +88,8 @@ double power_amplitude_W(const Conditions& c, double slowing = 1.0) {
 
 /// How far the power may go to both sides of what the middle needs; below 0: not even that.
 double room_W(const Conditions& c, double max_W) {
-  const double middle_W = c.reference.offset / c.muscle.dc_gain_m_per_W();
+  const double middle_m = c.reference.offset + c.plant.load_N / c.muscle.stiffness_N_per_m;
+  const double middle_W = middle_m / c.muscle.dc_gain_m_per_W();
   return std::fmin(middle_W - c.power.min_W, max_W - middle_W);
 }
 
@@ -121,21 +122,24 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
     f.feasible_slowing = too_far ? INFINITY : feasible_slowing(c, max_W);
 }
 
-/// Tells when first and for how long, by how much, and how far it leads.
+/// Tells when first and for how long, by how much, how far it leads, and what it ends in.
 void find_infeasible(const Conditions& c, double duration_s, double step, const PowerLeft& left,
-                     ReferenceFeasibility& f) {
+                     double saturated_s, ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
-  ReferenceDemand demand(c, c.muscle, 0.0, left, step);
+  ReferenceDemand demand(c, c.muscle, c.plant.load_N, left, step);
   InfeasibleTime found;
   std::array<double, limit_names.size()> excess_W{};
+  double met_s = 0.0;  ///< since then it lacks power
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
-    const auto [by, by_W] = demand.step(c.reference.at(time_s));
+    const auto [by, by_W, unmet] = demand.step(c.reference.at(time_s));
     f.max_m = std::fmax(f.max_m, demand.asked_m());
     f.behind_m = std::fmax(f.behind_m, std::abs(demand.behind_m()));
     found.add(by, time_s);
     double& excess = excess_W.at(static_cast<std::size_t>(by));
     excess = std::fmax(excess, by_W);
+    if (!unmet) met_s = time_s + step;
+    if (std::isnan(f.invalid_s) && time_s - met_s >= saturated_s) f.invalid_s = time_s;
   }
   f.max_m = std::fmin(f.max_m, c.reference.highest());  // a model may swing beyond
   f.infeasible_ratio = found.ratio();
@@ -157,11 +161,11 @@ bool follows_position(const Conditions& c) {
 std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario) {
   const Conditions& c = scenario.start;
   if (!follows_position(c)) return std::nullopt;
-  const BoardSettings board = firmware_of(scenario);
+  const BoardSettings board = forecast_board_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   const Feasibility muscle = feasibility(channel, board);
   ReferenceFeasibility f;
-  f.held_m = muscle.held_W * channel.muscle.dc_gain_m_per_W();
+  f.held_m = muscle.held_W * channel.muscle.dc_gain_m_per_W() - load_m(channel);
   f.held_by = muscle.held_by;
   f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
   if (is_periodic(c.reference)) {
@@ -175,7 +179,7 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   const PowerLeft left(board, c.power.supply_V, step);
   // An event may change all of it.
   const double end_s = scenario.events.empty() ? scenario.duration_s : scenario.events[0].at_s;
-  find_infeasible(c, end_s, step, left, f);
+  find_infeasible(c, end_s, step, left, channel.supervision.saturated_s, f);
   if (is_periodic(c.reference) && !f.feasible()) find_feasible_motion(c, left.cold().power_W, f);
   return f;
 }

@@ -22,6 +22,8 @@ struct ReferenceFeasibility {
   /// What it asks too much of for most of all that time, and by how much at most.
   LimitedBy limited_by = LimitedBy::nothing;
   double excess_W = 0.0;
+  /// It lacks power for saturated_s on end by then, as its controller will; NaN: not in this time.
+  double invalid_s = NAN;
   double behind_m = 0.0;          ///< how far the muscle falls behind at most
   double infeasible_ratio = 0.0;  ///< of the time, which says nothing of a single step
   double max_m = 0.0;             ///< how far it leads

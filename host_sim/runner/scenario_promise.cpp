@@ -36,7 +36,7 @@ std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario) {
 
 std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
   if (!follows_position(scenario.start)) return std::nullopt;
-  const BoardSettings board = firmware_of(scenario);
+  const BoardSettings board = forecast_board_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   ScenarioPromise promise;
   const auto sine = feasible_sine_of(scenario);

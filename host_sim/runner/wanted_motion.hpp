@@ -57,7 +57,7 @@ class Lag {
   double behind_m_ = 0.0;
 };
 
-/// The motion that is asked for, and the one that shaping makes of it by the greatest power.
+/// The motion that is asked for, and the one that shaping makes of it by the power that is left.
 class WantedMotion {
  public:
   WantedMotion(const Conditions& c, double step_s)
@@ -78,6 +78,8 @@ class WantedMotion {
     shaped_.set(before.made().motion());
   }
 
+  /// No more power than this is left from now on.
+  void leave(double max_W) { range_.max_W = max_W; }
   /// What the muscle needs for it from now to the next step.
   double power_W(double reference_m) const {
     return inverse_.power_W(reference_m, made().motion());

@@ -59,24 +59,36 @@ void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibilit
 double held_travel_m(const ChannelSettings& c, double power_W) {
   const double max_m = c.supervision.max_travel_m;
   if (c.joint.weighs()) return HangingArm(c.joint, c.muscle).held_m(power_W, max_m);
-  return std::min(max_m, c.muscle.dc_gain_m_per_W() * power_W);
+  return std::clamp(c.muscle.dc_gain_m_per_W() * power_W - load_m(c), 0.0, max_m);
 }
 
 double holding_power_W(const ChannelSettings& c, double position_m) {
   if (c.joint.weighs()) return HangingArm(c.joint, c.muscle).power_W(position_m);
-  return position_m / c.muscle.dc_gain_m_per_W();
+  return (position_m + load_m(c)) / c.muscle.dc_gain_m_per_W();
 }
 
 /// Rise and fall are the heat's: the spring and the load follow it.
 void find_motion(const ChannelSettings& c, Feasibility& f) {
   const double tau_s = -1.0 / c.muscle.thermal_pole_rad_per_s();
   f.travel_m = held_travel_m(c, f.held_W);
-  const double travel_ratio = holding_power_W(c, f.travel_m) / f.max_W;  // of what max_W leads to
-  f.rise_s = tau_s * std::log((1.0 - 0.1 * travel_ratio) / (1.0 - 0.9 * travel_ratio));
+  // Of what max_W leads to: by the load alone, and from there to the top.
+  const double load_ratio = load_m(c) / c.muscle.dc_gain_m_per_W() / f.max_W;
+  const double travel_ratio = holding_power_W(c, f.travel_m) / f.max_W - load_ratio;
+  f.rise_s = tau_s * std::log((1.0 - load_ratio - 0.1 * travel_ratio) /
+                              (1.0 - load_ratio - 0.9 * travel_ratio));
   f.fall_s = tau_s * std::log(9.0);
   // P = (x + τẋ)/gain must not fall below 0: an amplitude of half the mean leaves (ωτ)² = 3. Above,
   // max_W leaves at least as much.
   f.half_travel_period_s = 2.0 * std::numbers::pi * tau_s / std::numbers::sqrt3;
+  if (load_ratio == 0.0 || travel_ratio == 0.0) return;
+  // A load is power at rest: more to fall with, and less to rise with. One that lifts may hold the
+  // muscle above where it would fall to.
+  const double lowest = load_ratio + 0.1 * travel_ratio;
+  f.fall_s = lowest > 0.0 ? tau_s * std::log((load_ratio + 0.9 * travel_ratio) / lowest) : INFINITY;
+  const double middle = load_ratio + 0.5 * travel_ratio;
+  const double room = std::min(middle, 1.0 - middle) / (0.25 * travel_ratio);
+  f.half_travel_period_s =
+      room > 1.0 ? 2.0 * std::numbers::pi * tau_s / std::sqrt(room * room - 1.0) : INFINITY;
 }
 
 /// The coldest air draws it down, and leaves it the more power where a sensor tells of it.
@@ -108,9 +120,11 @@ std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& c
                                             const ChannelSettings& c, const Feasibility& f) {
   if (controller.kind == control::ControllerKind::power) return std::nullopt;
   const double peak = peak_W_per_m(controller.model, c.muscle);
-  return FeasibleSteps{std::min(f.travel_m, f.max_W / peak),
-                       std::min(f.travel_m, f.travel_m / c.muscle.dc_gain_m_per_W() / peak),
-                       controller.shape_reference};
+  const double load_W = load_m(c) / c.muscle.dc_gain_m_per_W();
+  return FeasibleSteps{
+      std::clamp((f.max_W - load_W) / peak, 0.0, f.travel_m),
+      std::min(f.travel_m, (f.travel_m / c.muscle.dc_gain_m_per_W() + load_W) / peak),
+      controller.shape_reference};
 }
 
 }  // namespace

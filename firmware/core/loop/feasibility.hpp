@@ -43,6 +43,11 @@ constexpr bool is_infeasible(LimitedBy limit) {
 /// none in a long run.
 inline constexpr double infeasible_lasts_s = 0.2;
 
+/// By how much a load, where one is known, draws the muscle below its zero.
+inline double load_m(const ChannelSettings& channel) {
+  return channel.simulated.load_N / channel.muscle.stiffness_N_per_m;
+}
+
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
 /// A step asks for a peak of power at its beginning: of one by 1 m through the reference model.

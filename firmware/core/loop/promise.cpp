@@ -53,6 +53,7 @@ double pwm_ripple_m(const ChannelSettings& channel, const BoardSettings& board,
 /// Of a muscle that was stored before this was, it may be as much as identify lets pass.
 double unexplained_ratio(const ChannelSettings& channel) {
   if (channel.unexplained_ratio > 0.0) return channel.unexplained_ratio;
+  if (channel.simulated.linear) return 0.0;
   return channel.muscle_identified ? modes::Identify::Settings{}.max_unexplained
                                    : usual_unexplained_ratio;
 }
@@ -112,7 +113,7 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   const double tau_s = -1.0 / m.thermal_pole_rad_per_s();
   const double turn = 2.0 * std::numbers::pi / motion.period_s;
   const double gain = m.dc_gain_m_per_W();
-  const double middle_W = motion.middle_m / gain;
+  const double middle_W = (motion.middle_m + load_m(channel)) / gain;
   const double amplitude_W = motion.amplitude_m * std::hypot(1.0, turn * tau_s) / gain;
   const double supply_V = board.supervision.max_supply_V;
   const double probe_W =

@@ -90,6 +90,13 @@ struct PlaceInBundle {
   bool follows() const { return std::isfinite(leader_offset); }
 };
 
+/// What a simulation knows of its muscle and no board does: for what is told beforehand. Nothing in
+/// a tick goes by it.
+struct SimulatedTruth {
+  double load_N = 0.0;  ///< that pulls the muscle longer than it is described to be
+  bool linear = false;  ///< the linear model leaves nothing unexplained
+};
+
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   std::optional<control::PhysicalParameters> configured_muscle;  ///< empty: it is muscle
@@ -101,9 +108,10 @@ struct ChannelSettings {
   double response_ratio = 0.0;     ///< likewise, of small motions; 0: not measured
   double unexplained_ratio = 0.0;  ///< likewise, by the linear model; 0: not measured
   board::Identification identification{};  ///< likewise, of the muscle
-  board::StoredTuning tuning;              ///< as stored; controllers have it already
-  PlaceInJoint joint;                      ///< by add_joint()
-  PlaceInBundle bundle;                    ///< by add_bundle()
+  SimulatedTruth simulated{};
+  board::StoredTuning tuning;  ///< as stored; controllers have it already
+  PlaceInJoint joint;          ///< by add_joint()
+  PlaceInBundle bundle;        ///< by add_bundle()
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

@@ -44,6 +44,15 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
   return line;
 }
 
+/// What becomes of a set point that stays above what is held; empty: none is taken.
+std::string beyond_text(const Feasibility& f, const FeasibleSteps& steps,
+                        const ChannelSettings& c) {
+  if (f.travel_m >= c.supervision.max_travel_m) return "";
+  const std::string line = "; a set point that stays above " + in_mm(f.travel_m);
+  if (steps.shaped) return line + " comes back to it";
+  return line + " ends in controller_invalid after " + in_digits(c.supervision.saturated_s) + " s";
+}
+
 /// Empty: they are too fine to tell.
 std::string pwm_line(const ChannelSettings& c, const BoardSettings& board) {
   constexpr double fine_ratio = 1e-5;
@@ -143,7 +152,8 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
     lines.push_back("controller " + std::to_string(i) + " can follow steps of " +
                     in_mm(f.steps[i]->up_m) + " up from rest and " + in_mm(f.steps[i]->down_m) +
                     " down from there; larger ones " +
-                    (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do"));
+                    (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do") +
+                    beyond_text(f, *f.steps[i], c));
   }
   for (std::string& line : describe_promises(board, channel))
     lines.push_back(std::move(line));

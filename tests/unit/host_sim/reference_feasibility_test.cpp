@@ -131,6 +131,51 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   CHECK_TRUE(std::isinf(too_high->feasible_slowing));
 }
 
+/// What it is told to end in, it ends in; where it is shaped it is held.
+TEST(ReferenceFeasibility, ASetPointBeyondWhatIsHeldIsToldWithItsEnd) {
+  const auto step_to = [](const std::string& to_m, const std::string& shape) {
+    return read("simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = " + to_m +
+                ", at_s = 5.0}\ncontroller = {kind = 'learned_ff', shape_reference = " + shape +
+                "}\n");
+  };
+  for (const char* to_m : {"0.030", "0.0255"}) {
+    const Scenario scenario = step_to(to_m, "false");
+    const auto f = reference_feasibility(scenario);
+    Simulation simulation(scenario);
+    Summary summary({});
+    while (!simulation.done())
+      summary.add(simulation.step());
+    CHECK(summary.ended_in() == Fault::controller_invalid);
+    printf("told %g, ended at %g s\n", f->invalid_s, summary.faults().front().time_s);
+    DOUBLES_EQUAL(summary.faults().front().time_s, f->invalid_s, 3.0);
+    STRCMP_CONTAINS("; it ends in controller_invalid at about ",
+                    describe_reference(scenario).c_str());
+    const Scenario shaped = step_to(to_m, "true");
+    CHECK_TRUE(std::isnan(reference_feasibility(shaped)->invalid_s));
+    CHECK_FALSE(reference_feasibility(shaped)->feasible());
+    STRCMP_CONTAINS("; it is shaped, so that the muscle follows it as it can",
+                    describe_reference(shaped).c_str());
+  }
+  CHECK_TRUE(std::isnan(reference_feasibility(step_to("0.024", "false"))->invalid_s));
+}
+
+TEST(ReferenceFeasibility, ALoadTakesItsPartOfWhatIsHeld) {
+  const auto loaded = [](const std::string& to_m, const std::string& load_N) {
+    return read("simulation.duration_s = 60.0\nplant.load_N = " + load_N +
+                "\nsensor.position.min_m = -0.02\nreference = {kind = 'step', to_m = " + to_m +
+                ", at_s = 5.0}\ncontroller = {kind = 'learned_ff', shape_reference = true}\n");
+  };
+  const double held_m = reference_feasibility(loaded("0.015", "0.0"))->held_m;
+  DOUBLES_EQUAL(held_m - 0.1 / 16.0, reference_feasibility(loaded("0.015", "0.1"))->held_m, 1e-6);
+  CHECK_TRUE(reference_feasibility(loaded("0.018", "0.1"))->feasible());
+  DOUBLES_EQUAL(0.0, infeasible_ratio_of_run(loaded("0.018", "0.1")), 0.0);
+  const Scenario beyond = loaded("0.0195", "0.1");
+  CHECK_TRUE(reference_feasibility(loaded("0.0195", "0.0"))->feasible());
+  CHECK_FALSE(reference_feasibility(beyond)->feasible());
+  CHECK_COMPARE(infeasible_ratio_of_run(beyond), >, 0.5);
+  DOUBLES_EQUAL(infeasible_ratio_of_run(beyond), infeasible_ratio(beyond), 0.1);
+}
+
 /// How wrong senses may be that were never compared depends on the supply that they read.
 TEST(ReferenceFeasibility, GoesByTheSupplyThatThereIs) {
   const Scenario scenario = read(

@@ -28,8 +28,26 @@ TEST_GROUP(Feasibility) {
     const bool rises = target_m > position_m;
     double time_s = 0.0;
     for (; rises == (target_m > position_m); time_s += step_s)
-      position_m += (gain_m_per_W() * power_W - position_m) * step_s / tau_s;
+      position_m += (gain_m_per_W() * power_W - load_m(channel) - position_m) * step_s / tau_s;
     return time_s;
+  }
+  /// All the power, or none, is what it needs at its ends.
+  void check_fastest_sine(const Feasibility& f) const {
+    const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
+    const double omega = 2.0 * std::numbers::pi / f.half_travel_period_s;
+    double min_W = INFINITY;
+    double max_W = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+      const double phase = 2e-5 * std::numbers::pi * i;
+      const double position_m = f.travel_m * (0.5 + 0.25 * std::sin(phase));
+      const double velocity = f.travel_m * 0.25 * omega * std::cos(phase);
+      const double power_W = (position_m + load_m(channel) + tau_s * velocity) / gain_m_per_W();
+      min_W = std::fmin(min_W, power_W);
+      max_W = std::fmax(max_W, power_W);
+    }
+    CHECK(min_W > -1e-6);
+    CHECK(max_W < f.max_W + 1e-6);
+    CHECK(min_W < 1e-6 || max_W > f.max_W - 1e-6);
   }
   /// Whether a step through the controller's model stays within the power that there is.
   bool is_feasible(double from_m, double to_m, double max_W) const {
@@ -87,22 +105,27 @@ TEST(Feasibility, RiseAndFallAreTheModels) {
 }
 
 TEST(Feasibility, TheFastestSineNeedsAllThePowerOrNone) {
+  check_fastest_sine(found());
+}
+
+/// Of a muscle that carries what only a simulation knows.
+TEST(Feasibility, ALoadTakesPowerToHoldAndGivesPowerToFall) {
+  channel.supervision.proof_of_response = false;
+  const Feasibility free = found();
+  channel.simulated.load_N = 0.1;
   const Feasibility f = found();
-  const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
-  const double omega = 2.0 * std::numbers::pi / f.half_travel_period_s;
-  double min_W = INFINITY;
-  double max_W = 0.0;
-  for (int i = 0; i < 100000; ++i) {
-    const double phase = 2e-5 * std::numbers::pi * i;
-    const double position_m = f.travel_m * (0.5 + 0.25 * std::sin(phase));
-    const double velocity = f.travel_m * 0.25 * omega * std::cos(phase);
-    const double power_W = (position_m + tau_s * velocity) / gain_m_per_W();
-    min_W = std::fmin(min_W, power_W);
-    max_W = std::fmax(max_W, power_W);
-  }
-  CHECK(min_W > -1e-6);
-  CHECK(max_W < f.max_W + 1e-6);
-  CHECK(min_W < 1e-6 || max_W > f.max_W - 1e-6);
+  DOUBLES_EQUAL(free.travel_m - 0.1 / channel.muscle.stiffness_N_per_m, f.travel_m, 1e-12);
+  double position_m = 0.1 * f.travel_m;
+  DOUBLES_EQUAL(time_to(0.9 * f.travel_m, position_m, f.max_W), f.rise_s, 1e-3);
+  DOUBLES_EQUAL(time_to(0.1 * f.travel_m, position_m, 0.0), f.fall_s, 1e-3);
+  CHECK(f.fall_s < free.fall_s);
+  check_fastest_sine(f);
+  channel.controllers[0].model = control::poles_model({9.0, 9.0, 9.0});
+  CHECK(found().steps[0]->up_m < free.steps[0]->up_m);
+  // One that lifts holds it up, where it does not fall to.
+  channel.simulated.load_N = -0.2;
+  CHECK_TRUE(std::isinf(found().fall_s));
+  CHECK_TRUE(std::isinf(found().half_travel_period_s));
 }
 
 TEST(Feasibility, ThroughASlowModelAStepOverAllOfTheTravelIsFeasible) {

@@ -90,6 +90,8 @@ TEST(Promise, WhatTheModelLeavesCountsByTheMotionsSize) {
                 1e-12);
   channel.muscle_identified = false;
   DOUBLES_EQUAL(unexplained_m(0.015), unexplained_m(0.0), 1e-12);
+  channel.simulated.linear = true;
+  DOUBLES_EQUAL(0.0, unexplained_m(0.0), 0.0);
 }
 
 TEST(Promise, AProbeCountsOnlyWhereThePowerIsLowForLong) {

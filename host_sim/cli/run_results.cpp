@@ -48,8 +48,17 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
 }
 
 /// The loop's own doing, which no reference asks for.
-void print_divergence(const Summary& summary) {
-  if (summary.oscillated() || !summary.diverged()) return;
+void print_divergence(const Summary& summary, const Scenario& scenario) {
+  if (summary.oscillated()) return;
+  if (const double period_s = summary.limit_cycle_period_s(scenario); !std::isnan(period_s)) {
+    std::printf(
+        "the loop oscillates with a period of %.2g s: its power went from one limit to the other "
+        "and back, where the reference asked for no more than the muscle can do; lower gains, "
+        "slower adaptation or the muscle identified anew help\n",
+        period_s);
+    return;
+  }
+  if (!summary.diverged()) return;
   std::printf(
       "its power was at a limit in %.1f %% of all ticks that followed, for 0.2 s or longer on end, "
       "where the reference asked for no more than the muscle can do: the loop oscillates or "
@@ -60,6 +69,7 @@ void print_divergence(const Summary& summary) {
 void print_noise(const Summary& summary, const Scenario& scenario) {
   const double noise_W = summary.power_noise_W();
   const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
+  if (!std::isnan(summary.limit_cycle_period_s(scenario))) return;
   if (!summary.tells_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
   std::printf(
       "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
@@ -128,7 +138,7 @@ void print_summary(const Summary& summary, const Scenario& scenario,
     const std::string infeasible = describe_infeasible(*summary.infeasible(), scenario);
     if (!infeasible.empty()) std::printf("%s\n", infeasible.c_str());
   }
-  print_divergence(summary);
+  print_divergence(summary, scenario);
   print_noise(summary, scenario);
   print_modes(json);
   for (const auto& fault : json["faults"])

@@ -130,6 +130,8 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
                      number_text(1e3 * motion_.size_m(), 3) + " mm that this moves";
   if (promise) text += " and " + number_text(1e3 * promise->parts.error_m(), 3) + " mm promised";
   if (oscillated()) return text + ": the loop oscillated";
+  if (const double period_s = limit_cycle_period_s(scenario); !std::isnan(period_s))
+    return text + ": the loop oscillates with a period of " + number_text(period_s, 2) + " s";
   if (behind_by_reference()) return text + ": the reference asked for more than the muscle can do";
   if (diverged()) {
     return text +
@@ -138,6 +140,13 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
   }
   return text +
          ": the controller is too weak, or the muscle is not the one that the board believes";
+}
+
+double Summary::limit_cycle_period_s(const Scenario& scenario) const {
+  double longest_s = scenario.start.reference.shortest_s();
+  for (const Event& event : scenario.events)
+    longest_s = std::fmin(longest_s, event.conditions.reference.shortest_s());
+  return limit_cycle_.period_s(longest_s);
 }
 
 bool Summary::behind_by_reference() const {
@@ -223,6 +232,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["infeasible_from_s"] = too_much != nullptr ? finite(too_much->first_s()) : nullptr;
   json["infeasible_lasts_s"] = too_much != nullptr ? finite(too_much->first_lasts_s()) : nullptr;
   json["unasked_limit_ratio"] = finite(unasked_limit_ratio());
+  json["limit_cycle_period_s"] = finite(limit_cycle_period_s(scenario));
   json["power_noise_W"] = finite(power_noise_W());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;

@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "runner/infeasible_time.hpp"
+#include "runner/limit_cycle.hpp"
 #include "runner/run_meters.hpp"
 #include "runner/simulation.hpp"
 #include "supervisor/detectors/margin.hpp"
@@ -58,6 +59,7 @@ class Summary {
     if (record.open_loop) {
       infeasible_.interrupt();
       unasked_limit_.interrupt();
+      limit_cycle_.interrupt();
       power_noise_.interrupt();
     } else {
       add_limit(record);
@@ -115,6 +117,9 @@ class Summary {
   /// reference asks for no more than the muscle can do; of the ticks that followed a position, NaN:
   /// none did.
   double unasked_limit_ratio() const { return unasked_limit_.ratio(); }
+  /// Of a limit cycle under a reference that moves, from one limit of the power to the other; NaN:
+  /// none was found.
+  double limit_cycle_period_s(const Scenario& scenario) const;
   /// So often that it is no start, and no end of what the reference asked too much of.
   bool diverged() const {
     const double ratio = unasked_limit_.ratio();
@@ -147,6 +152,7 @@ class Summary {
     const bool asked = is_infeasible(record.reference_limited_by);
     infeasible_.add(by, asked, record.time_s);
     unasked_limit_.add(asked || is_of_heat(by) ? LimitedBy::nothing : by, record.time_s);
+    if (!asked) limit_cycle_.add(by, record.time_s);
     if (asked) return power_noise_.interrupt();
     power_noise_.add(record.time_s, record.clipped_power_W);
   }
@@ -188,6 +194,7 @@ class Summary {
   double oscillation_period_s_ = NAN;
   InfeasibleTime infeasible_;
   InfeasibleTime unasked_limit_;
+  LimitCycle limit_cycle_;
 };
 
 }  // namespace supercoil::host_sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace supercoil::host_sim {
 
@@ -39,6 +40,17 @@ double Reference::lowest() const {
 
 double Reference::highest() const {
   return has_levels(kind) ? *std::max_element(levels.begin(), levels.end()) : offset + reach(terms);
+}
+
+double Reference::shortest_s() const {
+  if (kind == ReferenceKind::steps) return hold_s;
+  double shortest_s = INFINITY;
+  if (has_levels(kind)) return shortest_s;
+  for (const Sinusoid& term : terms) {
+    const double turn_rad_per_s = std::abs(term.angular_frequency_rad_per_s);
+    shortest_s = std::fmin(shortest_s, 2.0 * std::numbers::pi / turn_rad_per_s);
+  }
+  return shortest_s;
 }
 
 Reference paper_excitation() {

@@ -38,6 +38,8 @@ struct Reference {
   /// The least and the greatest value that it can take.
   double lowest() const;
   double highest() const;
+  /// The shortest time in which something of it comes again, or changes; infinite: nothing does.
+  double shortest_s() const;
 };
 
 /// Eq. (18) of the paper: sin t + sin 0.5t + sin 0.25t + 2.5, in watts.

@@ -1,0 +1,60 @@
+// A limit cycle under a reference that moves, found after a run.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "supervisor/limiter.hpp"
+
+namespace supercoil::host_sim {
+
+/// A loop that oscillates takes its power from one limit to the other and back, again and again in
+/// the same time. Noise that reaches both does so at any time, and a reference in its own.
+class LimitCycle {
+ public:
+  /// A tick at this limit, and nothing asked for that.
+  void add(LimitedBy limit, double time_s) {
+    const bool at_an_end = limit == LimitedBy::minimum || limit == LimitedBy::maximum;
+    if (!at_an_end || limit == last_) return;
+    last_ = limit;
+    if (limit == LimitedBy::minimum) return;
+    if (!std::isnan(risen_s_)) lasted_s_.at(count_++ % lasted_s_.size()) = time_s - risen_s_;
+    risen_s_ = time_s;
+  }
+  /// No position is followed at this tick.
+  void interrupt() {
+    last_ = LimitedBy::nothing;
+    risen_s_ = NAN;
+  }
+  /// Of the newest cycles, where most of them last alike and a third of longest_s at most; NaN:
+  /// there are none such.
+  double period_s(double longest_s) const {
+    std::array<double, 256> sorted = lasted_s_;
+    const std::span all(sorted.data(), std::min<std::size_t>(count_, sorted.size()));
+    if (all.size() < least_cycles) return NAN;
+    std::ranges::sort(all);
+    const double middle_s = all[all.size() / 2];
+    const auto alike = std::ranges::count_if(all, [&](double lasted_s) {
+      return std::abs(lasted_s - middle_s) < alike_ratio * middle_s;
+    });
+    const bool most = static_cast<double>(alike) > most_ratio * static_cast<double>(all.size());
+    return most && middle_s < longest_s / 3.0 ? middle_s : NAN;
+  }
+
+ private:
+  static constexpr std::size_t least_cycles = 12;
+  static constexpr double alike_ratio = 0.25;
+  /// Of noise a seventh does in the built-in scenarios, of a loop of too much gain four fifths.
+  static constexpr double most_ratio = 0.5;
+
+  LimitedBy last_ = LimitedBy::nothing;
+  double risen_s_ = NAN;  ///< when it last came to the maximum
+  std::array<double, 256> lasted_s_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace supercoil::host_sim

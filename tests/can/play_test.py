@@ -84,6 +84,7 @@ class Refused(unittest.TestCase):
 
     def setUp(self):
         self.folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.answers = dict(self.ANSWERS)  # of several each is given once, but for the last
         self.socket = f"{self.folder}/commands"
         self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.addCleanup(self.listener.close)
@@ -99,7 +100,9 @@ class Refused(unittest.TestCase):
                 return
             with client:
                 while line := client.recv(200).decode().removeprefix("1 "):
-                    known = self.ANSWERS.get(line, self.ANSWERS.get(line.split()[0], "ok"))
+                    known = self.answers.get(line, self.answers.get(line.split()[0], "ok"))
+                    if isinstance(known, list):
+                        known = known.pop(0) if len(known) > 1 else known[0]
                     client.send(known.encode())
 
     def program(self, *arguments):
@@ -119,6 +122,18 @@ class Refused(unittest.TestCase):
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
         told = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
         self.assertEqual(told["range"], "-0.01 to 0.025 are in range")
+
+    def test_a_set_point_that_is_held_names_the_fault_that_ended_it(self):
+        held = ("command", "1", "position", "0.02", "--for", "60")
+        fault = f"fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1 reset --socket {self.socket}"
+        for options in (), ("--json",):
+            self.answers |= {"position": ["ok", "ok", "refused: wrong_state"], "status": ["1 active none -\n", "1 fault heater_open -\n"]}
+            done = self.program(*held, *options)
+            self.assertEqual(done.stderr, f"supercoil: 1 position 0.02: {fault}\n")
+        self.assertEqual(json.loads(done.stdout), {"command": "1 position 0.02", "answer": "refused: wrong_state", "cause": fault})
+        # Of a channel without a fault nothing is made up.
+        self.answers |= {"position": "refused: wrong_state", "status": "1 disarmed none -\n"}
+        self.assertIn("refused: wrong_state: arm it first", self.told(*held))
 
 
 class Files(PlayCase):

@@ -102,6 +102,23 @@ int concluded(const CommandOptions& options, const std::string& line,
                 : fail(exit_failed, answer.error());
 }
 
+/// A command that is held is refused, as its channel may not heat, or not any more: by which fault.
+int stopped(BoardLink& board, const CommandOptions& options, const std::string& line,
+            const std::string& answer) {
+  std::string fault = present_fault(board, options.words[0]);
+  // What is known of the board's state may be a moment older than its refusal.
+  for (int i = 0; fault.empty() && i < 5; ++i) {
+    board.wait(std::chrono::milliseconds(100));
+    fault = present_fault(board, options.words[0]);
+  }
+  if (fault.empty()) return concluded(options, line, answer);
+  if (options.json) {
+    const nlohmann::ordered_json told{{"command", line}, {"answer", answer}, {"cause", fault}};
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return fail(exit_failed, line + ": " + fault);
+}
+
 int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
   const auto answer = board.ask(line);
   const std::string range = answer ? range_of_refused(board, options, *answer) : "";
@@ -237,6 +254,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
     const bool goes_on = answer && *answer == "ok";
     if (!goes_on) progress.end();
     if (is_over && !first && !renews_itself) return ended(board, options);
+    if (is_over) return stopped(board, options, line, *answer);
     if (!goes_on) return concluded(options, line, answer);
     if (progress.shows()) progress.show(done(board, options, time_s), "");
     if (interrupted != 0 || time_s >= options.hold_s) break;

@@ -169,7 +169,7 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   f.held_by = muscle.held_by;
   f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
   if (is_periodic(c.reference)) {
-    const auto suits = config::recommended_controller(channel, board.step_s());
+    const auto suits = config::recommended_controller(channel, board);
     f.passed_ratio = passed_ratio(c.controller.model, c.reference);
     f.off_reference_rms_m = off_reference_rms_m(c.controller.model, c.reference);
     f.passed_by_recommended_ratio =

@@ -46,11 +46,12 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
 
 /// What suits the channel's muscle. problem: why the channel cannot have it. in_use: the first of
 /// its controllers that is so.
-inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel, double step_s) {
+inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel,
+                                                  const BoardSettings& board) {
   if (is_led(channel)) return nullptr;
-  const config::RecommendedController suits = config::recommended_controller(channel, step_s);
+  const config::RecommendedController suits = config::recommended_controller(channel, board);
   const control::ControllerSettings controller = suits.in_place_of({});
-  const std::string problem = problem_of(suits, channel, step_s);
+  const std::string problem = problem_of(suits, channel, board.step_s());
   nlohmann::ordered_json in_use;
   for (std::size_t i = channel.controllers.size(); i-- > 0;) {
     if (!suits.differs_from(channel.controllers[i])) in_use = i;
@@ -95,7 +96,7 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
             {"amplitude_m", motion.amplitude_m},
             {"period_s", motion.period_s}}},
           {"controllers", controllers},
-          {"recommended", recommendation_json(c, board.step_s())}};
+          {"recommended", recommendation_json(c, board)}};
 }
 
 }  // namespace supercoil

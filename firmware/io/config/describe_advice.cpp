@@ -79,7 +79,7 @@ void advise_noise(const ChannelSettings& c, double step_s, std::vector<std::stri
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];
   if (is_led(c) || c.controllers.empty()) return {};
-  const RecommendedController suits = recommended_controller(c, board.step_s());
+  const RecommendedController suits = recommended_controller(c, board);
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     if (suits.differs_from(c.controllers[i])) continue;
     return {"controller " + std::to_string(i) + ", as it is: it " + suits.reason};

@@ -5,7 +5,7 @@
 
 #include "supercoil/control/tracking/loop_margin.hpp"
 
-#include "loop/feasibility.hpp"
+#include "loop/promise.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::config {
@@ -30,6 +30,13 @@ constexpr double min_margin = 0.4;
 /// From the middle of the travel a step by a quarter of it has twice what it moves by to draw on:
 /// falling, all the power that holds it there; rising, at least as much.
 constexpr double peak_ratio = 2.0;
+
+constexpr std::string_view closest = "follows closest";
+/// Of what a controller promises that is in use: less is no reason to change its bandwidth.
+constexpr double clearly_less_ratio = 0.95;
+/// Of the recommended bandwidth: a slower loop leaves what disturbs it for too long, whatever it
+/// promises of a motion that nothing disturbs.
+constexpr double slow_ratio = 0.5;
 
 bool differ(double value, double from) {
   return !(std::abs(value / from - 1.0) <= telling_ratio);
@@ -78,6 +85,48 @@ double bandwidth_with_margin(const control::PhysicalParameters& muscle, const Lo
   return low;
 }
 
+void choose_model(const control::PhysicalParameters& muscle, RecommendedController& suits) {
+  const double fall_s = std::log(9.0) / -muscle.thermal_pole_rad_per_s();
+  suits.pole_rad_per_s = quickest_pole_rad_per_s(muscle, suits.bandwidth_rad_per_s);
+  suits.model_reason =
+      suits.pole_rad_per_s < suits.bandwidth_rad_per_s
+          ? "as fast as a step of a quarter of the travel, up or down from the middle, allows "
+            "without shaping: the muscle falls from 90 to 10 % in " +
+                number_text(fall_s, 3) + " s by itself"
+          : "no faster than the feedback: the muscle, which falls from 90 to 10 % in " +
+                number_text(fall_s, 3) + " s by itself, would allow more";
+}
+
+/// What is in use promises too: nothing is to be called closer that promises more.
+void compare_with(const ControllerSettings& in_use, const ChannelSettings& channel,
+                  const BoardSettings& board, RecommendedController& suits) {
+  if (channel.joint.has_other() || !is_promised_for(in_use, channel, board.step_s())) return;
+  const FirstMotion motion =
+      plan_first_motion(feasibility(channel, board), channel.unexplained_ratio);
+  if (!(motion.amplitude_m > 0.0)) return;
+  const auto promised_m = [&](const ControllerSettings& controller) {
+    return promise_error(controller.learned_ff, channel, board, motion).error_m();
+  };
+  const double now_m = promised_m(in_use);
+  const double then_m = promised_m(suits.in_place_of(in_use));
+  if (then_m < clearly_less_ratio * now_m) return;
+  const double bandwidth = in_use.learned_ff.bandwidth_rad_per_s;
+  const double ratio = bandwidth / suits.bandwidth_rad_per_s;
+  const std::string own = number_text(bandwidth, told_digits) + " rad/s";
+  std::string why(closest);
+  if (ratio >= slow_ratio && ratio < 1.0) {
+    why = "promises as little with " + own + " as with " +
+          number_text(suits.bandwidth_rad_per_s, told_digits);
+    suits.bandwidth_rad_per_s = bandwidth;
+    choose_model(channel.muscle, suits);
+  } else if (then_m > now_m) {
+    why = ratio < slow_ratio ? "corrects what disturbs it sooner than " + own
+                             : "leaves more room than " + own;
+    why += ", which promise less";
+  }
+  suits.reason.replace(0, closest.size(), why);
+}
+
 }  // namespace
 
 std::string RecommendedController::literal() const {
@@ -121,7 +170,7 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   RecommendedController suits;
   const double usual_bandwidth = max_bandwidth_rad_per_s / std::sqrt(slowness);
   suits.bandwidth_rad_per_s = bandwidth_with_margin(muscle, time, usual_bandwidth);
-  suits.reason = "follows closest, and asks for no motion that the muscle cannot make; ";
+  suits.reason = std::string(closest) + ", and asks for no motion that the muscle cannot make; ";
   if (suits.bandwidth_rad_per_s < usual_bandwidth) {
     suits.reason += "with " + number_text(1e3 * time.delay_s, 3) +
                     " ms of delay more bandwidth would leave a margin below " +
@@ -129,14 +178,17 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   } else {
     suits.reason += number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why;
   }
-  suits.pole_rad_per_s = quickest_pole_rad_per_s(muscle, suits.bandwidth_rad_per_s);
-  suits.model_reason =
-      suits.pole_rad_per_s < suits.bandwidth_rad_per_s
-          ? "as fast as a step of a quarter of the travel, up or down from the middle, allows "
-            "without shaping: the muscle falls from 90 to 10 % in " +
-                number_text(tau_s * std::log(9.0), 3) + " s by itself"
-          : "no faster than the feedback: the muscle, which falls from 90 to 10 % in " +
-                number_text(tau_s * std::log(9.0), 3) + " s by itself, would allow more";
+  choose_model(muscle, suits);
+  return suits;
+}
+
+RecommendedController recommended_controller(const ChannelSettings& channel,
+                                             const BoardSettings& board) {
+  const double step_s = board.step_s();
+  RecommendedController suits =
+      recommended_controller(channel.muscle, {step_s, loop_delay_s(channel, step_s)});
+  if (!channel.controllers.empty())
+    compare_with(channel.controllers.front(), channel, board, suits);
   return suits;
 }
 

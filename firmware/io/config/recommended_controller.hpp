@@ -36,9 +36,10 @@ struct LoopTime {
 /// With the margin that LoopTime leaves (docs/setup.md).
 RecommendedController recommended_controller(const control::PhysicalParameters& muscle,
                                              const LoopTime& time = {});
-inline RecommendedController recommended_controller(const ChannelSettings& channel, double step_s) {
-  return recommended_controller(channel.muscle, {step_s, loop_delay_s(channel, step_s)});
-}
+/// Likewise, with the bandwidth of the channel's first controller where another one does not
+/// promise clearly less.
+RecommendedController recommended_controller(const ChannelSettings& channel,
+                                             const BoardSettings& board);
 /// Why the channel cannot have it, in words; empty: it can.
 std::string problem_of(const RecommendedController& suits, const ChannelSettings& channel,
                        double step_s);

@@ -7,7 +7,7 @@
 
 #include "supercoil/control/tracking/loop_margin.hpp"
 
-#include "loop/feasibility.hpp"
+#include "loop/promise.hpp"
 
 using namespace supercoil;
 using config::recommended_controller;
@@ -53,14 +53,52 @@ TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
 }
 
 TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
+  const BoardSettings board;
   ChannelSettings channel;
   channel.heater.delay_s = 0.1;
-  const RecommendedController suits = recommended_controller(channel, 1e-3);
+  const RecommendedController suits = recommended_controller(channel, board);
   CHECK(suits.bandwidth_rad_per_s < 5.0);
   STRCMP_EQUAL("", config::problem_of(suits, channel, 1e-3).c_str());
   channel.controllers.front().arithmetic = control::Arithmetic::q8_24;
   STRCMP_CONTAINS("controller.arithmetic must be double or float",
                   config::problem_of(suits, channel, 1e-3).c_str());
+}
+
+/// Of a muscle that is linear feedback makes nothing better but noise larger.
+TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse) {
+  const BoardSettings board;
+  ChannelSettings channel;
+  channel.muscle_identified = true;
+  channel.supervision.proof_of_response = false;
+  channel.supervision.position_noise_rms_m = 10e-6;
+  channel.position.scaling.per_count = 1e-6;
+  control::ControllerSettings& in_use = channel.controllers.front();
+  in_use.kind = control::ControllerKind::learned_ff;
+  const auto promised_m = [&](const control::ControllerSettings& controller) {
+    const FirstMotion motion =
+        plan_first_motion(feasibility(channel, board), channel.unexplained_ratio);
+    return promise_error(controller.learned_ff, channel, board, motion).error_m();
+  };
+  const auto suits_beside = [&](double bandwidth_rad_per_s, double unexplained_ratio) {
+    in_use.learned_ff.bandwidth_rad_per_s = bandwidth_rad_per_s;
+    channel.unexplained_ratio = unexplained_ratio;
+    return recommended_controller(channel, board);
+  };
+  const RecommendedController kept = suits_beside(5.0, 1e-9);
+  DOUBLES_EQUAL(5.0, kept.bandwidth_rad_per_s, 0.0);
+  CHECK(promised_m(in_use) < promised_m(recommended_controller({}).in_place_of(in_use)));
+  STRCMP_CONTAINS("promises as little with 5 rad/s as with 8, and asks for no motion",
+                  kept.reason.c_str());
+  CHECK(kept.pole_rad_per_s <= 5.0);
+  // Where it promises clearly less it is recommended, and so it is where little would be corrected.
+  const RecommendedController closer = suits_beside(5.0, 0.03);
+  DOUBLES_EQUAL(8.0, closer.bandwidth_rad_per_s, 0.01);
+  CHECK(promised_m(closer.in_place_of(in_use)) < 0.95 * promised_m(in_use));
+  STRCMP_CONTAINS("follows closest", closer.reason.c_str());
+  const RecommendedController sooner = suits_beside(2.0, 1e-9);
+  DOUBLES_EQUAL(8.0, sooner.bandwidth_rad_per_s, 0.01);
+  STRCMP_CONTAINS("corrects what disturbs it sooner than 2 rad/s, which promise less",
+                  sooner.reason.c_str());
 }
 
 TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferenceModel) {

@@ -49,7 +49,8 @@ std::string beyond_text(const Feasibility& f, const FeasibleSteps& steps,
                         const ChannelSettings& c) {
   if (f.travel_m >= c.supervision.max_travel_m) return "";
   const std::string line = "; a set point that stays above " + in_mm(f.travel_m);
-  if (steps.shaped) return line + " comes back to it";
+  // Shaping knows of no load.
+  if (steps.shaped && c.simulated.load_N <= 0.0) return line + " comes back to it";
   return line + " ends in controller_invalid after " + in_digits(c.supervision.saturated_s) + " s";
 }
 

@@ -110,6 +110,20 @@ class Told(ProgramCase):
         told, _ = self.after(fast + "[[event]]\nat_s = 0.0\ncontroller.shape_reference = true\n")
         self.assertRegex(told, r"after the event at 0 s \(controller\.shape_reference\), mostly limited_by \w+: a slower or smaller one\n")
 
+    def test_a_set_point_beyond_what_is_held_is_told_with_its_end(self):
+        step = "simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = 0.03, at_s = 5.0}\nsensor.position.min_m = -0.01\n"
+        beyond = "; a set point that stays above %s mm %s\n"
+        for shape, load_N, held_mm, end in (("false", 0.0, 25, True), ("true", 0.0, 25, False), ("true", 0.05, 21.9, True)):
+            scenario = self.scenario(step + f"controller = {{kind = 'learned_ff', shape_reference = {shape}}}\nplant.load_N = {load_N}\n")
+            text = self.run_program("run", scenario, "--check").stdout
+            self.assertIn(beyond % (held_mm, "ends in controller_invalid after 120 s" if end else "comes back to it"), text)
+            told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]["controller_invalid_s"]
+            self.assertEqual(f"; it ends in controller_invalid at about {told or 0:.3g} s" in text, end)
+            summary = self.after((self.path / "s.toml").read_text(), 1 if end else 0)[1]
+            self.assertEqual([fault["name"] for fault in summary["faults"]], ["controller_invalid"] if end else [])
+            if end:
+                self.assertLess(abs(summary["faults"][0]["at_s"] - told), 3.0)
+
     def test_what_may_become_too_hot_is_told_beforehand(self):
         scenario = self.scenario(HOT + "reference = {kind = 'steps', levels_m = [0.018], hold_s = 50.0}\n")
         reference = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]

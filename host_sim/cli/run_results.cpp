@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/describe.hpp"
+#include "runner/board_of.hpp"
 #include "runner/mode_outcome.hpp"
 #include "runner/reference_feasibility.hpp"
 
@@ -71,12 +72,14 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
   const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
   if (!std::isnan(summary.limit_cycle_period_s(scenario))) return;
   if (!summary.tells_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
+  const BoardSettings board = firmware_of(scenario);
+  const ChannelSettings& channel = board.channels.front();
   std::printf(
       "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
       "for: "
-      "the sensor's noise, or little margin; lower gains, or a sensor with less noise, make it "
-      "less\n",
-      noise_W, 100.0 * noise_W / range_W);
+      "the sensor's noise, or little margin; %s\n",
+      noise_W, 100.0 * noise_W / range_W,
+      config::noise_remedy(channel.controllers.front(), channel, board.step_s()).c_str());
 }
 
 /// What had been promised of it.

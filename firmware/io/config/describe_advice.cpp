@@ -69,12 +69,21 @@ void advise_noise(const ChannelSettings& c, double step_s, std::vector<std::stri
                     number_text(1e6 * reading_noise_m(c), 3) + " um rms makes the power swing by " +
                     number_text(swing_W, 3) + " W rms, " +
                     number_text(100.0 * swing_W / range_W, 3) +
-                    " % of its range: lower gains (bandwidth_rad_per_s, derivative_Ws_per_m, "
-                    "derivative_filter_rad_per_s), or a sensor with less noise, make it less");
+                    " % of its range: " + noise_remedy(c.controllers[i], c, step_s));
   }
 }
 
 }  // namespace
+
+std::string noise_remedy(const control::ControllerSettings& controller,
+                         const ChannelSettings& channel, double step_s) {
+  if (recommended_controller(channel, step_s).has_bandwidth_of(controller)) {
+    return "a sensor with less noise makes it less; less than the recommended bandwidth would "
+           "follow less closely";
+  }
+  return "lower gains (bandwidth_rad_per_s, derivative_Ws_per_m, derivative_filter_rad_per_s), or "
+         "a sensor with less noise, make it less";
+}
 
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];

@@ -149,6 +149,11 @@ ControllerSettings RecommendedController::in_place_of(ControllerSettings control
   return controller;
 }
 
+bool RecommendedController::has_bandwidth_of(const ControllerSettings& controller) const {
+  return controller.kind == recommended_kind &&
+         controller.learned_ff.bandwidth_rad_per_s <= (1.0 + telling_ratio) * bandwidth_rad_per_s;
+}
+
 bool RecommendedController::differs_from(const ControllerSettings& controller) const {
   return controller.kind != recommended_kind || !controller.shape_reference ||
          differ(controller.learned_ff.bandwidth_rad_per_s, bandwidth_rad_per_s) ||

@@ -24,6 +24,8 @@ struct RecommendedController {
   std::string model_literal() const;
   /// Whatever else a controller has, it keeps.
   control::ControllerSettings in_place_of(control::ControllerSettings controller) const;
+  /// The same law with that bandwidth, or less.
+  bool has_bandwidth_of(const control::ControllerSettings& controller) const;
   /// Another law or shaping, or a bandwidth or a pole that is more than a tenth off.
   bool differs_from(const control::ControllerSettings& controller) const;
 };

@@ -86,6 +86,12 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(noisy)
         self.assertIn("the controller's power swung by", done.stdout)
         self.assertLess(abs(summary["power_noise_W"] / swing_W - 1.0), 0.3, (summary["power_noise_W"], swing_W))
+        # Nobody is sent away from what is recommended.
+        for text in (told, done.stdout):
+            self.assertIn("a sensor with less noise makes it less", text)
+            self.assertNotIn("lower gains", text)
+        told, _ = self.check(noisy + "controller.bandwidth_rad_per_s = 12.0\n")
+        self.assertIn("lower gains", told)
         told, before = self.check(FOLLOWS)
         self.assertNotIn("swing", told)
         self.assertNotIn("swung", self.run_of(FOLLOWS)[0].stdout)

@@ -164,7 +164,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   compare->add_flag("!--no-plot", options.plot, "Write no compare.svg");
   add_json(*compare, options.json);
   compare->add_flag("--quiet", options.quiet, "Print nothing but errors");
-  compare->add_flag("--list", options.list, "List controllers, disturbances and arithmetics");
+  compare->add_flag("--list", options.list, "List controllers, disturbances and measures");
 }
 
 void add_campaign(CLI::App& app, CampaignOptions& options) {

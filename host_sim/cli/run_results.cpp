@@ -79,7 +79,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
       "for: "
       "the sensor's noise, or little margin; %s\n",
       noise_W, 100.0 * noise_W / range_W,
-      config::noise_remedy(channel.controllers.front(), channel, board.step_s()).c_str());
+      config::noise_remedy(channel.controllers.front(), channel, board).c_str());
 }
 
 /// What had been promised of it.

@@ -117,7 +117,8 @@ class Local(unittest.TestCase):
         self.daemon.identified = ("too_little_motion", "theta1_kept,too_little_motion")
         with self.muscle() as muscle, self.assertRaises(supercoil.OutcomeError) as raised:
             muscle.identify()
-        self.assertRegex(str(raised.exception), r"identify ended: too_little_motion: the muscle moved by less than .* may have; theta1_kept$")
+        self.assertRegex(str(raised.exception),
+                         r"identify ended: too_little_motion: the muscle moved by less than .* may have; theta1_kept$")
         self.assertEqual(raised.exception.notes, ("theta1_kept", "too_little_motion"))
 
     def test_what_is_learned_and_known_is_told(self):

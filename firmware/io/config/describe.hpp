@@ -37,7 +37,7 @@ double noise_power_W(const control::ControllerSettings& controller, const Channe
 inline constexpr double much_noise_ratio = 0.1;
 /// What makes it less; never less bandwidth than is recommended.
 std::string noise_remedy(const control::ControllerSettings& controller,
-                         const ChannelSettings& channel, double step_s);
+                         const ChannelSettings& channel, const BoardSettings& board);
 /// The room that a controller leaves on the channel's muscle, how far that may be off, and its
 /// bandwidth; empty: it works in open loop.
 std::string describe_margin(const control::ControllerSettings& controller,

@@ -60,24 +60,25 @@ void advise_probe(const ChannelSettings& c, double step_s, std::vector<std::stri
 }
 
 /// Where noise makes the power swing.
-void advise_noise(const ChannelSettings& c, double step_s, std::vector<std::string>& lines) {
+void advise_noise(const ChannelSettings& c, const BoardSettings& board,
+                  std::vector<std::string>& lines) {
   const double range_W = c.limiter.max_W - c.limiter.min_W;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
-    const double swing_W = noise_power_W(c.controllers[i], c, step_s);
+    const double swing_W = noise_power_W(c.controllers[i], c, board.step_s());
     if (!(swing_W > much_noise_ratio * range_W)) continue;
     lines.push_back("controller " + std::to_string(i) + ": the sensor's noise of " +
                     number_text(1e6 * reading_noise_m(c), 3) + " um rms makes the power swing by " +
                     number_text(swing_W, 3) + " W rms, " +
                     number_text(100.0 * swing_W / range_W, 3) +
-                    " % of its range: " + noise_remedy(c.controllers[i], c, step_s));
+                    " % of its range: " + noise_remedy(c.controllers[i], c, board));
   }
 }
 
 }  // namespace
 
 std::string noise_remedy(const control::ControllerSettings& controller,
-                         const ChannelSettings& channel, double step_s) {
-  if (recommended_controller(channel, step_s).has_bandwidth_of(controller)) {
+                         const ChannelSettings& channel, const BoardSettings& board) {
+  if (recommended_controller(channel, board).has_bandwidth_of(controller)) {
     return "a sensor with less noise makes it less; less than the recommended bandwidth would "
            "follow less closely";
   }
@@ -115,7 +116,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   advise_travel(c, f, lines);
   advise_weight(c, lines);
   if (is_led(c)) return lines;
-  advise_noise(c, board.step_s(), lines);
+  advise_noise(c, board, lines);
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];
     const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;

@@ -46,7 +46,7 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l merge -r -
 complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l no-plot -d 'Write no compare.svg'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l json -d 'Print JSON instead of text'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l quiet -d 'Print nothing but errors'
-complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l list -d 'List controllers, disturbances and arithmetics'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from compare' -l list -d 'List controllers, disturbances and measures'
 complete -c supercoil-sim -n __fish_use_subcommand -f -a campaign -d 'Run a study over many random muscles'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l runs -x -d 'Number of runs, instead of the study'\''s own'

@@ -1712,7 +1712,8 @@ class ControllerInvalid(FaultError):
 The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes."""
     remedy = """\
 1. Margin in seconds (120 of 120): saturated. Look at limited_by in the recording: which limit, and for how long?
-2. Maximum: a smaller reference, or more power if the muscle may. Temperature: it is derated; ask for less.
+2. Maximum: a smaller reference, or more power if the muscle may. Temperature or unproven: ask for no more than is held for good
+   (supercoild --check), or set shape_reference.
 3. No number: look at the estimates before the fault; go back to a simpler controller; identify anew.
 4. Reset, arm. A controller starts anew when it is entered."""
     page = """\
@@ -1732,13 +1733,15 @@ The controller is lost: its demand is NaN, or it has demanded more than it can h
 
 - no number: gains that diverge, a learned parameter that became absurd
 - a position that 4.5 W cannot reach: too much load, a softer muscle
+- a set point that stays above the travel that is held for good, without `shape_reference`
 - `power` by hand above `max_W`
 - a supply that is too weak for the demanded power
 
 ## Remedy
 
 1. Margin in seconds (120 of 120): saturated. Look at `limited_by` in the recording: which limit, and for how long?
-2. Maximum: a smaller reference, or more power if the muscle may. Temperature: it is derated; ask for less.
+2. Maximum: a smaller reference, or more power if the muscle may. Temperature or unproven: ask for no more than is held for good
+   (`supercoild --check`), or set [`shape_reference`](../control.md#references-that-a-muscle-can-follow).
 3. No number: look at the estimates before the fault; go back to a simpler controller; `identify` anew.
 4. Reset, arm. A controller starts anew when it is entered.
 

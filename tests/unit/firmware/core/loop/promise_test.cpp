@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "modes/identify.hpp"
+
 using namespace supercoil;
 
 TEST_GROUP(Promise) {

@@ -103,7 +103,7 @@ class SetupCase(unittest.TestCase):
 
     def described(self):
         """A board that runs with a complete file, and the page."""
-        done = subprocess.run([SUPERCOIL, "setup", "--config", self.file, "--script", self.script()], capture_output=True,
+        done = subprocess.run([SUPERCOIL, "setup", "describe", "--config", self.file, "--script", self.script()], capture_output=True,
                               text=True, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
         board = self.start_board()

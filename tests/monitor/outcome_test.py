@@ -4,7 +4,7 @@ import unittest
 
 from modules import ModulesCase
 
-OUTCOME = """const { infeasible_told, limits_told, never_armed_told, swing_told } = await import("/outcome.js");
+OUTCOME = """const { cycle_told, infeasible_told, limits_told, never_armed_told, swing_told } = await import("/outcome.js");
     const { protocol, infeasible } = await (await fetch("/api/about")).json();
     const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
     const store = new Store(protocol, true);
@@ -70,6 +70,23 @@ class OutcomeTest(ModulesCase):
             hear("Tracking", 50, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time) + noise(), reference_m: 0.008 }));
             return [...told, swing_told(store, 1, { from_s: 40, to_s: 70 })];"""),
             ["", "", "It swings by itself: ± 100 µm, 2.00 s a period, while the reference stands still."])
+
+    def test_a_loop_that_oscillates_under_a_moving_reference_is_told_with_its_period(self):
+        self.assertEqual(self.ask(OUTCOME + """let seed = 1;
+            const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+            hear("Status", 0, 900, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));
+            const follow = (from_s, reference_s, limit) => {
+                hear("Tracking", from_s, 1500, 0.02, (time) => ({ error_m: 1e-4 * Math.sin(40 * time), reference_m: 0.01 + 0.008 * Math.sin((2 * Math.PI * time) / reference_s) }));
+                hear("Power", from_s, 1500, 0.02, (time) => by(limit(time)));
+                return cycle_told(store, 1, { from_s, to_s: from_s + 29.9 });
+            };
+            const turning = (time) => (time % 0.5 < 0.2 ? "maximum" : time % 0.5 < 0.25 ? "nothing" : "minimum");
+            const by_itself = follow(0, 6, turning);
+            const as_asked = follow(30, 0.5, turning);
+            const by_noise = follow(60, 6, () => (random() < 0.1 ? "maximum" : random() < 0.1 ? "minimum" : "nothing"));
+            return [by_itself, as_asked, by_noise, cycle_told(store, 2, range)];"""),
+            ["The loop oscillates with a period of 0.500 s while the reference moves: its power goes from one limit to the other. "
+             "Lower its gains, or identify the muscle.", "", "", ""])
 
 
 if __name__ == "__main__":

@@ -10,6 +10,10 @@ const LEAST_PERIODS = 4;
 const LEAST_SHARE = 0.0005; // else 0.0 %
 // Of the periods' spread over their mean: noise crosses at no rhythm.
 const RHYTHM = 0.2;
+// Of a loop that oscillates from limit to limit most cycles last alike, and a third of the reference's own at most.
+const LEAST_CYCLES = 12;
+const ALIKE = 0.25;
+const OF_REFERENCE = 1 / 3;
 
 /** [time, value, …] of some columns of a table. */
 function* samples(table, columns, from_s, to_s) {
@@ -123,4 +127,27 @@ export function swing_told(store, node, { from_s, to_s }) {
   while (first > 0 && Math.abs(all[first - 1][2] - all.at(-1)[2]) < STILL_M && Number.isFinite(all[first - 1][1])) --first;
   const swing = swing_of(all.slice(first));
   return swing ? `It swings by itself: ± ${significant(1e6 * swing.amplitude_m)} µm, ${significant(swing.period_s)} s a period, while the reference stands still.` : "";
+}
+
+/** That the power goes from one limit to the other and back in a time of its own while the reference moves, as the simulator's summary finds it; or "". */
+export function cycle_told(store, node, { from_s, to_s }) {
+  const newest = [Math.max(from_s, to_s - SWING_S), to_s];
+  const lasted_s = [];
+  let last = null;
+  let risen_s = null;
+  for (const [time_s, name] of limits(store, node, { from_s: newest[0], to_s }, ["position"])) {
+    if (name === null) last = risen_s = null;
+    if ((name !== "minimum" && name !== "maximum") || name === last) continue;
+    last = name;
+    if (name === "minimum") continue;
+    if (risen_s !== null) lasted_s.push(time_s - risen_s);
+    risen_s = time_s;
+  }
+  if (lasted_s.length < LEAST_CYCLES || swing_told(store, node, { from_s, to_s })) return "";
+  const middle_s = lasted_s.sort((a, b) => a - b)[Math.floor(lasted_s.length / 2)];
+  const alike = lasted_s.filter((each_s) => Math.abs(each_s - middle_s) < ALIKE * middle_s);
+  const reference = [...samples(store.table(node, "Tracking"), ["reference_m"], ...newest)].filter(([, value_m]) => Number.isFinite(value_m));
+  const longest_s = OF_REFERENCE * (swing_of(reference)?.period_s ?? Infinity);
+  if (2 * alike.length <= lasted_s.length || middle_s > longest_s) return "";
+  return `The loop oscillates with a period of ${significant(middle_s)} s while the reference moves: its power goes from one limit to the other. Lower its gains, or identify the muscle.`;
 }

@@ -1,7 +1,7 @@
 // What was, in words, for the time that is shown.
 
 import { element, show } from "./dom.js";
-import { infeasible_told, limits_told, never_armed_told, swing_told } from "./outcome.js";
+import { cycle_told, infeasible_told, limits_told, never_armed_told, swing_told } from "./outcome.js";
 
 // It looks at all that is shown: of an hour less often, so that the plots do not wait for it.
 const every_ms = (span_s) => Math.max(2000, 5 * span_s);
@@ -10,7 +10,7 @@ export class OutcomeCard {
   /** infeasible: by what a reference shows to have been none, as /api/about has it. */
   constructor(node, store, view, infeasible) {
     Object.assign(this, { node, store, view, told_ms: -Infinity });
-    this.lines = [limits_told, (...shown) => infeasible_told(...shown, infeasible), never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
+    this.lines = [limits_told, (...shown) => infeasible_told(...shown, infeasible), never_armed_told, swing_told, cycle_told].map((tell) => ({ tell, line: element("p") }));
     this.none = element("p", { class: "hint" }, "Armed, at no limit, and no swing by itself.");
     this.element = element("section", { class: "card full-only outcome", "aria-label": `what was, node ${node}` },
       element("h2", {}, "In the time shown"), this.none, ...this.lines.map(({ line }) => line));

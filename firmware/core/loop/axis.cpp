@@ -100,9 +100,12 @@ void Axis::observe(double supply_V, const board::Measured* air, std::int64_t per
   inputs_.opposed_m = other_.expected_m;
 }
 
+control::PowerRange Axis::own_range() const {
+  return bundle_ ? bundle_->range : heater_.power_range();
+}
+
 control::PowerRange Axis::range() const {
-  if (bundle_) return bundle_->range;
-  const control::PowerRange own = heater_.power_range();
+  const control::PowerRange own = own_range();
   return {own.min_W - other_.range.max_W, own.max_W - other_.range.min_W};
 }
 
@@ -113,13 +116,11 @@ control::PowerRange Axis::allowed_range() const {
 }
 
 double Axis::held_W() const {
-  const double own_W = bundle_ ? bundle_->range.max_W : heater_.power_range().max_W;
-  return std::min({own_W, max_hot_W(), proof_.held_W()});
+  return std::min({own_range().max_W, max_hot_W(), proof_.held_W()});
 }
 
 control::PowerRange Axis::held_range() const {
-  const double min_W = bundle_ ? bundle_->range.min_W : heater_.power_range().min_W;
-  return {min_W - other_.held_W, held_W() - other_.range.min_W};
+  return {own_range().min_W - other_.held_W, held_W() - other_.range.min_W};
 }
 
 Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
@@ -233,10 +234,9 @@ bool Axis::control() {
 
 /// Why a reference was shaped that needs more heating.
 LimitedBy Axis::held_by() const {
-  const double max_W = bundle_ ? bundle_->range.max_W : heater_.power_range().max_W;
   const double hot_W = max_hot_W();
   const double proven_W = proof_.held_W();
-  if (std::min(hot_W, proven_W) >= max_W) return LimitedBy::maximum;
+  if (std::min(hot_W, proven_W) >= own_range().max_W) return LimitedBy::maximum;
   return hot_W <= proven_W ? LimitedBy::temperature : LimitedBy::unproven;
 }
 

@@ -186,12 +186,14 @@ class Axis {
   }
   /// That moves the muscle, in watts of its own.
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }
-  /// That there is for a while.
+  /// Of its own heater, or of all those of its bundle.
+  control::PowerRange own_range() const;
+  /// That there is for a while, beside the muscle that pulls against it.
   control::PowerRange range() const;
   /// Of that, what a reference may count on: it falls to what can be held for good as the muscle,
   /// or the other one, may become hot.
   control::PowerRange held_range() const;
-  double held_W() const;  ///< of its own heater
+  double held_W() const;  ///< of own_range()
   /// What acts is not what was wanted.
   bool is_limited() const {
     return heater_.acting().limited || other_.limited || followers_limited();

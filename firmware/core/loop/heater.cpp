@@ -24,12 +24,6 @@ std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
 
-/// Inline: two numbers that come back from a call are waited for.
-inline board::PowerBounds::Interval warmed_Ohm(double cold_Ohm, double per_K,
-                                               const board::Heat& heat) {
-  return {cold_Ohm * (1.0 + per_K * heat.coldest_K()), cold_Ohm * (1.0 + per_K * heat.hottest_K())};
-}
-
 }  // namespace
 
 Heater::Heater(const ChannelSettings& settings, const BoardSettings& board,
@@ -69,10 +63,6 @@ void Heater::observe(double supply_V, const board::Measured* air, std::int64_t p
   heat_known_ = heat_known_ || heat_.hottest_C() < derate_from_C_;
 }
 
-board::PowerBounds::Interval Heater::warm_Ohm(double cold_Ohm) const {
-  return warmed_Ohm(cold_Ohm, settings_.temperature_coefficient_per_K, heat_);
-}
-
 board::PowerBounds::Interval Heater::measured_power_W() const {
   const auto ratio = power_bounds_.true_over_measured();
   return {power_W_.min / ratio.min, power_W_.max / ratio.max};
@@ -85,8 +75,7 @@ void Heater::observe_power(std::int64_t periods) {
   if (sensed) resistance_.step(acting_.duty, supply_V_, current_.value);
   // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
   const double as_configured = settings_.cold_resistance_Ohm / cold_Ohm_;
-  const double per_K = settings_.temperature_coefficient_per_K;
-  const auto [min_Ohm, max_Ohm] = warmed_Ohm(cold_Ohm_, per_K, heat_);
+  const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
   power_W_ = power_bounds_.step(
       acting_.duty, supply_V_, current_,
       {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
@@ -98,6 +87,7 @@ void Heater::observe_power(std::int64_t periods) {
   for (std::int64_t i = 1; i < periods; ++i)
     heat_.step(0.0, power_W_.max, acting_.power_W, sensed);
 
+  const double per_K = settings_.temperature_coefficient_per_K;
   indicates_temperature_ = per_K > 0.0 && resistance_.age_s() < 1.0;
   inputs_.from_resistance_K =
       indicates_temperature_ ? (resistance_.value_Ohm() / cold_Ohm_ - 1.0) / per_K : 0.0;
@@ -132,8 +122,7 @@ const HeaterInputs& Heater::inputs(const ChannelState& state) {
   e.probe_failed = probe_failed_;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();
-  const auto [min_Ohm, max_Ohm] =
-      warmed_Ohm(cold_Ohm_, settings_.temperature_coefficient_per_K, heat_);
+  const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
   e.min_Ohm = min_Ohm;
   e.max_Ohm = max_Ohm;
   e.limited = acting_.limited;

@@ -87,7 +87,12 @@ class Heater {
   const board::Measured& current() const { return current_; }
   double supply_V() const { return supply_V_; }
   /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
-  board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const;
+  /// Inline: two numbers that come back from a call are waited for.
+  board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const {
+    const double per_K = settings_.temperature_coefficient_per_K;
+    return {cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
+            cold_Ohm * (1.0 + per_K * heat_.hottest_K())};
+  }
   bool probing() const { return probe_.running(); }
   /// A probe is in what the current's sense tells now.
   bool probe_felt() const { return felt_ticks_ > 0; }

@@ -4,21 +4,22 @@
 #include <CppUTest/TestHarness.h>
 
 #include "config/describe.hpp"
+#include "unit/firmware/io/config/support/checked_board.hpp"
 #include "unit/firmware/io/config/support/joint_board.hpp"
 
 using namespace supercoil;
 using namespace supercoil::config;
 using supercoil::test::board_with_joint;
 using supercoil::test::check_answer;
-using supercoil::test::read_joint_board;
+using supercoil::test::read_board;
 using supercoil::test::replaced;
 
 TEST_GROUP(JointLeverConfig){};
 
 TEST(JointLeverConfig, ALeverMayDependOnTheAngle) {
-  const BoardConfig c = read_joint_board(
-      replaced(board_with_joint, "lever_m = 0.015\n",
-               "lever_m = [0.012, 0.016, 0.014]\nlever_range_deg = [-40, 40.0]\n"));
+  const BoardConfig c =
+      read_board(replaced(board_with_joint, "lever_m = 0.015\n",
+                          "lever_m = [0.012, 0.016, 0.014]\nlever_range_deg = [-40, 40.0]\n"));
   const control::Lever& lever = c.settings.joints[0].lever;
   DOUBLES_EQUAL(0.014, lever.radius_m(-20.0 * 3.14159265358979 / 180.0), 1e-12);
   DOUBLES_EQUAL(0.016, lever.zero_radius_m(), 1e-12);
@@ -72,5 +73,5 @@ TEST(JointLeverConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
       "position.max_m = 0.041, and by its lever it reads 0.079351",
       with_lever("[0.015, 0.015, 0.004]", "0.025"));
   // And more than it reads where the lever grows.
-  read_joint_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));
+  read_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));
 }

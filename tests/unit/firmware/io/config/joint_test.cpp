@@ -6,6 +6,7 @@
 
 #include "config/bus_time.hpp"
 #include "config/describe.hpp"
+#include "unit/firmware/io/config/support/checked_board.hpp"
 #include "unit/firmware/io/config/support/joint_board.hpp"
 
 using namespace supercoil;
@@ -14,7 +15,7 @@ using supercoil::test::board_with_joint;
 using supercoil::test::check_answer;
 using supercoil::test::one_joint;
 using supercoil::test::problems_of;
-using supercoil::test::read_joint_board;
+using supercoil::test::read_board;
 using supercoil::test::replaced;
 using supercoil::test::second_channel;
 using supercoil::test::small_board;
@@ -30,7 +31,7 @@ const std::string swapped = replaced(replaced(board_with_joint, "agonist = 1\n",
 TEST_GROUP(JointConfig){};
 
 TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
-  const BoardConfig c = read_joint_board(board_with_joint);
+  const BoardConfig c = read_board(board_with_joint);
   UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
   const JointSettings& joint = c.settings.joints[0];
   UNSIGNED_LONGS_EQUAL(0, joint.agonist);
@@ -51,7 +52,7 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
 /// 135 bits, 50 times a second, of 500 kbit/s.
 TEST(JointConfig, TheJointIsPartOfTheLoadOfTheCanBus) {
   const auto described = [](const std::string& text) {
-    return describe(read_joint_board(text + "[can]\n"));
+    return describe(read_board(text + "[can]\n"));
   };
   const std::string with_joint = described(board_with_joint);
   STRCMP_CONTAINS("load    19.1 % at worst", with_joint.c_str());
@@ -65,7 +66,7 @@ TEST(JointConfig, TheJointIsPartOfTheLoadOfTheCanBus) {
 TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   const std::string spring =
       "[[joint]]\nname = 'finger'\nopposed_by = 'spring'\nagonist = 1\nlever_m = 0.015\n";
-  const BoardConfig c = read_joint_board(small_board + spring);
+  const BoardConfig c = read_board(small_board + spring);
   UNSIGNED_LONGS_EQUAL(0, c.settings.joints.size());
   const ChannelSettings& channel = c.settings.channels[0];
   CHECK(channel.joint.turns() && !channel.joint.has_other());
@@ -94,7 +95,7 @@ TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
   const std::string without =
       replaced(replaced(swapped, "max_m = 0.041", "max_m = 0.03"), position, "");
   const std::string current = "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"";
-  const BoardConfig c = read_joint_board(replaced(without, current, position + current));
+  const BoardConfig c = read_board(replaced(without, current, position + current));
   const JointSettings& joint = c.settings.joints[0];
   UNSIGNED_LONGS_EQUAL(1, joint.agonist);
   UNSIGNED_LONGS_EQUAL(0, joint.antagonist);
@@ -114,18 +115,16 @@ TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
 TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
   // Of 4 W of the antagonist, each of which moves the joint as far as 0.089/0.0712 of the agonist:
   // the agonist's 4.5 W are less.
-  DOUBLES_EQUAL(0.2 * 4.5, read_joint_board(board_with_joint).settings.joints[0].co_contraction_W,
-                1e-12);
-  DOUBLES_EQUAL(1.5,
-                read_joint_board(board_with_joint + "co_contraction_W = 1.5\n")
-                    .settings.joints[0]
-                    .co_contraction_W,
-                0.0);
+  DOUBLES_EQUAL(0.2 * 4.5, read_board(board_with_joint).settings.joints[0].co_contraction_W, 1e-12);
+  DOUBLES_EQUAL(
+      1.5,
+      read_board(board_with_joint + "co_contraction_W = 1.5\n").settings.joints[0].co_contraction_W,
+      0.0);
 }
 
 TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
   const auto limit_W = [](const std::string& more) {
-    return read_joint_board(board_with_joint + more).settings.joints[0].max_co_contraction_W;
+    return read_board(board_with_joint + more).settings.joints[0].max_co_contraction_W;
   };
   DOUBLES_EQUAL(0.5 * 4.5, limit_W(""), 1e-12);
   DOUBLES_EQUAL(3.0, limit_W("max_co_contraction_W = 3.0\n"), 0.0);
@@ -139,7 +138,7 @@ TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
   check_answer("joint[1].max_co_contraction_W = 4.6: must be 0 to 4.5",
                board_with_joint + "max_co_contraction_W = 4.6\n");
   // The usual co-contraction is not above it.
-  const BoardConfig low = read_joint_board(board_with_joint + "max_co_contraction_W = 0.5\n");
+  const BoardConfig low = read_board(board_with_joint + "max_co_contraction_W = 0.5\n");
   DOUBLES_EQUAL(0.5, low.settings.joints[0].co_contraction_W, 0.0);
 }
 
@@ -183,7 +182,7 @@ TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
 
 TEST(JointConfig, CheckSaysWhatThePairBears) {
   const std::string text =
-      describe(read_joint_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
+      describe(read_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
   for (const char* part :
        {"the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension of 0.1 "
         "N: within max_pull_N = 0.8",
@@ -196,12 +195,12 @@ TEST(JointConfig, CheckSaysWhatThePairBears) {
 TEST(JointConfig, OneConverterIsReadOnce) {
   const std::string on_bus = replaced(board_with_joint, "device = \"adc\"\ninput = \"voltage1\"",
                                       "device = \"adc\"\nbus = \"i2c-1\"\ninput = \"voltage1\"");
-  const BoardConfig c = read_joint_board(on_bus);
+  const BoardConfig c = read_board(on_bus);
   UNSIGNED_LONGS_EQUAL(1, bus_time(c.wiring, c.wiring.buses[0]).users.size());
 }
 
 TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
-  const std::string text = describe(read_joint_board(board_with_joint));
+  const std::string text = describe(read_board(board_with_joint));
   for (const char* part :
        {"joint 1: elbow", "agonist channel 1, antagonist channel 2", "lever of 15 mm",
         "with 0.9 W and 0.7 W while no effort is asked for; each muscle contributes half of an "
@@ -217,8 +216,8 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
 
 TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
   STRCMP_CONTAINS("  slack       not told: pretension_N is not configured\n",
-                  describe(read_joint_board(board_with_joint)).c_str());
-  const BoardConfig alike = read_joint_board(board_with_joint + "pretension_N = 0.02\n");
+                  describe(read_board(board_with_joint)).c_str());
+  const BoardConfig alike = read_board(board_with_joint + "pretension_N = 0.02\n");
   const JointSettings& joint = alike.settings.joints[0];
   DOUBLES_EQUAL(0.02, joint.pretension_N, 0.0);
   for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
@@ -231,7 +230,7 @@ TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
                   describe(alike).c_str());
   STRCMP_CONTAINS("; the antagonist from -9.5° on, taut at ", describe(alike).c_str());
   const BoardConfig told =
-      read_joint_board(board_with_joint + "pretension_N = 0.02\nstiffness_ratio = [0.25, 0.0]\n");
+      read_board(board_with_joint + "pretension_N = 0.02\nstiffness_ratio = [0.25, 0.0]\n");
   STRCMP_CONTAINS("the agonist from 19.1° on", describe(told).c_str());
   STRCMP_CONTAINS("the antagonist nowhere within its travel\n", describe(told).c_str());
   check_answer(
@@ -271,7 +270,7 @@ TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
       "muscle moves it as well; leave it out, or say false",
       proof + "true\n");
   STRCMP_EQUAL("", problems_of(proof + "false\n").c_str());
-  const std::string text = describe(read_joint_board(board_with_joint));
+  const std::string text = describe(read_board(board_with_joint));
   STRCMP_CONTAINS("of some um: not checked: the joint's other muscle moves it as well",
                   text.c_str());
   STRCMP_CONTAINS("heater_not_responding: no proof of response is had in a joint", text.c_str());
@@ -280,8 +279,8 @@ TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
 
 TEST(JointConfig, WhatBothDescribeOfTheJointShouldBeTheSame) {
   const auto described = [](const std::string& lines) {
-    return describe(read_joint_board(replaced(board_with_joint, "heat_transfer_W_per_K = 0.0712\n",
-                                              "heat_transfer_W_per_K = 0.0712\n" + lines)));
+    return describe(read_board(replaced(board_with_joint, "heat_transfer_W_per_K = 0.0712\n",
+                                        "heat_transfer_W_per_K = 0.0712\n" + lines)));
   };
   STRCMP_CONTAINS(
       "joint 1: muscle.stiffness_N_per_m is 16 of channel 1 and 22 of channel 2: each describes "
@@ -297,7 +296,7 @@ TEST(JointConfig, WhatBothDescribeOfTheJointShouldBeTheSame) {
 }
 
 TEST(JointConfig, AnAntagonistIsLed) {
-  const BoardConfig c = read_joint_board(board_with_joint);
+  const BoardConfig c = read_board(board_with_joint);
   STRCMP_CONTAINS("controllers led by channel 1: its own are not used",
                   describe_channel(c, 1).c_str());
   CHECK(describe_channel(c, 1).find("can follow") == std::string::npos);

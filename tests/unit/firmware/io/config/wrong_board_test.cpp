@@ -1,6 +1,4 @@
 // What a mistaken board configuration is answered: file, line, key, value and what is allowed.
-#include "unit/firmware/io/config/support/wrong_board.hpp"
-
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -8,6 +6,7 @@
 
 #include "config/renamed_keys.hpp"
 #include "config/section.hpp"
+#include "unit/firmware/io/config/support/checked_board.hpp"
 
 using supercoil::test::check_problems;
 using supercoil::test::check_replaced;

@@ -4,7 +4,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "unit/firmware/io/config/support/wrong_board.hpp"
+#include "unit/firmware/io/config/support/checked_board.hpp"
 
 using supercoil::test::check_problems;
 using supercoil::test::check_replaced;

@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include <CppUTest/TestHarness.h>
-
 #include "unit/firmware/io/config/support/small_board.hpp"
 
 namespace supercoil::test {
@@ -34,16 +32,5 @@ inline const std::string one_joint =
     "[[joint]]\nname = 'elbow'\nagonist = 1\nantagonist = 2\nlever_m = 0.015\n";
 inline const std::string board_with_joint =
     small_board_with("min_m = -0.001", "min_m = -0.041") + second_channel + one_joint;
-
-inline config::BoardConfig read_joint_board(const std::string& text) {
-  const auto config = config::parse_board_config(text, "b.toml");
-  CHECK_TEXT(config.has_value(), config ? "" : to_text(config.error()).c_str());
-  return config.value();
-}
-
-/// part: of the problems that the board's text has.
-inline void check_answer(const std::string& part, const std::string& text) {
-  STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
-}
 
 }  // namespace supercoil::test

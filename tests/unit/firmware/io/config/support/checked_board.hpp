@@ -1,4 +1,4 @@
-// What a board's mistaken text is answered, whole.
+// What a board's text is read as, and what a mistaken one is answered.
 #pragma once
 
 #include <string>
@@ -18,6 +18,17 @@ inline void check_problems(const std::string& expected, const std::string& text)
 inline void check_replaced(const std::string& old, const std::string& replacement,
                            const std::string& expected) {
   check_problems(expected, small_board_with(old, replacement));
+}
+
+inline config::BoardConfig read_board(const std::string& text) {
+  const auto config = config::parse_board_config(text, "b.toml");
+  CHECK_TEXT(config.has_value(), config ? "" : to_text(config.error()).c_str());
+  return config.value();
+}
+
+/// part: of the problems that the board's text has.
+inline void check_answer(const std::string& part, const std::string& text) {
+  STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
 }
 
 }  // namespace supercoil::test

@@ -1,5 +1,7 @@
 #include "apps/supercoil/mcap/writer.hpp"
 
+#include <algorithm>
+
 #include "text/program_version.hpp"
 
 namespace supercoil::operating::mcap {
@@ -15,7 +17,9 @@ enum Opcode : std::uint8_t {
   schema = 0x03,
   channel_record = 0x04,
   message = 0x05,
+  statistics = 0x0b,
   metadata = 0x0c,
+  metadata_index = 0x0d,
   data_end = 0x0f,
 };
 
@@ -29,6 +33,12 @@ void put(std::string& out, Unsigned value) {
 void put_text(std::string& out, std::string_view text) {
   put(out, static_cast<std::uint32_t>(text.size()));
   out += text;
+}
+
+void put_record(std::string& out, std::uint8_t opcode, std::string_view content) {
+  put(out, opcode);
+  put(out, static_cast<std::uint64_t>(content.size()));
+  out += content;
 }
 
 void put_entries(std::string& out, const Entries& entries) {
@@ -50,39 +60,43 @@ Writer::Writer(recorder::Sink write) : write_(std::move(write)), part_(magic) {
   std::string content;
   put_text(content, "");
   put_text(content, "supercoil " + std::string(program_version()));
-  add_record(header, content);
+  put_record(part_, header, content);
 }
 
 std::uint16_t Writer::add_channel(std::string_view topic, std::string_view schema_name,
                                   const nlohmann::ordered_json& properties) {
-  messages_.push_back(0);
+  messages_of_.push_back(0);
   // A schema of each; 0 would be none.
-  const auto number = static_cast<std::uint16_t>(messages_.size());
+  const auto number = static_cast<std::uint16_t>(messages_of_.size());
   std::string of_schema;
   put(of_schema, number);
   put_text(of_schema, schema_name);
   put_text(of_schema, "jsonschema");
   put_text(of_schema,
            nlohmann::ordered_json{{"type", "object"}, {"properties", properties}}.dump());
-  add_record(schema, of_schema);
+  put_record(part_, schema, of_schema);
+  put_record(schemas_, schema, of_schema);
   std::string of_channel;
   put(of_channel, number);
   put(of_channel, number);
   put_text(of_channel, topic);
   put_text(of_channel, "json");
   put_entries(of_channel, {});
-  add_record(channel_record, of_channel);
+  put_record(part_, channel_record, of_channel);
+  put_record(channels_, channel_record, of_channel);
   return number;
 }
 
 Written Writer::add_message(std::uint16_t channel, std::uint64_t time_ns, std::string_view json) {
   std::string content;
   put(content, channel);
-  put(content, messages_[channel - 1U]++);
+  put(content, messages_of_[channel - 1U]++);
   put(content, time_ns);
   put(content, time_ns);
   content += json;
-  add_record(message, content);
+  first_ns_ = messages_++ == 0 ? time_ns : std::min(first_ns_, time_ns);
+  last_ns_ = std::max(last_ns_, time_ns);
+  put_record(part_, message, content);
   return part_.size() < part_bytes ? written_ : flush();
 }
 
@@ -90,31 +104,58 @@ void Writer::add_metadata(std::string_view name, const Entries& entries) {
   std::string content;
   put_text(content, name);
   put_entries(content, entries);
-  add_record(metadata, content);
+  const std::uint64_t before = position();
+  std::string index;
+  put(index, before);
+  put_record(part_, metadata, content);
+  put(index, position() - before);
+  put_text(index, name);
+  put_record(metadata_indexes_, metadata_index, index);
+  ++metadata_;
 }
 
 Written Writer::finish() {
-  std::string checksum;
-  put(checksum, std::uint32_t{0});
-  add_record(data_end, checksum);
-  // No summary, and where it would be.
-  std::string nowhere;
-  put(nowhere, std::uint64_t{0});
-  put(nowhere, std::uint64_t{0});
-  put(nowhere, std::uint32_t{0});
-  add_record(footer, nowhere);
+  std::string no_checksum;
+  put(no_checksum, std::uint32_t{0});
+  put_record(part_, data_end, no_checksum);
+  std::string end;
+  put(end, position());
+  put(end, std::uint64_t{0});  // no table of the summary's own parts
+  put(end, std::uint32_t{0});
+  part_.append(schemas_).append(channels_).append(metadata_indexes_);
+  put_record(part_, statistics, counted());
+  put_record(part_, footer, end);
   part_ += magic;
   return flush();
 }
 
-void Writer::add_record(std::uint8_t opcode, std::string_view content) {
-  put(part_, opcode);
-  put(part_, static_cast<std::uint64_t>(content.size()));
-  part_ += content;
+std::string Writer::counted() const {
+  const auto channels = static_cast<std::uint16_t>(messages_of_.size());
+  std::string out;
+  put(out, messages_);
+  put(out, channels);  // schemas
+  put(out, std::uint32_t{channels});
+  put(out, std::uint32_t{0});  // attachments
+  put(out, metadata_);
+  put(out, std::uint32_t{0});  // chunks
+  put(out, first_ns_);
+  put(out, last_ns_);
+  std::string by_channel;
+  for (std::uint16_t number = 1; number <= channels; ++number) {
+    put(by_channel, number);
+    put(by_channel, std::uint64_t{messages_of_[number - 1U]});
+  }
+  put_text(out, by_channel);
+  return out;
+}
+
+std::uint64_t Writer::position() const {
+  return flushed_bytes_ + part_.size();
 }
 
 Written Writer::flush() {
   if (written_) written_ = write_(part_);
+  flushed_bytes_ += part_.size();
   part_.clear();
   return written_;
 }

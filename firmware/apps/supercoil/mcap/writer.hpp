@@ -1,6 +1,6 @@
 // An MCAP file (mcap.dev, version 0 of the format): messages of several channels in the order of
-// their times, without chunks, compression, index or checksums, all of which the format leaves
-// open.
+// their times, with the summary at its end that some readers (PlotJuggler 3) ask for. Chunks,
+// compression, an index of messages and checksums are left out, as the format allows.
 #pragma once
 
 #include <cstdint>
@@ -37,13 +37,21 @@ class Writer {
   Written finish();
 
  private:
-  void add_record(std::uint8_t opcode, std::string_view content);
+  /// Content of the record of statistics.
+  std::string counted() const;
+  /// Bytes of the file so far.
+  std::uint64_t position() const;
   Written flush();
 
   recorder::Sink write_;
   Written written_;
-  std::string part_;
-  std::vector<std::uint32_t> messages_;  ///< of each channel
+  std::string part_;                                   ///< of the file; not written yet
+  std::string schemas_, channels_, metadata_indexes_;  ///< records of the summary
+  std::uint64_t flushed_bytes_ = 0;
+  std::uint64_t messages_ = 0;
+  std::uint64_t first_ns_ = 0, last_ns_ = 0;  ///< of the messages
+  std::uint32_t metadata_ = 0;                ///< how many
+  std::vector<std::uint32_t> messages_of_;    ///< each channel
 };
 
 }  // namespace supercoil::operating::mcap

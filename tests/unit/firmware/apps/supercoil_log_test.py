@@ -1,5 +1,6 @@
 """supercoil log as an operator or a script meets it: exit status, messages, files."""
 
+import collections
 import csv
 import io
 import json
@@ -121,6 +122,29 @@ class Log(unittest.TestCase):
                 same = value[name] == text if isinstance(value[name], str) else value[name] == (float(text) if text else None)
                 self.assertTrue(same, (name, value[name], text))
         self.assertEqual([sequence for _, topic, sequence, _ in rows if topic == "/channel_1"], list(range(len(rows) // 2)))
+
+    def test_mcap_has_a_summary(self):
+        """PlotJuggler 3 opens no file without one."""
+        self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)
+        with open(self.path / "r.mcap", "rb") as file:
+            messages = list(mcap.reader.NonSeekingReader(file).iter_messages())
+        with open(self.path / "r.mcap", "rb") as file:
+            reader = mcap.reader.make_reader(file)
+            self.assertIsInstance(reader, mcap.reader.SeekingReader)
+            summary = reader.get_summary()
+            self.assertIsNotNone(summary)
+            topics = collections.Counter(channel.topic for _, channel, _ in messages)
+            counts = summary.statistics.channel_message_counts
+            self.assertEqual({channel.topic: counts[number] for number, channel in summary.channels.items()}, topics)
+            self.assertEqual({channel.schema_id for channel in summary.channels.values()}, set(summary.schemas))
+            statistics = summary.statistics
+            self.assertEqual((statistics.message_count, statistics.channel_count, statistics.schema_count, statistics.metadata_count),
+                             (len(messages), len(topics), len(topics), 1))
+            self.assertEqual((statistics.message_start_time, statistics.message_end_time),
+                             (messages[0][2].log_time, messages[-1][2].log_time))
+            self.assertEqual([metadata.name for metadata in reader.iter_metadata()], ["recording"])
+            self.assertEqual([message for _, _, message in reader.iter_messages(log_time_order=False)],
+                             [message for _, _, message in messages])
 
     def test_mcap_tells_units(self):
         self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)

@@ -6,31 +6,32 @@
 namespace supercoil {
 
 const std::array<std::string_view, mode_result_names.size()> result_words{
-    "not asked for since the start",
+    "not run since the start",
     "it has not ended yet",
     "used from now on, and stored",
     "ended by a command or a fault",
     "the muscle did not cool within two minutes",
     "the position changed by more than 0.1 mm while its zero was taken",
-    "the muscle did not do what the fit predicted, not even in shorter strokes: play, a load that "
-    "changes, or a sensor that slips",
-    "θ3 or θ4, which controllers need, is not known well enough, or θ2 hardly at all: the sensor "
+    "the muscle did not move as the fit predicted, even in shorter strokes: play, a changing load "
+    "or "
+    "a slipping sensor",
+    "θ3 or θ4, which controllers need, is not known well enough, or θ2 is hardly known: the sensor "
     "is too noisy for this motion",
-    "what was found is out of range; of identify also: far from what the configuration says",
-    "used, but the results before it still wait for the disk",
+    "what was found is out of range or, by identify, far from what the configuration says",
+    "used from now on, but not stored: earlier results still wait for the disk",
     "the muscle moved by less than 1 % of its travel with all the power that it may have",
-    "the more heat, the further the muscle moved away from where it should: the sensor's sign is "
-    "wrong, or, of a joint, both heaters are swapped"};
+    "the muscle moved the wrong way when it was heated: the sensor's sign is wrong or, in a joint, "
+    "the two heaters are swapped"};
 
 const std::array<std::string_view, identify_note_names.size()> note_words{
-    "θ1 was not known well enough, its believed value is kept",
+    "θ1 was not known well enough and keeps the value that it had before",
     "θ2 is uncertain",
     "θ3 is uncertain",
     "θ4 is uncertain",
-    "full strokes were not explained",
+    "the model does not explain full strokes",
     "implausible",
     "too little motion",
-    "friction takes more than half of a small motion, and the power may be held to less for it"};
+    "friction takes more than half of a small motion, so less power may be allowed"};
 
 std::string told_result(std::string_view result, std::string_view notes, std::string_view cause) {
   std::string text(result);

@@ -5,18 +5,18 @@
 from supercoil.generated.names import Result
 
 MEANINGS = {
-    Result.none: "not asked for since the start",
+    Result.none: "not run since the start",
     Result.running: "it has not ended yet",
     Result.found: "used from now on, and stored",
     Result.interrupted: "ended by a command or a fault",
     Result.not_cold: "the muscle did not cool within two minutes",
     Result.moved: "the position changed by more than 0.1 mm while its zero was taken",
-    Result.poor_fit: "the muscle did not do what the fit predicted, not even in shorter strokes: play, a load that changes, or a sensor that slips",
-    Result.uncertain: "θ3 or θ4, which controllers need, is not known well enough, or θ2 hardly at all: the sensor is too noisy for this motion",
-    Result.implausible: "what was found is out of range; of identify also: far from what the configuration says",
-    Result.not_stored: "used, but the results before it still wait for the disk",
+    Result.poor_fit: "the muscle did not move as the fit predicted, even in shorter strokes: play, a changing load or a slipping sensor",
+    Result.uncertain: "θ3 or θ4, which controllers need, is not known well enough, or θ2 is hardly known: the sensor is too noisy for this motion",
+    Result.implausible: "what was found is out of range or, by identify, far from what the configuration says",
+    Result.not_stored: "used from now on, but not stored: earlier results still wait for the disk",
     Result.too_little_motion: "the muscle moved by less than 1 % of its travel with all the power that it may have",
-    Result.moved_backwards: "the more heat, the further the muscle moved away from where it should: the sensor's sign is wrong, or, of a joint, both heaters are swapped",
+    Result.moved_backwards: "the muscle moved the wrong way when it was heated: the sensor's sign is wrong or, in a joint, the two heaters are swapped",
 }
 
 # Bits of what identify has to say, from the least on.

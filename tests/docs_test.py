@@ -3,7 +3,8 @@
 Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
 scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not. The list of
 all pages, which is the site's navigation, has each page of docs/ once, and each manual page with what it says it is. The drawing of the
-wiring is as its program draws it.
+wiring is as its program draws it. What a board's operator is told to look at or to set is a key of the board's file or a signal on
+CAN, not a name in the code.
 """
 
 import pathlib
@@ -133,8 +134,22 @@ def problems_of_results():
             yield f"docs/troubleshooting.md: does not say what to do about {name}"
 
 
+def problems_of_keys():
+    """Of pages by which an operator mends a board: a word with a unit, in backquotes."""
+    docs = ROOT / "docs"
+    explained = "".join((docs / page).read_text() for page in ("configuration.md", "can-protocol.md", "recorder.md", "setup.md"))
+    known = set(re.findall(r"\w+", explained))
+    for page in [*FAULTS.glob("*.md"), *(docs / name for name in ("safety.md", "wiring.md", "materials.md", "troubleshooting.md"))]:
+        for quoted in re.findall(r"`([^`\n]+)`", page.read_text()):
+            for word in re.findall(r"[a-z]\w*_(?:s|ms|m|W|V|A|K|C|J|N|Hz|Ohm|deg|ratio|row)\b", quoted):
+                if word not in known:
+                    yield f"{page.relative_to(ROOT)}: `{word}` is neither a key of the board's file nor a signal on CAN"
+        for name in re.findall(r"`[^`\n]*\w\(\)[^`\n]*`", page.read_text()):
+            yield f"{page.relative_to(ROOT)}: {name} is the code's: what does an operator look at?"
+
+
 if __name__ == "__main__":
     found = [*problems_of_faults(), *problems_of_results(), *problems_of_links(), *problems_of_navigation(),
-             *problems_of_drawing()]
+             *problems_of_drawing(), *problems_of_keys()]
     print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

@@ -178,6 +178,7 @@ void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   e.node_conflict = health_.node_conflict.load(std::memory_order_relaxed);
   e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
   e.self_test_failed = self_test_.failed();
+  e.self_test_cut = self_test_.outcome() == SelfTest::Outcome::enable_does_not_cut ? 2 : 1;
   const Fault present = supervisor_.step(e);
   const Verdict& verdict = supervisor_.verdict();
 

@@ -34,7 +34,7 @@ Fault BoardSupervisor::step(const BoardInputs& e) {
   verdict_.note(line_failed, lines_.step(!e.lines_ok), lines_);
   verdict_.note(configuration_invalid, configuration_.step(e.configuration_changed),
                 configuration_);
-  verdict_.note(self_test_failed, self_test_.step(e.self_test_failed), self_test_);
+  verdict_.note(self_test_failed, self_test_.step(e.self_test_failed, e.self_test_cut), self_test_);
   return verdict_.fault();
 }
 

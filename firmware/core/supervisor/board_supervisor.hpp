@@ -26,6 +26,7 @@ struct BoardInputs {
   bool node_conflict = false;  ///< another board speaks as a node of this one
   bool configuration_changed = false;
   bool self_test_failed = false;
+  int self_test_cut = 1;  ///< which cut failed it: 1 the charge pump, 2 an enable line
 };
 
 class BoardSupervisor {

@@ -34,6 +34,18 @@ TEST(Loop, FindsAnEnableLineThatDoesNotCutByAProbesCurrent) {
   }
 }
 
+TEST(Loop, TellsWhichCutFailedTheSelfTest) {
+  for (const bool pump_stuck : {true, false}) {
+    Rig rig(settings);
+    rig.board.pump.stuck_closed = pump_stuck;
+    rig.muscle().faults.enable_stuck_on = !pump_stuck;
+    rig.run(1.0);
+    CHECK(rig.fault() == Fault::self_test_failed);
+    DOUBLES_EQUAL(pump_stuck ? 1.0 : 2.0, rig.loop.channel(Rig::tested).first_margin().measured,
+                  0.0);
+  }
+}
+
 TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
   Rig rig(settings);
   int taken = 0;

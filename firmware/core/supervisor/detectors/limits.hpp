@@ -25,12 +25,16 @@ class Limit final : public Detector {
 /// Trips at once when a yes-or-no condition is bad.
 class Flag final : public Detector {
  public:
-  bool step(bool bad) { return bad_ = bad; }
-  /// 0: good, 1: bad.
-  Margin margin() const override { return rising(bad_ ? 1.0 : 0.0, 0.0); }
+  /// which: in which of several ways it is bad, from 1.
+  bool step(bool bad, int which = 1) {
+    measured_ = bad ? which : 0;
+    return bad;
+  }
+  /// 0: good, else in which way it is bad.
+  Margin margin() const override { return rising(measured_, 0.0); }
 
  private:
-  bool bad_ = false;
+  int measured_ = 0;
 };
 
 /// Trips when a value is above its limit, or is NaN, for hold_s.

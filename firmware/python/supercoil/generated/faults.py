@@ -22,7 +22,7 @@ The position reads a value that this sensor cannot give. Its wire is off, or sho
 The position reads a value that this sensor cannot give. Its wire is off, or shorted to a rail.
 
 **Detected** when the reading, scaled to metres but before the calibration of zero and scale, is below −2 mm or above
-42 mm, or is NaN, for 5 ms without a gap (`min_position_m`, `max_position_m`, `out_of_range_s`). One wild
+42 mm, or is NaN, for 5 ms without a gap (`position.min_m`, `position.max_m`, `out_of_range_ms`). One wild
 conversion is forgiven.
 
 **Reaction:** the channel goes cold.
@@ -34,7 +34,7 @@ armed. It is no travel and no jump either. Pull the input to a rail that lies ou
 
 - the sensor's cable or plug
 - the sensor has lost its supply
-- a scaling (`per_count`, `offset`) that belongs to another sensor
+- a scaling (`m_per_count`, `offset_m`) that belongs to another sensor
 - the sensor sits so that the muscle leaves its range
 
 ## Remedy
@@ -68,7 +68,7 @@ class SensorStale(FaultError):
 There is no fresh position, or no fresh current. An old value is never used in its place."""
     remedy = """\
 1. See which one it is: in the row, position_m or current_A is not a number.
-2. Compare the converter's period with max_age_s. It needs room for two periods and the bus.
+2. Compare the converter's period with max_age_ms. It needs room for two periods and the bus.
 3. If both inputs of several channels go at once, it is the bus.
 4. Reset, arm."""
     page = """\
@@ -77,7 +77,7 @@ There is no fresh position, or no fresh current. An old value is never used in i
 There is no fresh position, or no fresh current. An old value is never used in its place.
 
 **Detected** at the first tick at which either is absent: the converter answers with an error, its newest conversion is
-older than 10 ms (`max_age_s` of the input; the settings of each input), or it comes from the future. So a converter
+older than 10 ms (`max_age_ms` of the input; the settings of each input), or it comes from the future. So a converter
 that falls silent is found after 10 ms and a tick, one that reports an error at once.
 
 **Reaction:** the channel goes cold. In that very tick no power is computed from the old position. If it is the current
@@ -90,7 +90,7 @@ greatest power.
 ## Likely causes
 
 - the bus thread of a buffered converter stalls, or its bus hangs
-- a converter slower than `max_age_s`
+- a converter slower than `max_age_ms`
 - from the start: a capture's trigger that does not run, or that has too many devices
   ([porting.md](../porting.md#a-trigger-for-iioscan))
 - the driver was unbound, or the device pulled off: it comes back for a program that opens it anew, so restart supercoild
@@ -99,7 +99,7 @@ greatest power.
 ## Remedy
 
 1. See which one it is: in the row, `position_m` or `current_A` is not a number.
-2. Compare the converter's period with `max_age_s`. It needs room for two periods and the bus.
+2. Compare the converter's period with `max_age_ms`. It needs room for two periods and the bus.
 3. If both inputs of several channels go at once, it is the bus.
 4. Reset, arm.
 
@@ -127,7 +127,7 @@ stale; their content is old."""
     remedy = """\
 1. Look where it rests: a reading that is position.min_m or max_m to the last digit is an end. Move the sensor, or take off load.
 2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
-   step of the converter, into position_noise_rms_m.
+   step of the converter, into position.noise_rms_m.
 3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
    heater_not_responding, which needs 20 s and more.
 4. Otherwise restart the converter's driver. Reset, arm."""
@@ -138,7 +138,7 @@ The position stands still as no live sensor does: not even its own noise is ther
 stale; their content is old.
 
 **Detected** when, while the muscle is hot, all readings stay within ±5 µm of one of them for 1 s
-(half of `position_noise_rms_m` = 10 µm; `frozen_s`). "Hot" means that the upper bound of the temperature estimate is
+(half of `position.noise_rms_m` = 10 µm; `frozen_s`). "Hot" means that the upper bound of the temperature estimate is
 more than 5 K above the air, so for 15 s after boot as well, in every state.
 
 **Reaction:** the channel goes cold.
@@ -149,13 +149,13 @@ more than 5 K above the air, so for 15 s after boot as well, in every state.
 - a converter that hangs
 - the muscle stands at an end of the sensor's range, or of its own: a load pulls it longer than where the sensor begins to read, so
   that every reading is that end
-- a sensor quieter than `position_noise_rms_m` says: a filter was added, or the noise was guessed
+- a sensor quieter than `position.noise_rms_m` says: a filter was added, or the noise was guessed
 
 ## Remedy
 
 1. Look where it rests: a reading that is `position.min_m` or `max_m` to the last digit is an end. Move the sensor, or take off load.
 2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
-   step of the converter, into `position_noise_rms_m`.
+   step of the converter, into `position.noise_rms_m`.
 3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
    [heater_not_responding](heater_not_responding.md), which needs 20 s and more.
 4. Otherwise restart the converter's driver. Reset, arm.
@@ -169,7 +169,7 @@ In seconds: for how long the readings stood still while hot, of 1 s. A live sens
 
 - In a cold muscle, and below a steady power of about 0.21 W with the default bounds: there the upper bound ends below
   5 K.
-- When `position_noise_rms_m` is 0.
+- When `position.noise_rms_m` is 0.
 - A value that is replaced by a plausible changing one.
 """
 
@@ -192,7 +192,7 @@ The position moved further between two readings than any muscle can.
 
 **Detected** when two fresh readings in a row lie further from the last good one than 0.5 m/s times the time since the
 previous reading, plus 0.17 mm (50 µm and 12 times the noise of 10 µm). At 1 kHz that is 0.67 mm. The first such reading
-is taken for a glitch; the second trips (`max_speed_m_per_s`, `position_noise_rms_m`). Readings from outside of the
+is taken for a glitch; the second trips (`max_speed_m_per_s`, `position.noise_rms_m`). Readings from outside of the
 sensor's range take no part: they are [sensor_out_of_range](sensor_out_of_range.md). It is judged as the sensor gives
 it, before zero and scale: a calibration is no jump.
 
@@ -295,7 +295,7 @@ Duty is applied, but hardly any current flows.
 
 **Detected** in one of two ways:
 - The duty, averaged like the current sense, is at least 2 % and the current stays below a quarter of what a cold muscle
-  would draw at the lowest supply, for 20 ms: 0.27 A times the duty for 10 Ω and 10.8 V (`open_min_duty`, `open_s`).
+  would draw at the lowest supply, for 20 ms: 0.27 A times the duty for 10 Ω and 10.8 V (`open_min_duty`, `open_ms`).
 - A probe, at arming or later, found no current, or four times the cold resistance or more. That is known when the
   probe's 50 ms are over.
 
@@ -340,7 +340,7 @@ More current flows than the least resistance of a muscle explains."""
     remedy = """\
 1. Look whether the board's fault is heater_stuck_on. If so, go there.
 2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
-3. If it is right, compare sense_filter_s with the board's filter.
+3. If it is right, compare sense_filter_ms with the board's filter.
 4. Reset, arm."""
     page = """\
 # 21 heater_short
@@ -348,9 +348,9 @@ More current flows than the least resistance of a muscle explains."""
 More current flows than the least resistance of a muscle explains.
 
 **Detected** when, while the channel is on, the current exceeds duty × supply / 5 Ω by more than 50 mA for 2 ms
-(`min_resistance_Ohm`, `off_current_A`, `short_s`). The duty is averaged with the time constant of the current sense,
+(`min_resistance_Ohm`, `current.off_A`, `short_ms`). The duty is averaged with the time constant of the current sense,
 so that both are of the same time. Behind a bus that is so to a tick only: the duty acts, or the current is read, at any moment
-between two ticks. There `short_s` is two ticks at least: when a probe ends, a current of one tick before is above that for one tick.
+between two ticks. There `short_ms` is two ticks at least: when a probe ends, a current of one tick before is above that for one tick.
 
 **Reaction:** the channel goes cold. The switch's own protection must be faster than this: 2 ms are long for a
 transistor. See [wiring](../wiring.md).
@@ -362,13 +362,13 @@ transistor. See [wiring](../wiring.md).
 - **the power switch conducts by itself.** It then draws full current at a small duty, and shows as a short first.
   50 ms after the cut it becomes [heater_stuck_on](heater_stuck_on.md) for the board, while this channel keeps
   `heater_short` as its first cause
-- `sense_filter_s` does not match the sense: while the duty falls the current seems too high
+- `sense_filter_ms` does not match the sense: while the duty falls the current seems too high
 
 ## Remedy
 
 1. Look whether the board's fault is `heater_stuck_on`. If so, go there.
 2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
-3. If it is right, compare `sense_filter_s` with the board's filter.
+3. If it is right, compare `sense_filter_ms` with the board's filter.
 4. Reset, arm.
 
 ## Margin
@@ -407,7 +407,7 @@ Current flows although the channel is off. **The one fault that software alone c
 whatever holds it, conducts by itself. So the heartbeat stops and the charge pump opens the supply of the whole board.
 
 **Detected** when the duty is 0 or the enable line low, and the current is above 50 mA, no number, or not read at all,
-for 50 ms without a gap (`off_current_A`, `stuck_on_s`). Without a reading nothing proves that the heat is off. Proof is
+for 50 ms without a gap (`current.off_A`, `stuck_on_ms`). Without a reading nothing proves that the heat is off. Proof is
 the current, not what the PWM reads back: that may be the kernel's memory. At the end it must also be more than a sense
 that averages (`sense_filter_ms`) can still show of the current before, with a time constant that is a quarter longer: after
 0.67 A through 10 ms, 32 mA after 50 ms at 100 Hz. So a leak of little more than 50 mA may be found some time constants later, a stuck
@@ -572,7 +572,7 @@ The PWM does not do what was set: it refuses a duty, or reads back another one."
 The PWM does not do what was set: it refuses a duty, or reads back another one.
 
 **Detected** when, for 5 ms, the last write was answered with an error, or the step that is read back differs from the
-step that was set (`wrong_duty_s`). A device that cannot be read back, or not while a write is under way (it answers
+step that was set (`wrong_duty_ms`). A device that cannot be read back, or not while a write is under way (it answers
 with a negative number), is judged by its errors alone. A write that failed is tried again at each tick.
 
 **Reaction:** duty 0 is written – which may fail as well – and the enable line goes low. The enable line is the cut that
@@ -993,7 +993,7 @@ The supply is too low, or it cannot be measured. An unknown supply may be anythi
 from it.
 
 **Detected** when the supply is below 10.8 V, or its reading is absent (older than 10 ms, or an error), for 20 ms
-(`min_supply_V`, `supply_s`; the age is `max_age_s` of the supply's input).
+(`supply.min_V`, `supply.hold_ms`; the age is `max_age_ms` of the supply's input).
 
 **Reaction:** every channel cold, heartbeat off. In the 20 ms before, an absent supply already gives no duty.
 
@@ -1043,7 +1043,7 @@ The supply is above what the board is made for."""
 
 The supply is above what the board is made for.
 
-**Detected** when it reads more than 13.2 V for 20 ms (`max_supply_V`, `supply_s`).
+**Detected** when it reads more than 13.2 V for 20 ms (`supply.max_V`, `supply.hold_ms`).
 
 **Reaction:** every channel cold, heartbeat off: the supply's switch opens and keeps the voltage from the power
 switches, but not from whatever is wired before it.
@@ -1095,7 +1095,7 @@ The channel draws more power than anybody may have asked for."""
 
 The channel draws more power than anybody may have asked for.
 
-**Detected** when supply × averaged current is above 1.25 `max_W` + 0.3 W (5.9 W for 4.5 W), or no number, for 100 ms (`max_measured_W`, `over_power_s`).
+**Detected** when supply × averaged current is above 1.25 `max_W` + 0.3 W (5.9 W for 4.5 W), or no number, for 100 ms (`max_measured_W`, `over_power_ms`).
 It is judged in every state, also while off.
 
 **Reaction:** the channel goes cold. If the current goes on, [heater_stuck_on](heater_stuck_on.md) follows 50 ms later
@@ -1136,25 +1136,28 @@ class Overrun(FaultError):
     meaning = """\
 The firmware does not get its ticks done in time."""
     remedy = """\
-1. Look at the times of the stages (Loop::times()): which part of the tick is long? Is its maximum far from its mean?
-2. A slow drive or sample stage: a device. A slow compute stage: lower the rate, or use fewer channels.
-3. Everything long now and then: priority, core, memory.
-4. Reset each channel; the self-test follows."""
+1. supercoil doctor: each warning about kernel, priority, memory or clock comes with its remedy.
+2. Stop supercoild and run supercoild --latency --config board.toml. It runs the same ticks without devices. If they are long
+   or late there too, the cause is priority, processor or memory (real time).
+3. If they are short there, compare with execution_s of Timing on the running board, which the page
+   shows. If that is much longer already while all channels are disarmed, a device is too slow to be
+   direct.
+4. If it becomes long only when channels are active, lower rate_Hz, or use fewer channels or simpler controllers.
+5. Reset each channel; the self-test follows."""
     page = """\
 # 50 overrun
 
 The firmware does not get its ticks done in time.
 
-**Detected** when 5 periods were left out without a tick in time between them (`overruns_in_a_row`): in several short
-overruns on end, or in one stall. After an overrun whole periods are left out; two ticks never run back to back. One
-tick in time sets the count back to 0.
+**Detected** when 5 periods were left out without a punctual tick between them (`overruns_in_a_row`): in several short
+overruns in a row, or in one stall. After an overrun whole periods are left out; two ticks never run back to back. One
+punctual tick sets the count back to 0.
 
 **Reaction:** every channel cold, heartbeat off.
 
-While the stall lasts the charge pump does the work: when no edge comes for its decay time, it opens the supply,
-whatever the firmware does. The decay must exceed twice the tolerated overruns, and `check()` refuses settings where it
-does not: 5 periods of 1 ms, so more than 10 ms; 20 ms by default. So a stall that opens the supply is always a fault as
-well, and nothing heats again by itself.
+During the stall the charge pump protects: when no edge comes for its decay time, it opens the supply, whatever the
+firmware does. The decay must exceed twice the tolerated overruns, or the configuration is refused: with 5 periods of 1 ms it
+must be longer than 10 ms. So a stall that opens the supply is always a fault as well, and nothing heats again by itself.
 
 Periods that were left out count for all hold times, for the expiry of commands and for the temperature estimate, up to
 1000 of them.
@@ -1164,18 +1167,22 @@ Periods that were left out count for all hold times, for the expiry of commands 
 - something else at a higher or equal priority, or interrupts on the same core
 - page faults, a debugger, a suspended machine
 - too many channels or too costly laws for the rate
-- a direct device that is slower than 20 µs
+- a direct device that takes longer than 20 µs
 
 ## Remedy
 
-1. Look at the times of the stages (`Loop::times()`): which part of the tick is long? Is its maximum far from its mean?
-2. A slow drive or sample stage: a device. A slow compute stage: lower the rate, or use fewer channels.
-3. Everything long now and then: priority, core, memory.
-4. Reset each channel; the self-test follows.
+1. `supercoil doctor`: each warning about kernel, priority, memory or clock comes with its remedy.
+2. Stop supercoild and run `supercoild --latency --config board.toml`. It runs the same ticks without devices. If they are long
+   or late there too, the cause is priority, processor or memory ([real time](../realtime.md)).
+3. If they are short there, compare with `execution_s` of [Timing](../can-protocol.md#timing) on the running board, which the page
+   shows. If that is much longer already while all channels are disarmed, a device is too slow to be
+   [direct](../porting.md#direct-or-behind-a-bus).
+4. If it becomes long only when channels are active, lower `rate_Hz`, or use fewer channels or simpler controllers.
+5. Reset each channel; the self-test follows.
 
 ## Margin
 
-A count of periods, of 5. `Loop::overruns()` counts all that were left out.
+A count of periods, of 5. `overruns` of [Timing](../can-protocol.md#timing) counts all periods that were left out since boot.
 
 ## Not detected
 
@@ -1185,54 +1192,57 @@ A count of periods, of 5. `Loop::overruns()` counts all that were left out.
 
 
 class TickLate(FaultError):
-    """The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
-controllers were computed for."""
+    """The loop wakes later than it asked for. The ticks still end in time, but their timing is not the one for which filters and
+controllers were computed."""
 
     number = 51
     name = "tick_late"
     meaning = """\
-The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
-controllers were computed for."""
+The loop wakes later than it asked for. The ticks still end in time, but their timing is not the one for which filters and
+controllers were computed."""
     remedy = """\
-1. Look at Loop::times().late: its mean, its maximum, its histogram. A shifted mean is a power-saving state, a long
-   tail is another thread.
-2. Give the loop its own core, a real-time priority, and locked memory.
-3. Only when the maximum is explained, raise late_s.
-4. Reset each channel."""
+1. supercoil doctor: each warning about kernel, priority, memory or clock comes with its remedy.
+2. Stop supercoild and run supercoild --latency --config board.toml --plot latency.svg. If all ticks are late by the same amount,
+   suspect a power-saving state; a few ticks that are very late point to another thread or to interrupts.
+3. Give the loop its own core, a real-time priority, and locked memory (real time).
+4. Raise late_ms only when the maximum is explained.
+5. Reset each channel."""
     page = """\
 # 51 tick_late
 
-The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
-controllers were computed for.
+The loop wakes later than it asked for. The ticks still end in time, but their timing is not the one for which filters and
+controllers were computed.
 
-**Detected** when 5 ticks in a row woke more than 0.5 ms after their time (`late_s`, `late_in_a_row`).
+**Detected** when 5 ticks in a row woke more than 0.5 ms after their time (`late_ms`, `late_in_a_row`).
 
 **Reaction:** every channel cold, heartbeat off.
 
-0.5 ms is half of a period at 1 kHz. At other rates set it to half of theirs.
+The default is half a period: 0.5 ms at 1 kHz.
 
 ## Likely causes
 
-- the thread has no real-time priority, or the kernel is not made for it
-- a power-saving state of the CPU that takes long to leave
-- another thread on the core
-- interrupts of a network or a disk
+- the thread has no real-time priority, or the kernel is not a real-time kernel
+- a power-saving state of the CPU from which it wakes slowly
+- another thread on the same core
+- interrupts of a network interface or a disk
 
 ## Remedy
 
-1. Look at `Loop::times().late`: its mean, its maximum, its histogram. A shifted mean is a power-saving state, a long
-   tail is another thread.
-2. Give the loop its own core, a real-time priority, and locked memory.
-3. Only when the maximum is explained, raise `late_s`.
-4. Reset each channel.
+1. `supercoil doctor`: each warning about kernel, priority, memory or clock comes with its remedy.
+2. Stop supercoild and run `supercoild --latency --config board.toml --plot latency.svg`. If all ticks are late by the same amount,
+   suspect a power-saving state; a few ticks that are very late point to another thread or to interrupts.
+3. Give the loop its own core, a real-time priority, and locked memory ([real time](../realtime.md)).
+4. Raise `late_ms` only when the maximum is explained.
+5. Reset each channel.
 
 ## Margin
 
-A count of ticks, of 5. How late each tick was is in `Loop::times().late`.
+A count of ticks, of 5. How late the ticks are is `late_s` of [Timing](../can-protocol.md#timing), the maximum since the frame
+before.
 
 ## Not detected
 
-- Single late ticks, however late, and any pattern with a punctual tick in between. They are in the histogram.
+- Single late ticks, however late, and any pattern with a punctual tick in between. Timing shows them.
 - A clock that runs fast or slow.
 """
 
@@ -1257,8 +1267,8 @@ so nothing should be hot."""
 The telemetry thread has stopped. The board can no longer be watched, and commands may not come through;
 so nothing should be hot.
 
-**Detected** when the counter that the thread turns (`Health::telemetry_heartbeats`) has not changed for 0.5 s
-(`telemetry_timeout_s`). It must turn from boot on.
+**Detected** when the counter that the thread increments has not changed for 0.5 s (`telemetry_timeout_ms`). It must count from
+boot on.
 
 **Reaction:** every channel cold, heartbeat off.
 
@@ -1266,7 +1276,7 @@ so nothing should be hot.
 
 - the thread has ended, or hangs in a call that blocks
 - the thread is starved: too low a priority on a busy machine
-- a program that runs the loop and does not turn the counter
+- a program of your own that runs the loop and does not increment `Health::telemetry_heartbeats`
 
 ## Remedy
 
@@ -1281,9 +1291,9 @@ In seconds: how long the counter has stood, of 0.5 s.
 
 ## Not detected
 
-- A thread that turns its counter and does nothing else.
-- Lost telemetry: rows that found no room are counted (`LoopTiming::lost_rows`) and told in the log, which is no fault.
-- In the simulation there is no telemetry thread: its runner turns the counter at each tick.
+- A thread that increments its counter and does nothing else.
+- Lost telemetry. Rows that found no room are counted and reported in the log; that is no fault.
+- In the simulation there is no telemetry thread: its runner increments the counter at each tick.
 """
 
 
@@ -1305,7 +1315,7 @@ Every command to heat expires unless it is renewed. The master has fallen silent
 
 Every command to heat expires unless it is renewed. The master has fallen silent.
 
-**Detected** when a channel has been active for more than 0.25 s without a renewal (`command_timeout_s`). `position`,
+**Detected** when a channel has been active for more than 0.25 s without a renewal (`command.timeout_ms`). `position`,
 `power` and `renew` renew; `identify` and `calibrate` only when they start, so they need `renew` while they run.
 Periods that were left out after an [overrun](overrun.md) count: no command was renewed in them.
 
@@ -1512,7 +1522,7 @@ its interface is down, which is the same for the board."""
 The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
 its interface is down, which is the same for the board.
 
-**Detected** at the tick at which the telemetry thread reports it (`bus_off_s` is 0: at once).
+**Detected** at the tick at which the telemetry thread reports it (`can_bus_off_ms` is 0: at once).
 
 **Reaction:** every channel cold. The heartbeat goes on: a bus is no reason to doubt the switches. In the table its
 scope is therefore `channel`, but no channel is spared. It does not occupy the board's latch: the emergency stop, a
@@ -1566,7 +1576,7 @@ next step is bus_off."""
 The CAN controller sees so many errors that it no longer marks them on the bus ("error passive"). It still works; the
 next step is [bus_off](bus_off.md).
 
-**Detected** when the state is error-passive, bus-off or down for 1 s without a gap (`bus_error_passive_s`). Being off is
+**Detected** when the state is error-passive, bus-off or down for 1 s without a gap (`can_error_passive_ms`). Being off is
 found earlier, as its own fault.
 
 **Reaction:** as for bus_off: every channel cold, and the heartbeat goes on. While it lasts no self-test begins and no
@@ -1652,36 +1662,35 @@ does not start where its nodes are taken.
 
 
 class ConfigurationInvalid(FaultError):
-    """The configuration is not the one that the firmware was started with: it changed under way."""
+    """The configuration is no longer the one that the firmware was started with."""
 
     number = 80
     name = "configuration_invalid"
     meaning = """\
-The configuration is not the one that the firmware was started with: it changed under way."""
+The configuration is no longer the one that the firmware was started with."""
     remedy = """\
 1. Compare the file with the version that you trust.
 2. If the change is meant: check it, and restart the firmware. A running firmware does not take over a configuration.
 3. If it was not edited: check the disk before you trust the board again.
 
-A reset works only if the flag is taken back, that is, when the file is as it was."""
+A reset works only once the program reports that the file is as it was."""
     page = """\
 # 80 configuration_invalid
 
-The configuration is not the one that the firmware was started with: it changed under way.
+The configuration is no longer the one that the firmware was started with.
 
-**Detected** at the tick after another thread says so (`Health::configuration_changed`).
+**Detected** at the tick after another thread of the program reports it. `supercoild` does not watch its file, so there this
+fault cannot appear: it is for programs of your own that run the loop (`Health::configuration_changed`).
 
 **Reaction:** every channel cold, heartbeat off.
 
-Settings that are wrong from the beginning do not lead here: `check()` names what is wrong, and the program that starts the
-firmware must refuse to. `supercoild` does not watch its file, so there this fault
-cannot appear: it is for programs of your own that run the loop.
+Settings that are wrong from the beginning do not lead here: supercoild names each mistake and does not start.
 
 ## Likely causes
 
 - the file was edited while the board ran
 - a package was updated under the running firmware
-- the file system gave other bytes: a disk that fails
+- a failing disk: the file was read differently
 
 ## Remedy
 
@@ -1689,7 +1698,7 @@ cannot appear: it is for programs of your own that run the loop.
 2. If the change is meant: check it, and restart the firmware. A running firmware does not take over a configuration.
 3. If it was not edited: check the disk before you trust the board again.
 
-A reset works only if the flag is taken back, that is, when the file is as it was.
+A reset works only once the program reports that the file is as it was.
 
 ## Margin
 
@@ -1698,8 +1707,6 @@ A flag: 0 is unchanged, 1 changed, the limit is 0.
 ## Not detected
 
 - Values that are valid and wrong: thermal bounds of another muscle, another resistance. **Nothing finds these.**
-- `check()` looks at the whole (numbers of channels, of controllers, the charge pump's decay); ranges of single values
-  are for readers of the file.
 """
 
 
@@ -1766,10 +1773,12 @@ class SelfTestFailed(FaultError):
     meaning = """\
 The board could not prove that it can cut the heat. It never gets armed."""
     remedy = """\
-1. Loop::self_test() says which half failed: pump_does_not_open or enable_does_not_cut.
-2. Unplug the muscles. What does each sense read? Not 0: offset.
-3. Pump: stop the firmware and measure behind the supply's switch. It must be dead.
-4. Enable: with the line low, a duty must not reach the gate.
+1. Look which cut failed: measured of the fault is 1 for the supply switch with its pump, and 2 for an enable line or a power
+   switch. The page and supercoil log --summary show it, and a bus has it in
+   FirstCause.
+2. Unplug the muscles. A sense that does not read 0 has an offset.
+3. If it is 1, stop the firmware and measure behind the supply switch: there must be no voltage.
+4. If it is 2, set a duty with the enable line low: it must not reach the gate.
 5. Restart. A reset does not help: a test that has failed stays failed."""
     page = """\
 # 82 self_test_failed
@@ -1788,12 +1797,12 @@ pulse of the probe's duty (2 %, 30 ms) is set while one of the two ways of cutti
 | 0.18 to 0.23 s | beats | low | 0 | as at 0.10 s |
 
 It fails when, from 0.07 s on and whether a pulse is on or not, any channel shows more than the smaller of
-`off_current_A` (50 mA) and half of what the probe should draw at the lowest supply (10.8 mA for 10 Ω and 10.8 V) for
+`current.off_A` (50 mA) and half of what the probe should draw at the lowest supply (10.8 mA for 10 Ω and 10.8 V) for
 a pulse's second half on average, or four times as much for more than 9 ms at any time of the test.
 
 **It waits,** with every line low, until the supply is within its limits, the stop circuit is closed, every channel has
 a current reading and the board has no fault (a bus fault counts as well). When one of these is lost it stops in that
-tick and begins anew later. What is missing becomes its own fault 0.1 s after boot, for example
+tick, and starts again later. What is missing becomes its own fault 0.1 s after boot, for example
 [under_voltage](under_voltage.md); once it is there again, a reset starts the test.
 
 **Reaction:** every channel goes to `fault`, the heartbeat stays off.
@@ -1801,21 +1810,24 @@ tick and begins anew later. What is missing becomes its own fault 0.1 s after bo
 ## Likely causes
 
 - the supply's switch is stuck closed, or the pump is bridged
-- the pump decays more slowly than `charge_pump_decay_s`, or another program beats
+- the pump decays more slowly than `charge_pump_decay_ms`, or another program beats
 - an enable gate that does nothing; a power switch that conducts by itself
 - the sense has an offset of more than 10.8 mA
 
 ## Remedy
 
-1. `Loop::self_test()` says which half failed: `pump_does_not_open` or `enable_does_not_cut`.
-2. Unplug the muscles. What does each sense read? Not 0: offset.
-3. Pump: stop the firmware and measure behind the supply's switch. It must be dead.
-4. Enable: with the line low, a duty must not reach the gate.
+1. Look which cut failed: `measured` of the fault is 1 for the supply switch with its pump, and 2 for an enable line or a power
+   switch. The page and `supercoil log --summary` show it, and a bus has it in
+   [FirstCause](../can-protocol.md#firstcause).
+2. Unplug the muscles. A sense that does not read 0 has an offset.
+3. If it is 1, stop the firmware and measure behind the supply switch: there must be no voltage.
+4. If it is 2, set a duty with the enable line low: it must not reach the gate.
 5. Restart. A reset does not help: a test that has failed stays failed.
 
 ## Margin
 
-A flag: 0 passed, 1 failed, the limit is 0.
+0: passed. 1: failed, because the supply switch does not open when the heartbeat stops. 2: failed, because an enable line does not
+cut, or a power switch conducts by itself. The limit is 0.
 
 ## Not detected
 

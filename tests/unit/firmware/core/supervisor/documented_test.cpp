@@ -112,7 +112,7 @@ TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
   check_says("sensor_out_of_range", "below −%g mm", -1e3 * s.min_position_m);
   check_says("sensor_out_of_range", "above %g mm", 1e3 * s.max_position_m);
   check_says("sensor_out_of_range", "for %g ms without a gap", 1e3 * s.out_of_range_s);
-  check_says("sensor_frozen", "`position_noise_rms_m` = %g µm", 1e6 * s.position_noise_rms_m);
+  check_says("sensor_frozen", "`position.noise_rms_m` = %g µm", 1e6 * s.position_noise_rms_m);
   check_says("sensor_frozen", "for %g s", s.frozen_s);
   check_says("sensor_jump", "than %g m/s times", s.max_speed_m_per_s);
   check_says("sensors_disagree", "more than %g K", s.disagree_K);
@@ -151,7 +151,7 @@ TEST(Documented, ThresholdsOfABoardAreTheDefaults) {
   check_says("overrun", "when %g periods", s.overruns_in_a_row);
   check_says("emergency_stop", "the pump's decay, %g ms", 1e3 * s.charge_pump_decay_s);
   check_says("telemetry_dead", "%g s", s.telemetry_timeout_s);
-  check_says("bus_off", "`bus_off_s` is %g: at once", s.bus_off_s);
+  check_says("bus_off", "`can_bus_off_ms` is %g: at once", 1e3 * s.bus_off_s);
   check_says("bus_error_passive", "for %g s without a gap", s.bus_error_passive_s);
 }
 

@@ -11,18 +11,18 @@ INTRODUCTION = """\
 
 Generated from `firmware/io/can/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
 
-Version {version}. Classical CAN with identifiers of 11 bits, at the bit rate on which all of the bus agree (500 kbit/s is usual).
-An identifier is base + node, node 1 to 63; each channel of a board is a node. The DBC describes node 1.
+Version {version}. Classical CAN with 11-bit identifiers, at the bit rate of the bus (usually 500 kbit/s). An identifier is base + node,
+node 1 to 63; each channel of a board is a node. The DBC describes node 1.
 
 All signals are little-endian (Intel): bit n is bit n mod 8, counted from the lowest, of byte n / 8, and a signal's lowest bit
-comes first. *Raw* is what the bits say: i signed (two's complement), u unsigned, a float is IEEE 754 of 32 bits. Raw times scale
-is the value. *n/a* is the raw value that says: not available; a float says it with NaN. What lies outside of a range is sent as
-its nearest end.
+comes first. *Raw* is the type of the bits: i is signed (two's complement), u is unsigned, a float is IEEE 754 with 32 bits. The value is
+raw × scale. *n/a* is the raw value for "not available"; for a float it is NaN. A value outside its range is sent as the nearest end of
+the range.
 
-A board passes over frames of other identifiers, of 29 bits, of CAN FD, and remote ones. A protected message
-([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of another length than its own is damaged, as one
-with a wrong checksum is: not obeyed, not answered, and counted towards the fault command_damaged. Of the others such a frame is passed
-over. [A session](#a-session) shows how all of it comes together.
+A board ignores frames with other identifiers, with 29-bit identifiers, of CAN FD, and remote frames. A protected message
+([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of the wrong length is damaged, like one with a wrong
+checksum: it is neither obeyed nor answered, and counts towards the fault command_damaged. Any other message of the wrong length is ignored.
+[A session](#a-session) shows how all of this works together.
 
 | identifier | message | from | every | bytes |
 |---|---|---|---|---|

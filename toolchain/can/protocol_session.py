@@ -3,29 +3,29 @@
 SESSION = """
 ## A session
 
-A master moves the muscle of node 1 to 10 mm and lets it go. `session` of the claim (0x1234 here) is any number of its own; 0xBEEF and
-0x5A17 stand for what the board chooses at random. An answer comes within some ms; none within 100 ms was lost: send the command
-again as a new one, with the next counter.
+A master moves the muscle of node 1 to 10 mm and lets it go. In the claim `session` is any number that the master chooses (0x1234 here);
+0xBEEF and 0x5A17 stand for numbers that the board chooses at random. An answer comes within a few ms. If there is none within 100 ms,
+command or answer was lost: send the command again as a new one, with the next counter.
 
 | from | what | identifier | bytes |
 |---|---|---|---|
 """
 
 RULES = """
-- **Counter.** Each answer repeats its command's. The claim that is granted sets it: the next command has one more, modulo 16, and so
-  on, whatever was refused in between. A frame may skip up to 3.
-- **Checksum.** CRC-8H2F: polynomial 0x2F, start 0xFF, final XOR 0xFF, nothing reflected; of the ASCII text `123456789` it is 0xDF. Over
-  all bytes but the first, then the data id, which is the low byte of the identifier: 0x01 for Command and 0x41 for Acknowledge
-  of node 1, 0x02 and 0x42 of node 2.
-- **Lease.** A number of claim_again is good for one claim within `lease_ms` (1 s). A lease ends so long after its last command of
-  the right session and counter, with the board's start, and by `lease` with value -1.
-- **Expiry.** What heats ends as the fault command_timeout when neither it nor `renew` came for `command.timeout_ms` (250 ms): send
+- **Counter.** Each answer repeats the counter of its command. The claim that is granted sets the counter: each command after it has one
+  more, modulo 16, even if commands in between were refused. A frame may skip up to 3.
+- **Checksum.** CRC-8H2F: polynomial 0x2F, start 0xFF, final XOR 0xFF, nothing reflected; for the ASCII text `123456789` it is 0xDF. It is
+  computed over all bytes but the first, and then the data id, which is the low byte of the identifier: for node 1 0x01 in Command and
+  0x41 in Acknowledge, for node 2 0x02 and 0x42.
+- **Lease.** The number from claim_again is good for one claim within `lease_ms` (1 s). A lease ends `lease_ms` after its last command
+  with the right session and counter, when the board starts, and by `lease` with value -1.
+- **Expiry.** A command to heat ends as the fault command_timeout if neither it nor `renew` comes for `command.timeout_ms` (250 ms). Send
   one of them every 50 ms. Both times are keys of the board's file.
-- **Values.** `position`: from minus to plus the channel's `limits.max_travel_m`, from rest. `power`: any finite number; below 0 the
-  muscle gets none, above `limits.max_W` it gets that. What is beyond is refused with `out_of_range`, as is NaN, and as is any value but 0 of
-  `arm`, `reset`, `renew`, `rest`, `identify`, `calibrate`; RefusedValue then has the nearest that would be obeyed, and the channel goes on as
-  before.
-- **Stop.** `disarm` with value 0 is obeyed from everybody, with any session and counter; the checksum must be right. With another
+- **Values.** `position`: from minus to plus the channel's `limits.max_travel_m`, from rest; beyond that it is refused with `out_of_range`.
+  `power`: any finite number; below 0 the muscle gets none, above `limits.max_W` it gets `limits.max_W`. Also refused with `out_of_range`
+  are NaN, and any value but 0 of `arm`, `reset`, `renew`, `rest`, `identify` and `calibrate`. RefusedValue then has the nearest value that
+  would be obeyed, and the channel continues as before.
+- **Stop.** `disarm` with value 0 is obeyed from every sender, with any session and counter; the checksum must be right. With another
   value it needs the lease, as other commands do.
 """
 

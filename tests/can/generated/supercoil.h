@@ -1056,7 +1056,7 @@ extern "C" {
 /**
  * Signals in message Sync.
  *
- * The master's clock, for all boards of the bus: always this identifier. Each takes when it came, to the microsecond where its kernel tells that, and goes by it while it plays a trajectory; none answers. Once a second is often enough.
+ * The master's clock, for all boards of the bus; the identifier is always this one. Each board takes the time at which the frame came, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1071,7 +1071,7 @@ struct supercoil_sync_t {
     uint8_t crc;
 
     /**
-     * One more with each, 0 after 255: by it Play names one.
+     * One more with each Sync, 0 after 255. Play refers to a Sync by this number.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1080,7 +1080,7 @@ struct supercoil_sync_t {
     uint8_t sync;
 
     /**
-     * When it was handed to the bus, by a clock of the master's that nothing sets.
+     * Time at which the frame was handed to the bus, by a clock of the master that is never set.
      *
      * Range: 0..281474976710655 (0..281474976.71065 s)
      * Scale: 1e-06
@@ -1092,7 +1092,7 @@ struct supercoil_sync_t {
 /**
  * Signals in message Emergency.
  *
- * Sent at once when the channel's fault changes: when one latches, and with none when it was reset.
+ * Sent at once when the channel's fault changes: when a fault latches, and with none when it was reset.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1107,7 +1107,7 @@ struct supercoil_emergency_t {
     uint8_t fault;
 
     /**
-     * Of the channel, with this fault.
+     * The channel's state with this fault.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -1128,7 +1128,7 @@ struct supercoil_emergency_t {
 /**
  * Signals in message FirstCause.
  *
- * Sent right after an Emergency that tells a fault: the margin of the detector that tripped, as it was then.
+ * Sent right after an Emergency that reports a fault: the margin of the detector that tripped, at that time.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1143,7 +1143,7 @@ struct supercoil_first_cause_t {
     float measured;
 
     /**
-     * Of the same unit; what was measured lies beyond it.
+     * In the same unit; what was measured lies beyond it.
      *
      * Range: -
      * Scale: 1
@@ -1155,7 +1155,7 @@ struct supercoil_first_cause_t {
 /**
  * Signals in message Knot.
  *
- * The next knot of a trajectory, at which the muscle is to be at this position with this velocity. Between knots position, velocity and acceleration are continuous. Taken while the muscle follows a position, and forgotten with any other command than a knot, Play and renew. Renews the command to heat.
+ * The next knot of a trajectory: the position at which the muscle is to be, with this velocity. Between knots position, velocity and acceleration are continuous. Accepted while the muscle follows a position, and forgotten with any command other than a knot, Play and renew. Renews the command to heat.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1170,7 +1170,7 @@ struct supercoil_knot_t {
     uint8_t crc;
 
     /**
-     * Of the same row as Command's.
+     * Counts together with that of Command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1179,7 +1179,7 @@ struct supercoil_knot_t {
     uint8_t counter;
 
     /**
-     * Since the knot before. 0: the first one of another trajectory, where the muscle is told to be now, with velocity 0.
+     * Time since the knot before. 0: the first knot of another trajectory, at the position that is commanded now and with velocity 0.
      *
      * Range: 0..4094 (0..4.094 s)
      * Scale: 0.001
@@ -1188,7 +1188,7 @@ struct supercoil_knot_t {
     uint16_t after_s;
 
     /**
-     * As Measurement has it.
+     * As in Measurement.
      *
      * Range: -8388607..8388607 (-0.83886..0.83886 m)
      * Scale: 1e-07
@@ -1197,7 +1197,7 @@ struct supercoil_knot_t {
     int32_t position_m;
 
     /**
-     * 0 at the last one. A trajectory that ends with another has run dry: the muscle is held there for 1 s, and then rests.
+     * 0 at the last knot. A trajectory that ends with another velocity has run dry: the muscle is held there for 1 s, and then rests.
      *
      * Range: -32767..32767 (-0.32767..0.32767 m/s)
      * Scale: 1e-05
@@ -1209,7 +1209,7 @@ struct supercoil_knot_t {
 /**
  * Signals in message Play.
  *
- * Starts the trajectory, whose time is 0 at its first knot. Renews the lease, and not the command to heat.
+ * Starts the trajectory; its time is 0 at its first knot. Renews the lease, but not the command to heat.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1224,7 +1224,7 @@ struct supercoil_play_t {
     uint8_t crc;
 
     /**
-     * Of the same row as Command's.
+     * Counts together with that of Command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1233,7 +1233,7 @@ struct supercoil_play_t {
     uint8_t counter;
 
     /**
-     * From which moment after_s counts: at_once from when this came; at_sync from when Sync came with this number: one of the last 2 s by which the start is still ahead, else the next with it; never asks for Trajectory alone.
+     * From when after_s counts. at_once: from the arrival of this frame. at_sync: from the arrival of the Sync with this number: one of the last 2 s if the start is then still ahead, else the next one. never: starts nothing, only asks for Trajectory.
      *
      * Range: 0..2 (0..2 -)
      * Scale: 1
@@ -1242,7 +1242,7 @@ struct supercoil_play_t {
     uint8_t when;
 
     /**
-     * Of the lease, as it was granted.
+     * The session of the lease, as it was granted.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1251,7 +1251,7 @@ struct supercoil_play_t {
     uint16_t session;
 
     /**
-     * Of at_sync. Boards that are all told the same start in the same tick.
+     * Number of the Sync for at_sync. Boards that are given the same number and time start in the same tick.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1260,7 +1260,7 @@ struct supercoil_play_t {
     uint8_t sync;
 
     /**
-     * Until the start.
+     * Time until the start.
      *
      * Range: 0..6000000 (0..60 s)
      * Scale: 1e-05
@@ -1272,7 +1272,7 @@ struct supercoil_play_t {
 /**
  * Signals in message Trajectory.
  *
- * The answer to a Knot and to Play; and by itself whenever playback becomes another.
+ * The answer to a Knot and to Play; also sent whenever the state of the playback changes.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1287,7 +1287,7 @@ struct supercoil_trajectory_t {
     uint8_t crc;
 
     /**
-     * Of what it answers.
+     * Counter of the frame that it answers.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1296,7 +1296,7 @@ struct supercoil_trajectory_t {
     uint8_t counter;
 
     /**
-     * What it answers.
+     * The kind of frame that it answers.
      *
      * Range: 0..2 (0..2 -)
      * Scale: 1
@@ -1305,7 +1305,7 @@ struct supercoil_trajectory_t {
     uint8_t answers;
 
     /**
-     * Low byte of the session of what it answers.
+     * Low byte of the session of the frame that it answers.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1314,7 +1314,7 @@ struct supercoil_trajectory_t {
     uint8_t session_low;
 
     /**
-     * none: it was taken. Else why not. infeasible: the way to this knot asks for more power than there is, or would have the muscle cooled; queue_full: there is no room; wrong_state: the muscle follows no position, there is no first knot, or playback is at the end already; not_ready: the muscle is told to be elsewhere than at the first knot; out_of_range: the position, or a start whose time is over.
+     * none: it was accepted. Otherwise the reason. infeasible: the way to this knot needs more power than there is, or faster cooling; queue_full: there is no room; wrong_state: the muscle follows no position, there is no first knot, or playback has ended already; not_ready: the position that is commanded now is not that of the first knot; out_of_range: the position, or a start in the past.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1323,7 +1323,7 @@ struct supercoil_trajectory_t {
     uint8_t refusal;
 
     /**
-     * What becomes of the trajectory. waiting: for its start. ended: held at its last knot. dry: the next knot is missing.
+     * State of the trajectory. waiting: for its start. ended: held at its last knot. dry: the next knot is missing.
      *
      * Range: 0..5 (0..5 -)
      * Scale: 1
@@ -1332,7 +1332,7 @@ struct supercoil_trajectory_t {
     uint8_t playback;
 
     /**
-     * So many knots more have room.
+     * How many more knots have room.
      *
      * Range: 0..63 (0..63 -)
      * Scale: 1
@@ -1341,7 +1341,7 @@ struct supercoil_trajectory_t {
     uint8_t room;
 
     /**
-     * Until the last knot.
+     * Time until the last knot.
      *
      * Range: 0..65534 (0..655.34 s)
      * Scale: 0.01
@@ -1359,7 +1359,7 @@ struct supercoil_trajectory_t {
  */
 struct supercoil_tuning_read_t {
     /**
-     * In the configuration: of a controller from 0, of an estimator from 8. Boards older than supercoil 0.2.0 have no estimators here.
+     * Place in the configuration: of a controller from 0, of an estimator from 8. Boards older than supercoil 0.2.0 have no estimators here.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1
@@ -1368,7 +1368,7 @@ struct supercoil_tuning_read_t {
     uint8_t place;
 
     /**
-     * Which of its values: those that tune will use, those in use, those of the board's file, those that the next start will use.
+     * Which set of values: those that tune will use, those in use, those of the board's file, or those that the next start will use.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -1389,13 +1389,13 @@ struct supercoil_tuning_read_t {
 /**
  * Signals in message Command.
  *
- * One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed.
+ * One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Somebody who repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_command_t {
     /**
-     * CRC-8H2F (polynomial 0x2F, start 0xFF, final XOR 0xFF) over bytes 1 to 7 and then the data id. It sees all damages of up to 3 bits.
+     * CRC-8H2F (polynomial 0x2F, start 0xFF, final XOR 0xFF) over bytes 1 to 7 and then the data id. It detects all errors of up to 3 bits.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1404,7 +1404,7 @@ struct supercoil_command_t {
     uint8_t crc;
 
     /**
-     * One more with each command of a session, 0 after 15. Up to 3 may be lost in between. An old frame passes for the next one when 12 to 15 commands of its session came after it, modulo 16; every other repetition is refused (wrong_counter).
+     * One more with each command of a session, 0 after 15. Up to 3 in between may be lost. An old frame passes as the next one if 12 to 15 commands of its session came after it, modulo 16; every other repetition is refused (wrong_counter).
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1413,7 +1413,7 @@ struct supercoil_command_t {
     uint8_t counter;
 
     /**
-     * What to do. lease claims, keeps and gives back the right to command. disarm with value 0 is obeyed from everybody, whatever session and counter are.
+     * What to do. lease claims, keeps and gives back the right to command. disarm with value 0 is obeyed from every sender, with any session and counter.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1422,7 +1422,7 @@ struct supercoil_command_t {
     uint8_t opcode;
 
     /**
-     * Of the lease, as it was granted; of a claim: any number by which its sender knows the answer.
+     * The session of the lease, as it was granted. In a claim: any number by which the sender recognises the answer.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1431,7 +1431,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to a place as in TuningRead: what is there gets its prepared values, at once; a controller that is at work without a jump, an estimator begins anew. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number from claim_again takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to a place as in TuningRead: what is there gets its prepared values, at once; a running controller takes them over without a jump, an estimator restarts. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
      *
      * Range: -
      * Scale: 1
@@ -1443,7 +1443,7 @@ struct supercoil_command_t {
 /**
  * Signals in message Acknowledge.
  *
- * The answer to a command, also when it was refused. A damaged command is not answered, as nobody knows whose it was. Protected as Command is.
+ * The answer to a command, also to one that is refused. A damaged command is not answered, because its sender is not known. Protected in the same way as Command.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1485,7 +1485,7 @@ struct supercoil_acknowledge_t {
     uint16_t session;
 
     /**
-     * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; disarm alone is the same in all.
+     * none: the command was obeyed. Otherwise the reason for the refusal. out_of_range: RefusedValue has the value. claim_again: claim again with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; only disarm is the same in all versions.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1494,7 +1494,7 @@ struct supercoil_acknowledge_t {
     uint8_t refusal;
 
     /**
-     * Of a lease that was claimed: the session from now on. With claim_again: a random number, good for one claim until the lease's time has passed. Else 0.
+     * Answering a claim that was granted: the session from now on. With claim_again: a random number that is good for one claim within the lease time. Otherwise 0.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1521,7 +1521,7 @@ struct supercoil_measurement_t {
     int32_t position_m;
 
     /**
-     * Of the muscle, smoothed; held while the duty is too low to measure it.
+     * Resistance of the muscle, smoothed. The last value is held while the duty is too low to measure it.
      *
      * Range: 0..16777214 (0..16777.214 Ohm)
      * Scale: 0.001
@@ -1548,7 +1548,7 @@ struct supercoil_measurement_t {
  */
 struct supercoil_tracking_t {
     /**
-     * The position that is asked for.
+     * The position that was commanded.
      *
      * Range: -8388607..8388607 (-0.83886..0.83886 m)
      * Scale: 1e-07
@@ -1557,7 +1557,7 @@ struct supercoil_tracking_t {
     int32_t reference_m;
 
     /**
-     * Of the reference model, which the controller makes the muscle follow.
+     * Position of the reference model, which the controller makes the muscle follow.
      *
      * Range: -8388607..8388607 (-0.83886..0.83886 m)
      * Scale: 1e-07
@@ -1566,7 +1566,7 @@ struct supercoil_tracking_t {
     int32_t model_m;
 
     /**
-     * Position less model, both of the same tick. A larger error is shown as the largest.
+     * Position minus model, both of the same tick. A larger error is sent as the end of the range.
      *
      * Range: -32767..32767 (-0.03277..0.03277 m)
      * Scale: 1e-06
@@ -1578,13 +1578,13 @@ struct supercoil_tracking_t {
 /**
  * Signals in message Power.
  *
- * What the controller wants and what the muscle gets.
+ * The power that the controller demands, and the power that the muscle gets.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_power_t {
     /**
-     * Wanted by the controller, before any limit; may be negative. In mode power it is the reference; in mode joint what this muscle is to pull with while no effort is asked for. Of the agonist of a joint it is the effort of both muscles.
+     * Demanded by the controller, before any limit; may be negative. In mode power it is the reference. In mode joint it is the power with which this muscle pulls while no effort is demanded. For the agonist of a joint it is the effort of both muscles.
      *
      * Range: -8388607..8388607 (-1677.7214..1677.7214 W)
      * Scale: 0.0002
@@ -1593,7 +1593,7 @@ struct supercoil_power_t {
     int32_t demanded_w;
 
     /**
-     * From this tick to the next, after limits, PWM and delay.
+     * Power from this tick to the next, after limits, PWM and delay.
      *
      * Range: -8388607..8388607 (-1677.7214..1677.7214 W)
      * Scale: 0.0002
@@ -1602,7 +1602,7 @@ struct supercoil_power_t {
     int32_t applied_w;
 
     /**
-     * The limit that took the rest, or for which the reference was shaped. Not a fault.
+     * The limit that reduced the power, or for which the reference was shaped. Not a fault.
      *
      * Range: 0..7 (0..7 -)
      * Scale: 1
@@ -1611,7 +1611,7 @@ struct supercoil_power_t {
     uint8_t limited_by;
 
     /**
-     * 1: the applied power is not the one that was demanded, for whatever reason.
+     * 1: the applied power differs from the demanded power, for whatever reason.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -1629,7 +1629,7 @@ struct supercoil_power_t {
  */
 struct supercoil_heater_t {
     /**
-     * Of the board's supply; 0: not measured.
+     * The board's supply; 0: not measured.
      *
      * Range: 0..65534 (0..65.534 V)
      * Scale: 0.001
@@ -1638,7 +1638,7 @@ struct supercoil_heater_t {
     uint16_t supply_v;
 
     /**
-     * Through the muscle, as the sense gives it.
+     * Current through the muscle, as sensed.
      *
      * Range: -8388607..8388607 (-83.88607..83.88607 A)
      * Scale: 1e-05
@@ -1647,7 +1647,7 @@ struct supercoil_heater_t {
     int32_t current_a;
 
     /**
-     * Of the PWM, 0 to 1.
+     * Duty of the PWM, 0 to 1.
      *
      * Range: 0..65534 (0..1.31068 -)
      * Scale: 2e-05
@@ -1659,13 +1659,13 @@ struct supercoil_heater_t {
 /**
  * Signals in message Temperature.
  *
- * The muscle's temperature lies between these; it is estimated, never measured.
+ * Bounds of the muscle's temperature, which is estimated and never measured.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_temperature_t {
     /**
-     * The least that it may be.
+     * Lower bound.
      *
      * Range: -32767..32767 (-327.67..327.67 degC)
      * Scale: 0.01
@@ -1674,7 +1674,7 @@ struct supercoil_temperature_t {
     int16_t coldest_c;
 
     /**
-     * The most that it may be; protection acts on this one.
+     * Upper bound; the protection acts on this one.
      *
      * Range: -32767..32767 (-327.67..327.67 degC)
      * Scale: 0.01
@@ -1686,13 +1686,13 @@ struct supercoil_temperature_t {
 /**
  * Signals in message Estimate.
  *
- * What the board has learned of the muscle: one parameter after the other, each with its trust. A round is the first 8, 0.8 s at the usual rate; while the estimator tells standard deviations (least_squares) it is all 14, 1.4 s.
+ * What the board has learned about the muscle: one parameter in each frame, with its trust. A round is the first 8 parameters, 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares) a round is all 14, 1.4 s.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_estimate_t {
     /**
-     * Which one this frame carries; one after the other. bias and the deviations, as they were at most 13 ticks before, are left out while the estimator tells none.
+     * Which parameter this frame carries; they come in turn. bias and the deviations are at most 13 ticks old, and are left out while the estimator provides none.
      *
      * Range: 0..13 (0..13 -)
      * Scale: 1
@@ -1701,7 +1701,7 @@ struct supercoil_estimate_t {
     uint8_t parameter;
 
     /**
-     * 1: excited enough and settled, so that the estimates may be used.
+     * 1: the motion was rich enough and the estimates have settled, so they may be used.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -1710,7 +1710,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); 2: theta2 is known to 10 to 50 % only (a refusal beyond); refused because 4, 8: theta3, theta4 is uncertain; 16: the motion was not explained (beside found: not that of full strokes, but of shorter ones); 32: implausible; 64: the muscle hardly moved.
+     * Notes of the last identify, as bits. No reason for a refusal: 1: theta1 was not known well enough and keeps the value that it had before; 2: theta2 is known to within 10 to 50 % only (if it is known less well, a reason). Reasons for a refusal: 4: theta3 is uncertain; 8: theta4 is uncertain; 16: the model does not explain the motion (with found: it explains shorter strokes, not full ones); 32: implausible; 64: the muscle hardly moved.
      *
      * Range: 0..127 (0..127 -)
      * Scale: 1
@@ -1719,7 +1719,7 @@ struct supercoil_estimate_t {
     uint8_t identify_notes;
 
     /**
-     * Of theta1 to theta4 together, relative: 0.1 is 10 %. A larger one is shown as the largest.
+     * Relative bound of the error of theta1 to theta4 together: 0.1 is 10 %. A larger one is sent as the end of the range.
      *
      * Range: 0..65534 (0..6.5534 -)
      * Scale: 0.0001
@@ -1764,7 +1764,7 @@ struct supercoil_estimate_t {
     float theta4;
 
     /**
-     * Thermal mass psi, from theta with the configured mass and force per kelvin. NaN: this theta is no muscle's.
+     * Thermal mass psi, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1773,7 +1773,7 @@ struct supercoil_estimate_t {
     float thermal_mass_j_per_k;
 
     /**
-     * Heat transfer eta to the air, from theta with the configured mass and force per kelvin. NaN: this theta is no muscle's.
+     * Heat transfer eta to the air, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1782,7 +1782,7 @@ struct supercoil_estimate_t {
     float heat_transfer_w_per_k;
 
     /**
-     * Stiffness rho, from theta with the configured mass and force per kelvin. NaN: this theta is no muscle's.
+     * Stiffness rho, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1791,7 +1791,7 @@ struct supercoil_estimate_t {
     float stiffness_n_per_m;
 
     /**
-     * Damping mu, from theta with the configured mass and force per kelvin. NaN: this theta is no muscle's.
+     * Damping mu, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1800,7 +1800,7 @@ struct supercoil_estimate_t {
     float damping_ns_per_m;
 
     /**
-     * Constant power that is estimated beside theta: a load, a wrong zero. NaN: none is known.
+     * Constant power that is estimated together with theta, such as from a load or a wrong zero. NaN: none is known.
      *
      * Range: -
      * Scale: 1
@@ -1857,13 +1857,13 @@ struct supercoil_estimate_t {
 /**
  * Signals in message Margin.
  *
- * How near one detector is to tripping; all detectors come round.
+ * How near a detector is to tripping; the detectors come in turn.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_margin_t {
     /**
-     * Whose detector; none: none yet.
+     * The detector's fault; none: nothing yet.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -1872,7 +1872,7 @@ struct supercoil_margin_t {
     uint8_t fault;
 
     /**
-     * How much of its limit is used: 1 or more is beyond it. A larger one is shown as the largest.
+     * Used share of the detector's limit: 1 or more is beyond it. A larger one is sent as the end of the range.
      *
      * Range: 0..65534 (0..65.534 -)
      * Scale: 0.001
@@ -1893,13 +1893,13 @@ struct supercoil_margin_t {
 /**
  * Signals in message Limit.
  *
- * The limit of one detector; all come round.
+ * The limit of a detector; the detectors come in turn.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_limit_t {
     /**
-     * Whose detector; none: none yet.
+     * The detector's fault; none: nothing yet.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -1920,13 +1920,13 @@ struct supercoil_limit_t {
 /**
  * Signals in message Timing.
  *
- * Of the whole board; sent by its first node only.
+ * Timing of the whole board, sent by its first node only.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_timing_t {
     /**
-     * How late a tick woke at most since the last of these frames. Not available: no tick.
+     * Maximum lateness of a tick since the Timing before. Not available: there was no tick.
      *
      * Range: 0..1048574 (0..0.10486 s)
      * Scale: 1e-07
@@ -1935,7 +1935,7 @@ struct supercoil_timing_t {
     uint32_t late_s;
 
     /**
-     * How long a tick took at most since the last of these frames. Not available: no tick.
+     * Maximum duration of a tick since the Timing before. Not available: there was no tick.
      *
      * Range: 0..1048574 (0..0.10486 s)
      * Scale: 1e-07
@@ -1953,7 +1953,7 @@ struct supercoil_timing_t {
     uint16_t overruns;
 
     /**
-     * Frames that the bus did not take and that gave way to newer ones, since boot, modulo 4096.
+     * Frames that the bus did not take and that were replaced by newer ones, since boot, modulo 4096.
      *
      * Range: 0..4095 (0..4095 -)
      * Scale: 1
@@ -1965,13 +1965,13 @@ struct supercoil_timing_t {
 /**
  * Signals in message Gain.
  *
- * What the active controller multiplies its signals by; its gains come round. An adaptive controller changes them.
+ * Gains of the active controller, in turn. An adaptive controller changes them.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_gain_t {
     /**
-     * Which one this frame carries; none: the controller has none.
+     * Which gain this frame carries; none: the controller has none.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1992,13 +1992,13 @@ struct supercoil_gain_t {
 /**
  * Signals in message RefusedValue.
  *
- * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Boards of protocol version 3 and older do not tell it, nor do the first of version 4.
+ * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_refused_value_t {
     /**
-     * As in the Command or SettingWrite that was refused.
+     * The value in the Command or SettingWrite that was refused.
      *
      * Range: -
      * Scale: 1
@@ -2007,7 +2007,7 @@ struct supercoil_refused_value_t {
     float value;
 
     /**
-     * Of the values that would have been obeyed the nearest. NaN: there is none, or more than the value spoke against it.
+     * The nearest value that would have been obeyed. NaN: there is none, or the value was not the only reason for the refusal.
      *
      * Range: -
      * Scale: 1
@@ -2034,7 +2034,7 @@ struct supercoil_muscle_t {
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last seven are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
+     * The value that is in use, in the unit of the quantity's name: configured, or found by identify and calibrate. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last seven are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2046,7 +2046,7 @@ struct supercoil_muscle_t {
 /**
  * Signals in message Setting.
  *
- * The answer to SettingWrite and SettingRead: what holds from now on, also when the write was refused. Protected as Command is.
+ * The answer to SettingWrite and SettingRead: the value from now on, also if the write was refused. Protected in the same way as Command.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2061,7 +2061,7 @@ struct supercoil_setting_t {
     uint8_t crc;
 
     /**
-     * Of the write; 0 of a read.
+     * Counter of the write; 0 for a read.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2079,7 +2079,7 @@ struct supercoil_setting_t {
     uint8_t setting;
 
     /**
-     * none: it was written, or read. Else why not.
+     * none: it was written, or read. Otherwise the reason for the refusal.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2088,7 +2088,7 @@ struct supercoil_setting_t {
     uint8_t refusal;
 
     /**
-     * Low byte of the write's session, by which its master knows the answer; 0 of a read.
+     * Low byte of the write's session, by which its master recognises the answer; 0 for a read.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2097,7 +2097,7 @@ struct supercoil_setting_t {
     uint8_t session_low;
 
     /**
-     * max_power_W: W. Rates: Hz. supply_gain, current_gain: true over measured, of a comparison with a meter; sense_error_ratio: what it left, 0: not compared. NaN: no such setting.
+     * max_power_W: W. Rates: Hz. supply_gain, current_gain: true over measured value, from a comparison with a meter; sense_error_ratio: the error that remains, 0: not compared. NaN: there is no such setting.
      *
      * Range: -
      * Scale: 1
@@ -2109,7 +2109,7 @@ struct supercoil_setting_t {
 /**
  * Signals in message SettingWrite.
  *
- * Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
+ * Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2151,7 +2151,7 @@ struct supercoil_setting_write_t {
     uint16_t session;
 
     /**
-     * max_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never. Those of the senses are only read: compare changes them.
+     * max_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never. Settings of the senses can only be read: the command compare changes them.
      *
      * Range: -
      * Scale: 1
@@ -2199,7 +2199,7 @@ struct supercoil_muscle_read_t {
 /**
  * Signals in message Tuning.
  *
- * The answer to TuningRead and TuningWrite. Protected as Command is. Boards older than supercoil 0.2.0 do not answer.
+ * The answer to TuningRead and TuningWrite. Protected in the same way as Command. Boards older than supercoil 0.2.0 do not answer.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2214,7 +2214,7 @@ struct supercoil_tuning_t {
     uint8_t crc;
 
     /**
-     * Of the write; 0 of a read.
+     * Counter of the write; 0 for a read.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2223,7 +2223,7 @@ struct supercoil_tuning_t {
     uint8_t counter;
 
     /**
-     * Of the read or write.
+     * As in the read or write.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1
@@ -2232,7 +2232,7 @@ struct supercoil_tuning_t {
     uint8_t place;
 
     /**
-     * Of the read or write.
+     * As in the read or write.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2241,7 +2241,7 @@ struct supercoil_tuning_t {
     uint8_t tunable;
 
     /**
-     * none: it was written, or read. Else why not.
+     * none: it was written, or read. Otherwise the reason for the refusal.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2250,7 +2250,7 @@ struct supercoil_tuning_t {
     uint8_t refusal;
 
     /**
-     * Of the read; of a write: prepared.
+     * The set that was read; for a write: prepared.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -2259,7 +2259,7 @@ struct supercoil_tuning_t {
     uint8_t set;
 
     /**
-     * That holds now, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (of a model without them: equal ones), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such place or parameter, or one of this kind has none.
+     * The value from now on, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (equal ones for a model that has none), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such place or parameter, or this kind does not have it.
      *
      * Range: -
      * Scale: 1
@@ -2277,7 +2277,7 @@ struct supercoil_tuning_t {
  */
 struct supercoil_status_t {
     /**
-     * disarmed and fault: off. armed: off, ready. active: heats. Off is not cold: hottest_C says what it may be.
+     * disarmed and fault: off. armed: off, ready. active: heats. Off does not mean cold: hottest_C has the upper bound.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -2286,7 +2286,7 @@ struct supercoil_status_t {
     uint8_t state;
 
     /**
-     * What an active channel does. joint, bundle: it is led by another channel.
+     * What an active channel does. joint, bundle: another channel leads it.
      *
      * Range: 0..6 (0..6 -)
      * Scale: 1
@@ -2295,7 +2295,7 @@ struct supercoil_status_t {
     uint8_t mode;
 
     /**
-     * What first led to the state fault.
+     * First cause of the state fault.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -2358,7 +2358,7 @@ struct supercoil_status_t {
     uint8_t controller;
 
     /**
-     * Of identify and calibrate, 0 to 1.
+     * Progress of identify and calibrate, 0 to 1.
      *
      * Range: 0..254 (0..1.27 -)
      * Scale: 0.005
@@ -2367,7 +2367,7 @@ struct supercoil_status_t {
     uint8_t progress;
 
     /**
-     * One more with each Status of this node: a gap is a lost frame.
+     * One more with each Status of this node: a gap means a lost frame.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2376,7 +2376,7 @@ struct supercoil_status_t {
     uint8_t counter;
 
     /**
-     * Of this protocol. Another number: get the DBC that the board's own supercoil dbc prints.
+     * Version of this protocol. If it is another number, use the DBC that the board's own supercoil dbc prints.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2385,7 +2385,7 @@ struct supercoil_status_t {
     uint8_t protocol_version;
 
     /**
-     * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored; not_stored: used; all else changes nothing.
+     * How the last identify or calibrate ended. found: used from then on and stored; not_stored: used, but not stored; every other result changes nothing.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1
@@ -2394,7 +2394,7 @@ struct supercoil_status_t {
     uint8_t result;
 
     /**
-     * 1: proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
+     * 1: proof_of_response is false, or does not apply (to the two muscles of a joint, and to a muscle that follows in a bundle): an identified muscle that no longer reaches its sensor may overheat unseen. Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2403,7 +2403,7 @@ struct supercoil_status_t {
     uint8_t proof_off;
 
     /**
-     * 1: the controller that follows has seen its loop oscillate by itself, and its feedback is slower since then (but for mrac and mrac_ls, or where slow_when_oscillating is false). 0 also from boards that do not tell it.
+     * 1: the loop of the controller that follows has oscillated by itself, and the controller has lowered its feedback since then (except mrac and mrac_ls, and with slow_when_oscillating false). Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2412,7 +2412,7 @@ struct supercoil_status_t {
     uint8_t oscillated;
 
     /**
-     * 1: the last identify that found the muscle saw less than half of a small motion arrive at the sensor. Friction takes the rest, and the power may be held to what is proven. 0 also from boards that do not tell it.
+     * 1: in the last identify that found the muscle, less than half of a small motion arrived at the sensor. Friction takes the rest, and the power may be held to what is proven. Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2421,7 +2421,7 @@ struct supercoil_status_t {
     uint8_t friction;
 
     /**
-     * 1: by the models of both muscles and the pretension that is configured, this muscle of a joint pulls no more where the joint stands. Nothing measures it. 0 also where the pretension is not configured.
+     * 1: by the models of both muscles and the configured pretension, this muscle of a joint does not pull at the present angle. It is not measured. Also 0 where no pretension is configured.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2433,7 +2433,7 @@ struct supercoil_status_t {
 /**
  * Signals in message Boot.
  *
- * Which program the board runs: within a second of its start, and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not tell it.
+ * The program that the board runs, within a second of its start and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2478,13 +2478,13 @@ struct supercoil_boot_t {
 /**
  * Signals in message Joint.
  *
- * The joint and both of its heaters, one part after the other: from the agonist's node, and where a spring or gravity draws one muscle back, from that muscle's. Such a joint has the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. What is wrong with the joint is in Emergency and Status of the same node: a fault of either muscle is both's.
+ * The joint and both of its heaters, in parts that come in turn: from the agonist's node or, where a spring or gravity pulls one muscle back, from that muscle's node. Such a joint has the first four parts only. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_joint_t {
     /**
-     * Which one this frame carries.
+     * Which part this frame carries.
      *
      * Range: 0..5 (0..5 -)
      * Scale: 1
@@ -2538,7 +2538,7 @@ struct supercoil_joint_t {
     int32_t angle_deg;
 
     /**
-     * The angle that is asked for. Available in mode position only.
+     * The angle that was commanded. Available in mode position only.
      *
      * Range: -524287..524287 (-262.1435..262.1435 deg)
      * Scale: 0.0005
@@ -2547,7 +2547,7 @@ struct supercoil_joint_t {
     int32_t reference_deg;
 
     /**
-     * Wanted by the controller of both muscles, before any limit, in watts of the agonist; below 0 it turns the joint back. Available in mode position only.
+     * Demanded from both muscles by the controller, before any limit, in watts of the agonist; below 0 it turns the joint back. Available in mode position only.
      *
      * Range: -131071..131071 (-131.071..131.071 W)
      * Scale: 0.001
@@ -2628,7 +2628,7 @@ struct supercoil_joint_t {
     uint32_t antagonist_resistance_ohm;
 
     /**
-     * With how much both muscles are to pull while no effort is asked for, in watts of the antagonist. Not available: no second muscle, or it is not led.
+     * The power with which both muscles pull while no effort is demanded, in watts of the antagonist. Not available: there is no second muscle, or it is not led.
      *
      * Range: 0..262142 (0..262.142 W)
      * Scale: 0.001
@@ -2637,7 +2637,7 @@ struct supercoil_joint_t {
     uint32_t co_contraction_w;
 
     /**
-     * Angle less that of the reference model, both of the same tick. A larger error is shown as the largest. Available in mode position only.
+     * Angle minus that of the reference model, both of the same tick. A larger error is sent as the end of the range. Available in mode position only.
      *
      * Range: -32767..32767 (-16.3835..16.3835 deg)
      * Scale: 0.0005
@@ -2649,7 +2649,7 @@ struct supercoil_joint_t {
 /**
  * Signals in message TuningWrite.
  *
- * Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
+ * Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2682,7 +2682,7 @@ struct supercoil_tuning_write_t {
     uint8_t place;
 
     /**
-     * Which one. all: the whole prepared set becomes another.
+     * Which one. all: replaces the whole prepared set.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2700,7 +2700,7 @@ struct supercoil_tuning_write_t {
     uint8_t session_low;
 
     /**
-     * As in Tuning. all: the number of the set.
+     * As in Tuning. all: the number of the set that is copied.
      *
      * Range: -
      * Scale: 1

@@ -9,7 +9,7 @@ from supercoil.layout import Layout, Raw, Signal
 
 
 class Sync(NamedTuple):
-    """The master's clock, for all boards of the bus: always this identifier. Each takes when it came, to the microsecond where its kernel tells that, and goes by it while it plays a trajectory; none answers. Once a second is often enough."""
+    """The master's clock, for all boards of the bus; the identifier is always this one. Each board takes the time at which the frame came, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -18,7 +18,7 @@ class Sync(NamedTuple):
 
 
 class Emergency(NamedTuple):
-    """Sent at once when the channel's fault changes: when one latches, and with none when it was reset."""
+    """Sent at once when the channel's fault changes: when a fault latches, and with none when it was reset."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -27,7 +27,7 @@ class Emergency(NamedTuple):
 
 
 class FirstCause(NamedTuple):
-    """Sent right after an Emergency that tells a fault: the margin of the detector that tripped, as it was then."""
+    """Sent right after an Emergency that reports a fault: the margin of the detector that tripped, at that time."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     measured: float
@@ -35,7 +35,7 @@ class FirstCause(NamedTuple):
 
 
 class Knot(NamedTuple):
-    """The next knot of a trajectory, at which the muscle is to be at this position with this velocity. Between knots position, velocity and acceleration are continuous. Taken while the muscle follows a position, and forgotten with any other command than a knot, Play and renew. Renews the command to heat."""
+    """The next knot of a trajectory: the position at which the muscle is to be, with this velocity. Between knots position, velocity and acceleration are continuous. Accepted while the muscle follows a position, and forgotten with any command other than a knot, Play and renew. Renews the command to heat."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -46,7 +46,7 @@ class Knot(NamedTuple):
 
 
 class Play(NamedTuple):
-    """Starts the trajectory, whose time is 0 at its first knot. Renews the lease, and not the command to heat."""
+    """Starts the trajectory; its time is 0 at its first knot. Renews the lease, but not the command to heat."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -58,7 +58,7 @@ class Play(NamedTuple):
 
 
 class Trajectory(NamedTuple):
-    """The answer to a Knot and to Play; and by itself whenever playback becomes another."""
+    """The answer to a Knot and to Play; also sent whenever the state of the playback changes."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -81,7 +81,7 @@ class TuningRead(NamedTuple):
 
 
 class Command(NamedTuple):
-    """One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed."""
+    """One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Somebody who repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -92,7 +92,7 @@ class Command(NamedTuple):
 
 
 class Acknowledge(NamedTuple):
-    """The answer to a command, also when it was refused. A damaged command is not answered, as nobody knows whose it was. Protected as Command is."""
+    """The answer to a command, also to one that is refused. A damaged command is not answered, because its sender is not known. Protected in the same way as Command."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -122,7 +122,7 @@ class Tracking(NamedTuple):
 
 
 class Power(NamedTuple):
-    """What the controller wants and what the muscle gets."""
+    """The power that the controller demands, and the power that the muscle gets."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     demanded_W: float
@@ -141,7 +141,7 @@ class Heater(NamedTuple):
 
 
 class Temperature(NamedTuple):
-    """The muscle's temperature lies between these; it is estimated, never measured."""
+    """Bounds of the muscle's temperature, which is estimated and never measured."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     coldest_C: float
@@ -149,7 +149,7 @@ class Temperature(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """What the board has learned of the muscle: one parameter after the other, each with its trust. A round is the first 8, 0.8 s at the usual rate; while the estimator tells standard deviations (least_squares) it is all 14, 1.4 s."""
+    """What the board has learned about the muscle: one parameter in each frame, with its trust. A round is the first 8 parameters, 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares) a round is all 14, 1.4 s."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     parameter: names.Parameter
@@ -173,7 +173,7 @@ class Estimate(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """How near one detector is to tripping; all detectors come round."""
+    """How near a detector is to tripping; the detectors come in turn."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -182,7 +182,7 @@ class Margin(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """The limit of one detector; all come round."""
+    """The limit of a detector; the detectors come in turn."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -190,7 +190,7 @@ class Limit(NamedTuple):
 
 
 class Timing(NamedTuple):
-    """Of the whole board; sent by its first node only."""
+    """Timing of the whole board, sent by its first node only."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     late_s: float
@@ -200,7 +200,7 @@ class Timing(NamedTuple):
 
 
 class Gain(NamedTuple):
-    """What the active controller multiplies its signals by; its gains come round. An adaptive controller changes them."""
+    """Gains of the active controller, in turn. An adaptive controller changes them."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     gain: names.Gain
@@ -208,7 +208,7 @@ class Gain(NamedTuple):
 
 
 class RefusedValue(NamedTuple):
-    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Boards of protocol version 3 and older do not tell it, nor do the first of version 4."""
+    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     value: float
@@ -224,7 +224,7 @@ class Muscle(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """The answer to SettingWrite and SettingRead: what holds from now on, also when the write was refused. Protected as Command is."""
+    """The answer to SettingWrite and SettingRead: the value from now on, also if the write was refused. Protected in the same way as Command."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -236,7 +236,7 @@ class Setting(NamedTuple):
 
 
 class SettingWrite(NamedTuple):
-    """Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
+    """Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -261,7 +261,7 @@ class MuscleRead(NamedTuple):
 
 
 class Tuning(NamedTuple):
-    """The answer to TuningRead and TuningWrite. Protected as Command is. Boards older than supercoil 0.2.0 do not answer."""
+    """The answer to TuningRead and TuningWrite. Protected in the same way as Command. Boards older than supercoil 0.2.0 do not answer."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -297,7 +297,7 @@ class Status(NamedTuple):
 
 
 class Boot(NamedTuple):
-    """Which program the board runs: within a second of its start, and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not tell it."""
+    """The program that the board runs, within a second of its start and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     version_major: int
@@ -307,7 +307,7 @@ class Boot(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """The joint and both of its heaters, one part after the other: from the agonist's node, and where a spring or gravity draws one muscle back, from that muscle's. Such a joint has the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. What is wrong with the joint is in Emergency and Status of the same node: a fault of either muscle is both's."""
+    """The joint and both of its heaters, in parts that come in turn: from the agonist's node or, where a spring or gravity pulls one muscle back, from that muscle's node. Such a joint has the first four parts only. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     part: names.Part
@@ -331,7 +331,7 @@ class Joint(NamedTuple):
 
 
 class TuningWrite(NamedTuple):
-    """Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
+    """Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int

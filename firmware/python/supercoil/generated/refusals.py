@@ -6,12 +6,12 @@ from supercoil.errors import RefusalError
 
 
 class WrongState(RefusalError):
-    """the command is not for the state or mode in which the channel is: arm needs disarmed, what heats needs armed or active, renew and rest need active, reset needs fault. Ten in a row are a fault"""
+    """the channel's state or mode does not allow the command: arm needs disarmed, commands to heat need armed or active, renew and rest need active, reset needs fault. Ten in a row are a fault"""
 
     number = 1
     name = "wrong_state"
     meaning = """\
-the command is not for the state or mode in which the channel is: arm needs disarmed, what heats needs armed or active, renew and rest need active, reset needs fault. Ten in a row are a fault"""
+the channel's state or mode does not allow the command: arm needs disarmed, commands to heat need armed or active, renew and rest need active, reset needs fault. Ten in a row are a fault"""
 
 
 class CausePersists(RefusalError):
@@ -24,39 +24,39 @@ reset: a detector of the channel or of the board still trips. Remove the cause f
 
 
 class NoEdge(RefusalError):
-    """reset: there was one in the tick before, or in the same one. Send it again"""
+    """reset: there was another one in the tick before, or in the same tick. Send it again"""
 
     number = 3
     name = "no_edge"
     meaning = """\
-reset: there was one in the tick before, or in the same one. Send it again"""
+reset: there was another one in the tick before, or in the same tick. Send it again"""
 
 
 class NotReady(RefusalError):
-    """the self-test has not passed yet, a reading is not there, the muscle's temperature is not known yet; of store: the estimates are not trusted"""
+    """the self-test has not passed yet, a reading is missing, or the muscle's temperature is not known yet; to store: the estimates are not trusted"""
 
     number = 4
     name = "not_ready"
     meaning = """\
-the self-test has not passed yet, a reading is not there, the muscle's temperature is not known yet; of store: the estimates are not trusted"""
+the self-test has not passed yet, a reading is missing, or the muscle's temperature is not known yet; to store: the estimates are not trusted"""
 
 
 class Busy(RefusalError):
-    """a probe measures the heater, or another mode runs that has to end first: rest ends it"""
+    """a probe is measuring the heater, or another mode must end first: rest ends it"""
 
     number = 5
     name = "busy"
     meaning = """\
-a probe measures the heater, or another mode runs that has to end first: rest ends it"""
+a probe is measuring the heater, or another mode must end first: rest ends it"""
 
 
 class OutOfRange(RefusalError):
-    """no such setting or place, a value outside of its range or any but 0 where none is defined, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
+    """there is no such setting or place; the value is outside its range, or not 0 for a command without a value; or the bus has no room for the rates. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
 
     number = 6
     name = "out_of_range"
     meaning = """\
-no such setting or place, a value outside of its range or any but 0 where none is defined, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
+there is no such setting or place; the value is outside its range, or not 0 for a command without a value; or the bus has no room for the rates. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
 
 
 class NoSuchChannel(RefusalError):
@@ -69,12 +69,12 @@ the board has no such channel"""
 
 
 class NotLeaseHolder(RefusalError):
-    """the session is not the one that holds the lease: another master's, or an earlier one"""
+    """another session holds the lease: another master's, or a later one of yours"""
 
     number = 8
     name = "not_lease_holder"
     meaning = """\
-the session is not the one that holds the lease: another master's, or an earlier one"""
+another session holds the lease: another master's, or a later one of yours"""
 
 
 class NoLease(RefusalError):
@@ -87,12 +87,12 @@ no master holds the lease: it was never claimed, or it ended"""
 
 
 class WrongCounter(RefusalError):
-    """the frame is a repetition, or more than three before it were lost. The next one is obeyed"""
+    """the frame is a repetition, or more than three frames before it were lost. The next one is obeyed"""
 
     number = 10
     name = "wrong_counter"
     meaning = """\
-the frame is a repetition, or more than three before it were lost. The next one is obeyed"""
+the frame is a repetition, or more than three frames before it were lost. The next one is obeyed"""
 
 
 class QueueFull(RefusalError):
@@ -105,12 +105,12 @@ more commands than the loop can take at once"""
 
 
 class ClaimAgain(RefusalError):
-    """the claim did not repeat the number that the board gave last, or too late. granted has the one to repeat"""
+    """the claim did not repeat the board's last number, or came too late. granted has the number to repeat"""
 
     number = 12
     name = "claim_again"
     meaning = """\
-the claim did not repeat the number that the board gave last, or too late. granted has the one to repeat"""
+the claim did not repeat the board's last number, or came too late. granted has the number to repeat"""
 
 
 class ProtocolMismatch(RefusalError):
@@ -123,21 +123,21 @@ the frame is of another version of the protocol"""
 
 
 class Unsuitable(RefusalError):
-    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles read one sensor"""
+    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles share one sensor"""
 
     number = 14
     name = "unsuitable"
     meaning = """\
-to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles read one sensor"""
+to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles share one sensor"""
 
 
 class Infeasible(RefusalError):
-    """to a knot of a trajectory: the way to it asks for more power than there is, or would have the muscle cooled"""
+    """to a knot of a trajectory: the way to it needs more power than there is, or faster cooling"""
 
     number = 15
     name = "infeasible"
     meaning = """\
-to a knot of a trajectory: the way to it asks for more power than there is, or would have the muscle cooled"""
+to a knot of a trajectory: the way to it needs more power than there is, or faster cooling"""
 
 
 BY_NUMBER: dict[int, type[RefusalError]] = {

@@ -63,10 +63,10 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
                    "calibrate, position M (of a joint also 20deg), power W, scale M, controller N, "
-                   "estimator N, store "
-                   "(keep what the estimator has learned), clear (forget the muscle that is kept), "
-                   "tune N (use what was prepared); N is a place in the configuration from 0, or a "
-                   "kind, e.g. pi")
+                   "estimator N, store (keep what the estimator has learned), clear (forget the "
+                   "stored muscle), tune N (apply the prepared values), store tuning, clear "
+                   "tuning, compare_supply V, compare_current A, compare_rise K; N is a place in "
+                   "the configuration, from 0, or a kind, e.g. pi")
       ->required()
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(

@@ -1,4 +1,4 @@
-// The panel by which a muscle is commanded: state, arm, mode, set-point.
+// The panel by which a muscle is commanded: state, arm, mode, set point.
 
 import { element, show } from "./dom.js";
 import { LENGTH, measure_of, same_joint } from "./joint.js";
@@ -50,10 +50,10 @@ export class ControlPanel {
     this.number = element("input", { type: "number", id: id("value"), disabled: !may.command, value: "0", inputmode: "decimal" });
     this.unit = element("span", { class: "unit" });
     this.number_label = element("label", { for: id("value") });
-    this.slider = element("input", { type: "range", "aria-label": "set-point", disabled: !may.command, value: "0",
+    this.slider = element("input", { type: "range", "aria-label": "set point", disabled: !may.command, value: "0",
       oninput: () => (this.number.value = this.slider.value), onchange: () => this.#go() });
     this.number.addEventListener("input", () => (this.slider.value = this.number.value));
-    this.step = element("select", { "aria-label": "step of the set-point", disabled: !may.command, onchange: () => this.#take_step() });
+    this.step = element("select", { "aria-label": "step of the set point", disabled: !may.command, onchange: () => this.#take_step() });
     this.go = element("button", { type: "submit", class: "go", disabled: !may.command });
     this.hint = element("p", { class: "hint" });
     this.value_row = element("div", { class: "value" }, this.number_label, this.number, this.unit, this.step);

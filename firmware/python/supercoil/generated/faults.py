@@ -13,8 +13,8 @@ class SensorOutOfRange(FaultError):
     meaning = """\
 The position reads a value that this sensor cannot give. Its wire is off, or shorted to a rail."""
     remedy = """\
-1. Read the position while cold. A value that stands far beyond both ends is a rail: cable.
-2. Move the free end by hand. A value that follows, but is off, is scaling or mounting.
+1. Read the position while the muscle is cold. A value far beyond either end is a rail: check the cable.
+2. Move the free end by hand. If the value follows, but is off, check scaling and mounting.
 3. Reset, arm."""
     page = """\
 # 10 sensor_out_of_range
@@ -27,8 +27,8 @@ conversion is forgiven.
 
 **Reaction:** the channel goes cold.
 
-Already during these 5 ms such a reading counts as no position: nothing is computed from it, and a channel cannot be
-armed. It is no travel and no jump either. Pull the input to a rail that lies outside the range.
+During these 5 ms such a reading already counts as absent: nothing is computed from it, and the channel cannot be armed. It counts neither as travel nor
+as a jump. Pull the input to a rail that lies outside the range.
 
 ## Likely causes
 
@@ -39,8 +39,8 @@ armed. It is no travel and no jump either. Pull the input to a rail that lies ou
 
 ## Remedy
 
-1. Read the position while cold. A value that stands far beyond both ends is a rail: cable.
-2. Move the free end by hand. A value that follows, but is off, is scaling or mounting.
+1. Read the position while the muscle is cold. A value far beyond either end is a rail: check the cable.
+2. Move the free end by hand. If the value follows, but is off, check scaling and mounting.
 3. Reset, arm.
 
 ## Margin
@@ -67,9 +67,9 @@ class SensorStale(FaultError):
     meaning = """\
 There is no fresh position, or no fresh current. An old value is never used in its place."""
     remedy = """\
-1. See which one it is: in the row, position_m or current_A is not a number.
-2. Compare the converter's period with max_age_ms. It needs room for two periods and the bus.
-3. If both inputs of several channels go at once, it is the bus.
+1. See which one it is: position_m or current_A of the row is empty.
+2. Compare the converter's period with max_age_ms, which needs room for two periods and the time on the bus.
+3. If both inputs of several channels fail at once, it is the bus.
 4. Reset, arm."""
     page = """\
 # 11 sensor_stale
@@ -78,11 +78,10 @@ There is no fresh position, or no fresh current. An old value is never used in i
 
 **Detected** at the first tick at which either is absent: the converter answers with an error, its newest conversion is
 older than 10 ms (`max_age_ms` of the input; the settings of each input), or it comes from the future. So a converter
-that falls silent is found after 10 ms and a tick, one that reports an error at once.
+that falls silent is found after 10 ms and a tick, and one that reports an error at once.
 
-**Reaction:** the channel goes cold. In that very tick no power is computed from the old position. If it is the current
-that is missing, nothing proves that the heat is off: 50 ms later [heater_stuck_on](heater_stuck_on.md) opens the supply
-of the board.
+**Reaction:** the channel goes cold. In that tick no power is computed from the old position. If the current is missing, nothing proves that the
+heat is off: 50 ms later [heater_stuck_on](heater_stuck_on.md) opens the supply of the board.
 
 While the current is absent the temperature estimate assumes anything between the power that was set and the channel's
 greatest power.
@@ -93,20 +92,20 @@ greatest power.
 - a converter slower than `max_age_ms`
 - from the start: a capture's trigger that does not run, or that has too many devices
   ([porting.md](../porting.md#a-trigger-for-iioscan))
-- the driver was unbound, or the device pulled off: it comes back for a program that opens it anew, so restart supercoild
-- a clock that is not the board's: conversions from the future
+- the driver was unbound, or the device unplugged: when it is back, it must be opened again, so restart supercoild
+- conversions stamped by another clock than the board's, which then lie in the future
 
 ## Remedy
 
-1. See which one it is: in the row, `position_m` or `current_A` is not a number.
-2. Compare the converter's period with `max_age_ms`. It needs room for two periods and the bus.
-3. If both inputs of several channels go at once, it is the bus.
+1. See which one it is: `position_m` or `current_A` of the row is empty.
+2. Compare the converter's period with `max_age_ms`, which needs room for two periods and the time on the bus.
+3. If both inputs of several channels fail at once, it is the bus.
 4. Reset, arm.
 
 ## Margin
 
-A flag: measured 0 is fresh, 1 is absent, the limit is 0. Used is 0 or infinite: nothing is seen coming.
-The age itself is not published.
+A flag: measured 0 is fresh, 1 is absent, the limit is 0. Used is 0 or infinite: there is no early sign. The age itself is
+not published.
 
 ## Not detected
 
@@ -116,26 +115,23 @@ The age itself is not published.
 
 
 class SensorFrozen(FaultError):
-    """The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
-stale; their content is old."""
+    """The position stands still as no working sensor does: not even its noise is visible. The readings are new, so they are not stale, but they repeat."""
 
     number = 12
     name = "sensor_frozen"
     meaning = """\
-The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
-stale; their content is old."""
+The position stands still as no working sensor does: not even its noise is visible. The readings are new, so they are not stale, but they repeat."""
     remedy = """\
-1. Look where it rests: a reading that is position.min_m or max_m to the last digit is an end. Move the sensor, or take off load.
-2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
-   step of the converter, into position.noise_rms_m.
-3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
-   heater_not_responding, which needs 20 s and more.
+1. Look at the value: a reading that is position.min_m or max_m to the last digit is an end of the range. Move the sensor, or reduce the load.
+2. Record one second of a working sensor at rest and compute its standard deviation. Put that, but at least a third of a converter step, into
+   position.noise_rms_m.
+3. If the sensor really shows no noise, set it to 0. The detector is then off, and you rely on heater_not_responding, which
+   needs 20 s and more.
 4. Otherwise restart the converter's driver. Reset, arm."""
     page = """\
 # 12 sensor_frozen
 
-The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
-stale; their content is old.
+The position stands still as no working sensor does: not even its noise is visible. The readings are new, so they are not stale, but they repeat.
 
 **Detected** when, while the muscle is hot, all readings stay within ±5 µm of one of them for 1 s
 (half of `position.noise_rms_m` = 10 µm; `frozen_s`). "Hot" means that the upper bound of the temperature estimate is
@@ -147,30 +143,28 @@ more than 5 K above the air, so for 15 s after boot as well, in every state.
 
 - a driver or bus thread that repeats its last value
 - a converter that hangs
-- the muscle stands at an end of the sensor's range, or of its own: a load pulls it longer than where the sensor begins to read, so
-  that every reading is that end
-- a sensor quieter than `position.noise_rms_m` says: a filter was added, or the noise was guessed
+- the position is at an end of the sensor's range: for example a load pulls the muscle longer than the sensor can read, so that every reading is that end
+- a sensor that is quieter than `position.noise_rms_m`: a filter was added, or the noise was guessed
 
 ## Remedy
 
-1. Look where it rests: a reading that is `position.min_m` or `max_m` to the last digit is an end. Move the sensor, or take off load.
-2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
-   step of the converter, into `position.noise_rms_m`.
-3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
-   [heater_not_responding](heater_not_responding.md), which needs 20 s and more.
+1. Look at the value: a reading that is `position.min_m` or `max_m` to the last digit is an end of the range. Move the sensor, or reduce the load.
+2. Record one second of a working sensor at rest and compute its standard deviation. Put that, but at least a third of a converter step, into
+   `position.noise_rms_m`.
+3. If the sensor really shows no noise, set it to 0. The detector is then off, and you rely on [heater_not_responding](heater_not_responding.md), which
+   needs 20 s and more.
 4. Otherwise restart the converter's driver. Reset, arm.
 
 ## Margin
 
-In seconds: for how long the readings stood still while hot, of 1 s. A live sensor with the right noise stays below
-0.02 s; used 0.3 means that it is much quieter than was said.
+In seconds: for how long the readings stood still while hot, of 1 s. A working sensor with the right noise stays below 0.02 s; used 0.3 means that it is
+much quieter than configured.
 
 ## Not detected
 
-- In a cold muscle, and below a steady power of about 0.21 W with the default bounds: there the upper bound ends below
-  5 K.
+- A frozen sensor of a cold muscle, or below a steady power of about 0.21 W with the default bounds: there the upper bound stays below 5 K.
 - When `position.noise_rms_m` is 0.
-- A value that is replaced by a plausible changing one.
+- A frozen value that is replaced by a plausible, changing one.
 """
 
 
@@ -184,7 +178,7 @@ The position moved further between two readings than any muscle can."""
     remedy = """\
 1. Compare the position with what you see. If it is off by a constant, the sensor slipped: fix it, calibrate.
 2. If the load is meant to move that fast, raise max_speed_m_per_s.
-3. Only then reset. The fault will not insist."""
+3. Only then reset. The detector will not keep you from resetting too early."""
     page = """\
 # 13 sensor_jump
 
@@ -192,12 +186,11 @@ The position moved further between two readings than any muscle can.
 
 **Detected** when two fresh readings in a row lie further from the last good one than 0.5 m/s times the time since the
 previous reading, plus 0.17 mm (50 µm and 12 times the noise of 10 µm). At 1 kHz that is 0.67 mm. The first such reading
-is taken for a glitch; the second trips (`max_speed_m_per_s`, `position.noise_rms_m`). Readings from outside of the
-sensor's range take no part: they are [sensor_out_of_range](sensor_out_of_range.md). It is judged as the sensor gives
-it, before zero and scale: a calibration is no jump.
+is taken for a glitch, the second one trips (`max_speed_m_per_s`, `position.noise_rms_m`). Readings outside the sensor's range do
+not count: they are [sensor_out_of_range](sensor_out_of_range.md). The position is judged before zero and scale are applied, so a calibration is no jump.
 
-**Reaction:** the channel goes cold. Then the new place is taken for the truth: the detector is content at the next
-reading, and a reset is not refused because of it.
+**Reaction:** the channel goes cold. Then the detector accepts the new position: it no longer trips at the next reading, and a reset is not refused because
+of it.
 
 ## Likely causes
 
@@ -209,12 +202,12 @@ reading, and a reset is not refused because of it.
 
 1. Compare the position with what you see. If it is off by a constant, the sensor slipped: fix it, calibrate.
 2. If the load is meant to move that fast, raise `max_speed_m_per_s`.
-3. Only then reset. The fault will not insist.
+3. Only then reset. The detector will not keep you from resetting too early.
 
 ## Margin
 
 In metres: the change, and what was allowed for the time between. At rest some 30 µm of 670 µm, used 0.04. Values near
-1 in fast motion say that `max_speed_m_per_s` is tight.
+1 in fast motion mean that `max_speed_m_per_s` is tight.
 
 ## Not detected
 
@@ -232,8 +225,8 @@ class SensorsDisagree(FaultError):
     meaning = """\
 The heater's resistance indicates one temperature and the position another."""
     remedy = """\
-1. Let it cool. Cold, both must read about 0 K. The one that does not is the wrong one.
-2. Position wrong: look for what holds it; calibrate. Resistance wrong: look at crimps and plugs; calibrate.
+1. Let it cool. When it is cold, both must read about 0 K; the one that does not is wrong.
+2. If the position is wrong, find what holds the muscle, then calibrate. If the resistance is wrong, check crimps and plugs, then calibrate.
 3. Reset, arm."""
     page = """\
 # 14 sensors_disagree
@@ -252,14 +245,14 @@ switch this on.
 
 ## Likely causes
 
-- the load changed, the muscle caught on something, or its end slipped: the position lies
-- a contact warms up or wears: the resistance lies
+- the load changed, the muscle caught on something, or its end slipped: the position is misleading
+- a contact warms up or wears: the resistance is misleading
 - a coefficient or a cold resistance that belongs to another muscle
 
 ## Remedy
 
-1. Let it cool. Cold, both must read about 0 K. The one that does not is the wrong one.
-2. Position wrong: look for what holds it; `calibrate`. Resistance wrong: look at crimps and plugs; `calibrate`.
+1. Let it cool. When it is cold, both must read about 0 K; the one that does not is wrong.
+2. If the position is wrong, find what holds the muscle, then `calibrate`. If the resistance is wrong, check crimps and plugs, then `calibrate`.
 3. Reset, arm.
 
 ## Margin
@@ -270,7 +263,7 @@ While it is not judged, measured reads 0.
 ## Not detected
 
 - Without a coefficient, and while duty is too small for a resistance.
-- With the paper's muscle 30 K are 16 mm of position. The detector only finds gross errors.
+- Small errors: with the paper's muscle 30 K is 16 mm of position, so only gross errors are found.
 - Both wrong in the same direction.
 """
 
@@ -286,8 +279,8 @@ Duty is applied, but hardly any current flows."""
 1. Switch the supply off. Measure the muscle's resistance at the board's terminals.
 2. If it is right: is there voltage behind the supply switch while the heartbeat beats? If not: fuse, pump, switch.
 3. If there is: sense and power switch.
-4. All channels at once: the supply's switch.
-5. Reset, arm. The probe at arming tests it anew."""
+4. If all channels have this fault at once, it is the supply switch.
+5. Reset, arm. The probe at arming tests it again."""
     page = """\
 # 20 heater_open
 
@@ -304,8 +297,8 @@ Duty is applied, but hardly any current flows.
 ## Likely causes
 
 - a wire, crimp or plug of the muscle; the muscle itself burned through
-- no supply behind the switch: the charge pump does not pump, a fuse is gone. The supply is measured before the switch
-  and still looks well
+- no supply behind the switch: the charge pump does not pump, or a fuse has blown. The supply is measured before the
+  switch and still looks good
 - the power switch or its gate
 - the current sense reads 0
 
@@ -314,46 +307,45 @@ Duty is applied, but hardly any current flows.
 1. Switch the supply off. Measure the muscle's resistance at the board's terminals.
 2. If it is right: is there voltage behind the supply switch while the heartbeat beats? If not: fuse, pump, switch.
 3. If there is: sense and power switch.
-4. All channels at once: the supply's switch.
-5. Reset, arm. The probe at arming tests it anew.
+4. If all channels have this fault at once, it is the supply switch.
+5. Reset, arm. The probe at arming tests it again.
 
 ## Margin
 
-In amperes, a least value: the current, and what it must be at this duty. 0.36 A flow at a duty of 0.3 where 0.081 A are
-needed: used 0.22. Nearer to 1: the resistance has risen. Below a duty of 2 % it is not judged and used is 0, even if
-the numbers look alarming.
+In amperes, a minimum: the current, and what it must be at this duty. At a duty of 0.3, 0.36 A flow where 0.081 A are needed:
+used 0.22. A value closer to 1 means that the resistance has risen. Below a duty of 2 % the fault is not judged and used is 0, even
+if the numbers look alarming.
 
 ## Not detected
 
-- Off, or below 2 % of duty, but for probes.
+- While the channel is off or its duty is below 2 %, except during probes.
 - A resistance up to four times too high: that is [resistance_drift](resistance_drift.md), at the next probe.
 """
 
 
 class HeaterShort(FaultError):
-    """More current flows than the least resistance of a muscle explains."""
+    """More current flows than the lowest resistance of a muscle explains."""
 
     number = 21
     name = "heater_short"
     meaning = """\
-More current flows than the least resistance of a muscle explains."""
+More current flows than the lowest resistance of a muscle explains."""
     remedy = """\
-1. Look whether the board's fault is heater_stuck_on. If so, go there.
+1. If the board's fault is heater_stuck_on, continue on its page.
 2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
-3. If it is right, compare sense_filter_ms with the board's filter.
+3. If the resistance is right, compare sense_filter_ms with the board's filter.
 4. Reset, arm."""
     page = """\
 # 21 heater_short
 
-More current flows than the least resistance of a muscle explains.
+More current flows than the lowest resistance of a muscle explains.
 
 **Detected** when, while the channel is on, the current exceeds duty × supply / 5 Ω by more than 50 mA for 2 ms
-(`min_resistance_Ohm`, `current.off_A`, `short_ms`). The duty is averaged with the time constant of the current sense,
-so that both are of the same time. Behind a bus that is so to a tick only: the duty acts, or the current is read, at any moment
-between two ticks. There `short_ms` is two ticks at least: when a probe ends, a current of one tick before is above that for one tick.
+(`min_resistance_Ohm`, `current.off_A`, `short_ms`). The duty is averaged with the time constant of the current sense, so that both belong to
+the same time. Behind a bus this is true only to within a tick, because the duty acts, or the current is read, at any moment between two ticks. There
+`short_ms` is at least two ticks: after the end of a probe the current of the tick before exceeds the limit for one tick.
 
-**Reaction:** the channel goes cold. The switch's own protection must be faster than this: 2 ms are long for a
-transistor. See [wiring](../wiring.md).
+**Reaction:** the channel goes cold. The switch's own protection must be faster, because 2 ms is long for a transistor ([wiring](../wiring.md)).
 
 ## Likely causes
 
@@ -366,15 +358,15 @@ transistor. See [wiring](../wiring.md).
 
 ## Remedy
 
-1. Look whether the board's fault is `heater_stuck_on`. If so, go there.
+1. If the board's fault is `heater_stuck_on`, continue on [its page](heater_stuck_on.md).
 2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
-3. If it is right, compare `sense_filter_ms` with the board's filter.
+3. If the resistance is right, compare `sense_filter_ms` with the board's filter.
 4. Reset, arm.
 
 ## Margin
 
-In amperes: what flows beyond the current of the least resistance, of 0.05 A. Normally it is negative: 0.36 A at a duty
-of 0.3 and 12 V is 0.36 − 0.72 = −0.36, used −7.2. Positive values are already a part of the 50 mA.
+In amperes: the current beyond that of the lowest resistance, of 0.05 A. Normally it is negative: 0.36 A at a duty of 0.3 and 12 V is
+0.36 − 0.72 = −0.36, used −7.2. A positive value is already part of the 50 mA.
 
 ## Not detected
 
@@ -399,19 +391,19 @@ whatever holds it, conducts by itself. So the heartbeat stops and the charge pum
    some 30 ms, until the test has failed: 2.5 K in a simulation. After that no reset helps, only a restart.
 2. Supply off. Measure the power switch: drain to source must not conduct.
 3. If it is good: what does the sense read with the muscle unplugged? Offset or filter.
-4. Replace it. Reset or restart: either way the self-test must prove both ways of cutting before anything can be armed."""
+4. Replace the switch. Then reset or restart: either way the self-test must prove both cuts before anything can be armed."""
     page = """\
 # 22 heater_stuck_on
 
 Current flows although the channel is off. **The one fault that software alone cannot cure**: the power switch, or
 whatever holds it, conducts by itself. So the heartbeat stops and the charge pump opens the supply of the whole board.
 
-**Detected** when the duty is 0 or the enable line low, and the current is above 50 mA, no number, or not read at all,
-for 50 ms without a gap (`current.off_A`, `stuck_on_ms`). Without a reading nothing proves that the heat is off. Proof is
-the current, not what the PWM reads back: that may be the kernel's memory. At the end it must also be more than a sense
-that averages (`sense_filter_ms`) can still show of the current before, with a time constant that is a quarter longer: after
-0.67 A through 10 ms, 32 mA after 50 ms at 100 Hz. So a leak of little more than 50 mA may be found some time constants later, a stuck
-switch is not.
+**Detected** when the duty is 0 or the enable line low, and the current is above 50 mA, NaN, or not read at all, for 50 ms without
+a gap (`current.off_A`, `stuck_on_ms`). Without a reading nothing proves that the heat is off. Only the current is proof, not what
+the PWM reads back, which may be the kernel's memory. At the end of these 50 ms the current must also be more than an averaging
+sense (`sense_filter_ms`) can still show of the current before, with a reserve of a quarter in the time constant: 32 mA after 50 ms
+at 100 Hz, for 0.67 A and 10 ms. So a leak of little more than 50 mA may be found a few time constants later; a stuck switch is
+found in time.
 
 **Reaction:** every channel cold, heartbeat off, whatever other fault the channel has. If another was first, the channel
 keeps that name; the other channels show this one. With the default decay of 20 ms the supply is open about 70 ms after
@@ -431,7 +423,7 @@ the switch stuck. The simulated muscle of 10 Ω at 12 V warms by 5.4 K in that t
    some 30 ms, until the test has failed: 2.5 K in a simulation. After that no reset helps, only a restart.
 2. Supply off. Measure the power switch: drain to source must not conduct.
 3. If it is good: what does the sense read with the muscle unplugged? Offset or filter.
-4. Replace it. Reset or restart: either way the self-test must prove both ways of cutting before anything can be armed.
+4. Replace the switch. Then reset or restart: either way the self-test must prove both cuts before anything can be armed.
 
 ## Margin
 
@@ -440,8 +432,8 @@ channel is on, it is not judged.
 
 ## Not detected
 
-- Leaks of less than 50 mA: 0.6 W at 12 V, some 7 K for ever with the paper's muscle. The estimate counts them
-  from 10 mA on.
+- Leaks of less than 50 mA: 0.6 W at 12 V, which warms the paper's muscle permanently by some 7 K. The estimate counts them from
+  10 mA on.
 - Current past the sense, or a sense that reads too little.
 - While on: [heater_short](heater_short.md) or [power_limit_exceeded](power_limit_exceeded.md) must see it first.
 """
@@ -465,59 +457,60 @@ Power goes in, current flows, and the position does not move as it should: 'move
 
 Power goes in, current flows, and the position does not move as it should: "moved 0.3 of the 2.0 mm expected in 20 s".
 
-**Detected** at the end of each window of 20 s: how far did the position range, from its lowest to its highest, and how
-far did the models of the muscle? If each model moved by at least 1 mm and the position by less than 0.3 of what
-the one did that moved least, it trips (`responding_window_s`, `responding_ratio`, `responding_min_m`). One model is the
-muscle as it is believed: configured, or found by the last `identify`. Nine are mixtures of the fastest and the slowest that its `[thermal]` bounds allow:
-until `identify` nothing but a belief is known, and where a muscle within the bounds may stand still nothing is asked of it. They are
-driven with the power that was applied. What they do in the window's last second is not expected any more: they have heat
-and no inertia. Windows follow each other from boot on, or from an `identify` that found a muscle, whether the channel is armed or not, so it
-takes 20 to 40 s. Neither arming nor a calibration restarts the window. An answer (below) does not either: it ends when it would have, but what was
-expected and what moved until then counts no more, so that what happens after the answer is judged as soon as before.
+**Detected** at the end of each window of 20 s, which compares the range of the position, from its minimum to its maximum, with that of ten
+models of the muscle. It trips if each model moved by at least 1 mm, and the position by less than 0.3 of the model that moved least
+(`responding_window_s`, `responding_ratio`, `responding_min_m`).
 
-**A muscle that was identified must also answer while it is hot and still** (mode position or power; loaded from a
-learned file counts, unless that holds the configuration's own parameters). This is decided within seconds:
+- One model is the believed muscle: configured, or found by the last `identify`. Nine are mixtures of the fastest and the slowest muscle that its
+  `[thermal]` bounds allow. So where some muscle within the bounds may stand still, no motion is expected.
+- The models are driven with the power that was applied. Their motion in the last second of the window does not count, because they have heat but
+  no inertia.
+- Windows follow each other from boot on, or from an `identify` that found a muscle, whether the channel is armed or not, so it takes 20 to 40 s.
+  Neither arming nor a calibration restarts a window. After a response (below) the window ends when it would have ended, but what was expected and
+  what moved before the response no longer counts.
 
-1. Above the safe power, that with which even a quarter of the least heat transfer (`min_transfer_W_per_K`) stays
-   below derating (1.1 W by default, 0.61 W until the senses were [compared with a meter](../safety.md#power), when 12 V may
-   be 10.8 to 13.2 V), any motion that follows the power proves the muscle. It is compared with the model
-   driven by the power that really acted.
-2. Where there is none, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle)
-   whose answer is at most 20 µm, or two counts of a coarse sensor. The answer is the one that [identify](../control.md#identify)
-   measured: where friction leaves a quarter of the model's motion, four times the power is given, up to a tenth of `max_W`
-   (simulated: friction of 0.2 % of the load leaves 0.17 on the paper's muscle, of 1 % less than 0.01);
-   what that does not move enough is held to the safe power, as `--check` says. It begins so that it is decided within half of the
-   time in which a muscle at the interval's hot end, with the most power that it may get, the least mass and a quarter of
-   the least heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. No block holds anything from before the dither.
-3. No answer: the power is taken away (limited by: `unproven`), and a living muscle must now fall. The model falls by
-   twice `responding_min_m`; if less than 0.17 of that is seen, it is this fault. A muscle that falls is alive, and
-   friction or hysteresis swallows its dither: from then on only its own motion proves it. When that does not in three quarters
-   of the time of 2., as at rest, it gets no more than the safe power until it rests or is disarmed.
-4. If nothing is decided in three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel
-   gets no more than the safe power until something is answered. Silence is judged there only after a motion or a time
-   as in 3.: where a motion turns round, hysteresis hides the first of it. A position that moves by more than 0.1 of
-   `responding_min_m` rms in a block, for whatever reason, is not that of a dead sensor: then it waits.
+**A muscle that was identified must also respond while it is hot and still** (in mode position or power; a muscle from a learned file counts as
+identified, unless the file has the configuration's own parameters). This is decided within seconds:
+
+1. The safe power is the one at which even a quarter of the lowest heat transfer (`min_transfer_W_per_K`) keeps the muscle below derating: 1.1 W
+   by default, and 0.61 W until the senses were [compared with a meter](../safety.md#power), when 12 V may be 10.8 to 13.2 V. Above the safe power
+   any motion that follows the power proves the muscle. The motion is compared with a model driven by the power that really acted.
+2. If there is no such motion, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle) whose response is at
+   most 20 µm, or two counts of a coarse sensor. The expected response is the one that [identify](../control.md#identify) measured: if friction leaves
+   a quarter of the model's motion, the dither has four times the power, up to a tenth of `max_W`. (In simulation, friction of 0.2 % of the load leaves
+   0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that this does not move enough is held to the safe power, as `--check` says. The
+   dither begins early enough to be decided within half of the time in which a muscle at the interval's hot end, with its maximum power, the lowest
+   mass and a quarter of the lowest heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. Nothing from before the dither is used.
+3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. When the model has fallen by twice
+   `responding_min_m`, and less than 0.17 of that is seen, it is this fault. A muscle that falls is intact, and friction or hysteresis swallows its
+   dither: from then on only its own motion proves it. If that does not happen within three quarters of the time in 2., for example because it is at
+   rest, it gets at most the safe power until it rests or is disarmed.
+4. If nothing is decided within three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel gets at most the safe power
+   until there is a response. Then a missing response counts only after a motion or a time as in 3., because hysteresis hides the beginning of a motion
+   that reverses. A position that moves by more than 0.1 of `responding_min_m` rms in a block, for whatever reason, is not that of a dead sensor: the
+   decision waits.
 
 | | |
 |---|---|
 | decision | a matched filter: Σ expected·measured / Σ expected², both without what is slower than 1 rad/s (of all power) or 4 rad/s (of the dither), as soon as the expected motion is 18.6 standard deviations of this ratio's noise |
 | noise | `position.noise_rms_m` and the counts, or what the model leaves of the motion, whichever is larger |
 | dead below | a ratio of 0.17: 3.1 standard deviations, so 1 dead muscle of 1000 passes a block |
-| a living one is missed | if its answer is half of the model's, less than once in 10⁹ blocks (6.2 standard deviations; counted as far as 4, where it is at most twice a normal tail) |
+| false alarm | if an intact muscle's response is half of the model's, less than once in 10⁹ blocks (6.2 standard deviations; counted up to 4, where it is at most twice a normal tail) |
 
-An identified muscle never gets more power than the proof can keep up with: whatever it holds, a lost contact must be
-found before the limit. That power falls with the noise, with slow ticks, and with how far the true power may be above the
-told one. So it rises when the senses are compared with a meter, and at once: on a Raspberry Pi at 100 Hz
-(`raspberry-pi-pwm-ads1115.toml`) from 2.27 to 4.24 W. `supercoild --check` names the channel and the power. `proof_of_response = false` in `[channel.detectors]` switches all of this off; then only the window of 20 s
-remains, as for a muscle that is not identified: its parameters may be wrong by half, and a test this fine would take it
-for dead. The muscles of a [bundle](../joints.md#with-a-heater-each) are dithered together and answer together: one that is dead beside others that are not passes.
+An identified muscle never gets more power than the proof can keep up with: a lost contact must always be found before the limit. That power falls with
+the noise, with slow ticks, and with how much the true power may exceed the measured one. So it rises at once when the senses are compared with a meter:
+on a Raspberry Pi at 100 Hz (`raspberry-pi-pwm-ads1115.toml`) from 2.27 to 4.24 W. `supercoild --check` names the channel and the power.
+
+`proof_of_response = false` in `[channel.detectors]` switches all of this off. Then only the window of 20 s remains, as for a muscle that is not
+identified: its parameters may be wrong by half, and such a fine test would take it for dead. The muscles of a
+[bundle](../joints.md#with-a-heater-each) are dithered together and respond together: a dead muscle passes beside intact ones.
 
 **Reaction:** the channel goes cold. The next window begins; a reset is not refused because of this fault.
 
 ## Likely causes
 
 - the muscle came off its anchor, or its end off the sensor
-- it is blocked, or melted together
+- it is blocked, or its turns have melted together
 - heat goes elsewhere: it lies in water, in moving air, against metal
 - the believed parameters are far from this muscle (more than three times)
 - the sensor is frozen in a cold-looking muscle
@@ -532,24 +525,27 @@ for dead. The muscles of a [bundle](../joints.md#with-a-heater-each) are dithere
 
 ## Margin
 
-In metres, a least value: how far the position ranged in this window, and 0.3 of what the model did that moved least. 8 mm moved where
-9 mm were expected: 0.008 over 0.0027, used 0.34. Early in a window both are small; read it late. If less than 1 mm is
-expected, used is 0. After an unanswered dither: how far it fell with the power, and 0.17 of what the model did.
+In metres, a minimum: the range of the position in this window, and 0.3 of the range of the model that moved least. If 8 mm moved where 9 mm were
+expected, it is 0.008 over 0.0027, used 0.34. Early in a window both are small; read the margin late. If less than 1 mm is expected, used is 0. After a
+dither without a response: how far the muscle fell with the power, and 0.17 of what the model fell.
 
 ## Not detected
 
-- A muscle that is not identified, held at a constant power: once at rest, nothing is expected to move. A sensor that
-  slips off then shows nothing. So it is in identify itself, and with `proof_of_response = false`.
-- Any motion counts, whichever way and whatever caused it: a swinging load hides a dead muscle.
-- Falsely found may be a muscle in a step of draught, which its controller holds still by more power: of all models of a constant cooling none
-  stands still in that. Simulated, the paper's muscle, 10 µm of noise, `pi` and `learned_ff`: not identified it trips when its cooling doubles
-  at 5 or 10 mm (12 of 12 runs), and not when it grows by half. Identified it does not, at 3, 5 or 10 mm (none of 36), because its answers tell that it
-  lives; before they counted it did in 16. It still may where its cooling grows by 2.2, all that `[thermal]` allows by default (17 of 96):
-  at 3 mm, from 0.4 to 0.9 W, and elsewhere when that begins 2 to 3 s before a window ends. The muscles of a [joint](../joints.md), and those that follow in a
-  bundle, have no answers of their own.
-- Falsely found may be a muscle whose cooling is believed wrong by a factor of two and whose power falls slowly while it
-  still warms: of all models none stands still, but it does (1 of 75 groups of 20 runs, [safety](../safety.md#what-narrows-the-interval)).
-- Of a muscle that is not identified: within the first 20 s. At 4.5 W it is at its rest temperature long before.
+- A muscle that is not identified and is held at a constant power: once it is at rest, no motion is expected, so a sensor that slips off is not noticed.
+  The same holds during identify, and with `proof_of_response = false`.
+- Any motion counts, in whatever direction and with whatever cause: a swinging load hides a dead muscle.
+- In a muscle that is not identified: anything within the first 20 s. At 4.5 W it has reached its final temperature long before.
+
+## False alarms
+
+- **A sudden draught**, in which the controller holds the muscle still with more power: no model with constant cooling stands still then. Simulated with the
+  paper's muscle, 10 µm of noise, `pi` and `learned_ff`: a muscle that is not identified trips when its cooling doubles at 5 or 10 mm (12 of 12 runs), but
+  not when it grows by half. An identified one does not trip at 3, 5 or 10 mm (none of 36), because its responses prove that it is intact; before responses
+  counted, 16 did. It may still trip if its cooling grows by 2.2, all that `[thermal]` allows by default (17 of 96): at 3 mm, from 0.4 to 0.9 W, and
+  elsewhere if that begins 2 to 3 s before a window ends. The muscles of a [joint](../joints.md), and those that follow in a bundle, have no responses of
+  their own.
+- **Cooling that is believed wrong by a factor of two**, while the power falls slowly and the muscle still warms: no model stands still, but the muscle does
+  (1 of 75 groups of 20 runs, [safety](../safety.md#what-narrows-the-interval)).
 """
 
 
@@ -561,10 +557,10 @@ class DutyWrong(FaultError):
     meaning = """\
 The PWM does not do what was set: it refuses a duty, or reads back another one."""
     remedy = """\
-1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: bus or chip.
-2. A difference of a few steps that follows the duty: a lagging read back.
-3. Any other: look for who else has the device open.
-4. Check that no current flows. Only the current shows whether the enable line did its work.
+1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: check bus and chip.
+2. A difference of a few steps that follows the duty means that the read-back lags.
+3. With any other difference, find out which other program has the device open.
+4. Check that no current flows. Only the current shows whether the enable line has worked.
 5. Reset, arm."""
     page = """\
 # 24 duty_wrong
@@ -575,8 +571,7 @@ The PWM does not do what was set: it refuses a duty, or reads back another one.
 step that was set (`wrong_duty_ms`). A device that cannot be read back, or not while a write is under way (it answers
 with a negative number), is judged by its errors alone. A write that failed is tried again at each tick.
 
-**Reaction:** duty 0 is written – which may fail as well – and the enable line goes low. The enable line is the cut that
-counts here.
+**Reaction:** the channel goes cold: duty 0 is written, which may fail as well, and the enable line goes low. Here the enable line is the cut that counts.
 
 ## Likely causes
 
@@ -587,16 +582,16 @@ counts here.
 
 ## Remedy
 
-1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: bus or chip.
-2. A difference of a few steps that follows the duty: a lagging read back.
-3. Any other: look for who else has the device open.
-4. Check that no current flows. Only the current shows whether the enable line did its work.
+1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: check bus and chip.
+2. A difference of a few steps that follows the duty means that the read-back lags.
+3. With any other difference, find out which other program has the device open.
+4. Check that no current flows. Only the current shows whether the enable line has worked.
 5. Reset, arm.
 
 ## Margin
 
 In steps of the PWM: how far the step that is read back lies from the one that was set, and the limit is 0. Used is 0
-when they are equal, and infinite else.
+if they are equal, otherwise infinite.
 
 ## Not detected
 
@@ -610,29 +605,25 @@ supply.
 
 
 class LineFailed(FaultError):
-    """An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
-lines, so none of them may be in doubt."""
+    """An enable line or the heartbeat could not be set: the driver answered with an error. Both cuts depend on these lines, so none of them may be in doubt."""
 
     number = 25
     name = "line_failed"
     meaning = """\
-An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
-lines, so none of them may be in doubt."""
+An enable line or the heartbeat could not be set: the driver answered with an error. Both cuts depend on these lines, so none of them may be in doubt."""
     remedy = """\
 1. Stop the firmware. Set each line by hand and measure at the gate and at the pump's input.
-2. Look which program holds the lines.
+2. Find out which program holds the lines.
 3. Start the firmware, or reset each channel: a line that failed is tried again at each tick, the heartbeat without an
    edge, so that the reset works once all obey. The self-test follows."""
     page = """\
 # 25 line_failed
 
-An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
-lines, so none of them may be in doubt.
+An enable line or the heartbeat could not be set: the driver answered with an error. Both cuts depend on these lines, so none of them may be in doubt.
 
 **Detected** at the tick after the failed write; a single failure is enough.
 
-**Reaction:** every channel cold as far as its lines obey, and the heartbeat stops. If it was an enable line, the charge
-pump now does the work.
+**Reaction:** every channel cold, as far as its lines obey, and the heartbeat stops. If an enable line failed, the charge pump cuts the supply.
 
 ## Likely causes
 
@@ -643,7 +634,7 @@ pump now does the work.
 ## Remedy
 
 1. Stop the firmware. Set each line by hand and measure at the gate and at the pump's input.
-2. Look which program holds the lines.
+2. Find out which program holds the lines.
 3. Start the firmware, or reset each channel: a line that failed is tried again at each tick, the heartbeat without an
    edge, so that the reset works once all obey. The self-test follows.
 
@@ -656,7 +647,7 @@ A flag: 0 good, 1 failed, the limit is 0.
 - A line that is set without an error but does not reach its gate: a broken track, a wrong pin. The
   [self-test](self_test_failed.md) finds an enable line that does not cut, and a missing heartbeat shows as
   [heater_open](heater_open.md) on every channel when it is armed.
-- A line that is not being written: the enable lines only when their level changes.
+- A line that is not written at the time: enable lines are written only when their level changes.
 - The status light. Its errors are ignored.
 """
 
@@ -682,10 +673,10 @@ estimated interval (safety)."""
 The muscle may be hotter than it is allowed to be. Nobody measures its temperature: this is the upper end of an
 estimated interval ([safety](../safety.md#temperature)).
 
-**Detected** at once, from the first time on that the estimate was below the derating temperature, when the hottest that
-the muscle may be is above 160 °C (`trip_C`), or is NaN. It is the warmest air (25 °C) plus the larger of two
-rises: the interval observer with the configured bounds, and the observer with what was learned. Both are driven by the
-larger of the power that was set and the power that was measured.
+**Detected** at once when the upper bound of the muscle's temperature is above 160 °C (`trip_C`), or is NaN. After boot it is judged from the first time on
+that it was below the derating temperature. The bound is the warmest air (25 °C) plus the larger of two rises: that of the interval observer with
+the configured bounds, and that of the observer with what was learned. Both are driven by the larger of the power that was set and the power that was
+measured.
 
 **Reaction:** the channel goes cold. Well before, from 130 °C on, the power is derated (limited by: temperature) and is
 none at 160 °C.
@@ -693,7 +684,7 @@ none at 160 °C.
 ## Likely causes
 
 - a switch that conducts by itself: measured power far above what was set
-- a greater `max_W` than the bounds bear: at rest the rise is at most max_W × 1.05 / 0.045 W/K, 105 K for 4.5 W
+- a `max_W` that is too large for the bounds: in the end the rise is at most max_W × 1.05 / 0.045 W/K, 105 K for 4.5 W, once the senses were compared
 
 ## Remedy
 
@@ -705,13 +696,13 @@ none at 160 °C.
 
 ## Margin
 
-In °C: the hottest, of 160 °C. 112 of 160 is used 0.70. (Of the degrees Celsius, not of the rise.)
-With the default bounds, 4.5 W and an obedient switch it ends at 130 °C, used 0.81.
+In °C: the upper bound, of 160 °C. 112 of 160 is used 0.70 (of degrees Celsius, not of the rise). With the default bounds, compared senses, 4.5 W and a
+switch that works it ends at 130 °C, used 0.81.
 
 ## Not detected
 
 - Bounds that are wrong: another muscle, another medium, a blanket over it, air warmer than 25 °C.
-- A hot spot: the estimate is of the whole muscle.
+- A hot spot: the estimate is for the whole muscle.
 - Power beyond what was set by less than 10 mA × supply + 5 % (0.12 W while off): taken for the sense's error.
 - The time from boot until the estimate falls below 130 °C, 1.1 s: how hot the muscle was before is unknown, and nothing
   can be armed.
@@ -726,37 +717,36 @@ class OverTravel(FaultError):
     meaning = """\
 The muscle has contracted further than it may."""
     remedy = """\
-1. Is the muscle really that short? If not: sensor, zero, scale.
+1. Is the muscle really that short? If not, check sensor, zero and scale.
 2. A reset is refused until the position is back below the limit. A muscle that lost its load may need a pull.
-3. Look at the recording before the fault: a slope is the muscle, a single point is the sensor.
+3. Look at the recording before the fault: a slope means that the muscle moved, a single point is a reading of the sensor.
 4. Reset, arm."""
     page = """\
 # 31 over_travel
 
 The muscle has contracted further than it may.
 
-**Detected** at once, by a single reading: the calibrated position is above 35 mm, or what else the channel's `max_travel_m` says, or is
-NaN. (In a scenario without a board's file that is 0.999 of the position sensor's range: 39.96 mm of 40.)
-Readings that the sensor cannot give are no positions: they are [sensor_out_of_range](sensor_out_of_range.md). A
-position command beyond it is refused before it can lead here (refusal: out of range).
+**Detected** at once, by a single reading: the calibrated position is above 35 mm (`max_travel_m` of the channel), or is NaN. (In a scenario without a board's file that is 0.999 of the position sensor's range: 39.96 mm of 40.)
+Readings that the sensor cannot give do not count: they are [sensor_out_of_range](sensor_out_of_range.md). A position command beyond the limit is
+refused (out of range), so it cannot cause this fault.
 
 **Reaction:** the channel goes cold.
 
 ## Likely causes
 
-- power by hand (`power`): it has no position to stop at
-- an overshoot of a badly tuned controller
+- a command `power`, which does not stop at any position
+- overshoot of a badly tuned controller
 - the load fell off, or broke
 - in a joint: the muscle of the other side is torn, or its cable slack (below 0 the agonist's, above it the antagonist's); the fault comes
-  within 0.1 s of a motion that no heat makes
+  within 0.1 s, after a motion that no heat caused
 - a wrong zero or scale: `scale` with the wrong length, `calibrate` of a muscle that hangs on something
-- one wild reading between `max_travel_m` and the end of the sensor's range: nothing is forgiven here, as it is in [sensor_jump](sensor_jump.md)
+- one wild reading between `max_travel_m` and the end of the sensor's range: a single reading is enough here, unlike for [sensor_jump](sensor_jump.md)
 
 ## Remedy
 
-1. Is the muscle really that short? If not: sensor, zero, scale.
+1. Is the muscle really that short? If not, check sensor, zero and scale.
 2. A reset is refused until the position is back below the limit. A muscle that lost its load may need a pull.
-3. Look at the recording before the fault: a slope is the muscle, a single point is the sensor.
+3. Look at the recording before the fault: a slope means that the muscle moved, a single point is a reading of the sensor.
 4. Reset, arm.
 
 ## Margin
@@ -765,21 +755,19 @@ In metres: the position, of `max_travel_m`. With 0.035 a reference of 20 mm give
 
 ## Not detected
 
-- Travel the other way: a muscle that is pulled too long is not judged.
-- Without a fresh position ([sensor_stale](sensor_stale.md)), or beyond the sensor's range.
+- Travel in the other direction: a muscle that is pulled too long is not judged.
+- Anything without a fresh position ([sensor_stale](sensor_stale.md)), or beyond the sensor's range.
 - Force. A muscle that is blocked does not travel and may pull hard: nothing here measures it.
 """
 
 
 class EnergyBudgetExceeded(FaultError):
-    """More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
-bounds."""
+    """More energy went in, over about a minute, than the muscle may take. This is a second check of the heat that needs no thermal bounds."""
 
     number = 32
     name = "energy_budget_exceeded"
     meaning = """\
-More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
-bounds."""
+More energy went in, over about a minute, than the muscle may take. This is a second check of the heat that needs no thermal bounds."""
     remedy = """\
 1. Let it rest. The account falls by 63 % in a minute; the reset is refused until it is below the limit.
 2. Is the reference's mean power (the row's applied_W) what you planned?
@@ -787,25 +775,23 @@ bounds."""
     page = """\
 # 32 energy_budget_exceeded
 
-More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
-bounds.
+More energy went in, over about a minute, than the muscle may take. This is a second check of the heat that needs no thermal bounds.
 
-**Detected** at once when the account passes `energy_J`: 1.1 `max_W` × `energy_window_s` if nothing else is said, 297 J
-for 4.5 W and 60 s. The account takes in the most power that may have been applied: what
-was set, or what was measured if that is clearly more, or the channel's greatest power if there is no current reading.
-It loses a part of what is on it each second, 1/60: a constant 4.95 W just fills it after a long time, 6.9 W after 76 s,
-14.4 W after 25 s.
+**Detected** at once when the account passes `energy_J`: by default 1.1 `max_W` × `energy_window_s`, 297 J
+for 4.5 W and 60 s. The account adds the largest power that may have been applied: the set power, the measured power if that is clearly more, or the
+channel's maximum power if there is no current reading. It loses 1/60 of its content each second: a constant 4.95 W just fills it after a long time, 6.9 W
+after 76 s, 14.4 W after 25 s.
 
 **Reaction:** the channel goes cold.
 
-**The default trips only when more flows than was asked for.** Holding `max_W` indefinitely is within it: derating protects
-then, as far as the thermal bounds are true, and controller_invalid when it goes on. For muscles that may take a burst but no permanent power set `energy_J`
-below `max_W` × the window: with 240 J, 4.5 W trip after 132 s.
+**The default trips only when more flows than was asked for.** Holding `max_W` indefinitely does not trip it; then derating protects,
+as far as the thermal bounds are true, and later controller_invalid. For muscles that may take a burst of power, but not permanently, set `energy_J` below
+`max_W` × the window: with 240 J, 4.5 W trips after 132 s.
 
 ## Likely causes
 
-- a budget that is smaller than what the reference needs
-- `power` by hand for too long
+- a budget that is smaller than the reference needs
+- a command `power` for too long
 - a switch that conducts by itself
 - a stiffer load, or colder surroundings: the same motion takes more power
 
@@ -817,7 +803,7 @@ below `max_W` × the window: with 240 J, 4.5 W trip after 132 s.
 
 ## Margin
 
-In joules: what is on the account, of 297. At a mean of 2.5 W it settles at 150 J, used 0.51.
+In joules: the content of the account, of 297. At a mean of 2.5 W it settles at 150 J, used 0.51.
 
 ## Not detected
 
@@ -838,8 +824,8 @@ that touch lower it."""
     remedy = """\
 1. Look at the margin: how many ohms off?
 2. Supply off, measure at the terminals, and at the muscle itself.
-3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where it is thinnest it gets
-   hotter than anything here knows.
+3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where the silver is thinnest, the thread gets hotter than
+   the firmware can know.
 4. If the new value is right, put it into the configuration (cold_resistance_Ohm), remove what was learned with the
    old one, and restart. calibrate cannot help: it needs an armed channel, and arming already ends in this fault."""
     page = """\
@@ -848,10 +834,9 @@ that touch lower it."""
 The heater's resistance is far from its calibration. Silver wears off a muscle with use, so the resistance rises; turns
 that touch lower it.
 
-**Detected** when a probe ends: at each arming, in `calibrate`, and while active when the last resistance is older than
-5 s, that is, at duties below the probe's. The probe is a pulse of 2 % for 50 ms; its second half is measured. The
-result is compared with the calibrated cold resistance; if the heater has a coefficient, with that at whichever
-temperature between the estimate's cold and hot end fits it best. More than 30 % either way trips (`resistance_ratio`). While
+**Detected** when a probe ends: at each arming, in `calibrate`, and while active if the last resistance is older than 5 s, that is, at duties below the
+probe's. The probe is a pulse of 2 % for 50 ms; its second half is measured. The result is compared with the calibrated cold resistance or, if the heater
+has a coefficient, with that resistance at the temperature that fits best between the estimate's cold and hot end. More than 30 % either way trips (`resistance_ratio`). While
 heating, the smoothed resistance is judged alike, and trips after 0.5 s: a sense that reads too little current would make
 the power stage give more.
 From four times the cold resistance on it is [heater_open](heater_open.md).
@@ -869,69 +854,64 @@ From four times the cold resistance on it is [heater_open](heater_open.md).
 
 1. Look at the margin: how many ohms off?
 2. Supply off, measure at the terminals, and at the muscle itself.
-3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where it is thinnest it gets
-   hotter than anything here knows.
+3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where the silver is thinnest, the thread gets hotter than
+   the firmware can know.
 4. If the new value is right, put it into the configuration (`cold_resistance_Ohm`), remove what was learned with the
    old one, and restart. `calibrate` cannot help: it needs an armed channel, and arming already ends in this fault.
 
 ## Margin
 
 In ohms: the resistance, of the limit on its side of the calibration. 11.2 Ω for 10 Ω: 11.2 of 13, used 0.86; 8.8 Ω:
-limit 7, used 0.8. A muscle as it was calibrated uses 0.77. It stays as the last measurement left it, so watch how it
-grows over weeks.
+limit 7, used 0.8. A muscle as it was calibrated uses 0.77. It keeps the value of the last measurement, so watch how it grows over weeks.
 
 ## Not detected
 
-- Between probes, at duties too small to measure at.
-- Of a heater with a coefficient, what any temperature of the interval explains. The wider the interval, the more.
+- A change between probes, at duties that are too small to measure the resistance.
+- With a coefficient, any change that a temperature within the interval explains. The wider the interval, the larger the change.
 - Slow wear that is calibrated again and again: each calibration is the new base.
 """
 
 
 class MuscleLoose(FaultError):
-    """A muscle of a joint gets all that it may have, is asked for more, and the joint stays where it is: 'moved 0.05 of the
-3.2 mm expected'. The muscle is torn, or its cable is slack. A muscle by itself is judged by
-heater_not_responding alone."""
+    """A muscle of a joint gets all the power that it may have, more is asked for, and the joint does not move: 'moved 0.05 of the 3.2 mm
+expected'. The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
 
     number = 34
     name = "muscle_loose"
     meaning = """\
-A muscle of a joint gets all that it may have, is asked for more, and the joint stays where it is: 'moved 0.05 of the
-3.2 mm expected'. The muscle is torn, or its cable is slack. A muscle by itself is judged by
-heater_not_responding alone."""
+A muscle of a joint gets all the power that it may have, more is asked for, and the joint does not move: 'moved 0.05 of the 3.2 mm
+expected'. The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
     remedy = """\
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, calibrate both.
-3. Did it move the wrong way? Let identify tell whether heat moves it so: moved_backwards. Then do one of these: swap both heaters
+3. Did it move the wrong way? identify shows whether heat moves it so (moved_backwards). Then do one of these: swap both heaters
    with their current senses; change the sign of m_per_count, offset_m, min_m and max_m, and swap the last two; or swap
    agonist and antagonist in [joint], and move channel.position as it is to the new agonist.
-4. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
+4. Are both taut? Then find what held the joint. Set max_travel_m so that it lies within the end stops.
 5. Reset, arm."""
     page = """\
 # 34 muscle_loose
 
-A muscle of a [joint](../joints.md) gets all that it may have, is asked for more, and the joint stays where it is: "moved 0.05 of the
-3.2 mm expected". The muscle is torn, or its cable is slack. A muscle by itself is judged by
-[heater_not_responding](heater_not_responding.md) alone.
+A muscle of a [joint](../joints.md) gets all the power that it may have, more is asked for, and the joint does not move: "moved 0.05 of the 3.2 mm
+expected". The muscle is torn, or its cable is slack. Single muscles are judged by [heater_not_responding](heater_not_responding.md) only.
 
-**Detected** while a muscle gets less than is asked of it, by its maximum, its temperature or what the supply gives, without a gap: each time that the joint has
-moved by 0.9 mm, and when the limit begins, expected motion counts from zero. It trips when the muscle should have moved the joint by
-at least 3 mm (three times `responding_min_m`) and the joint has moved by less than 0.3 of that (`responding_ratio`), for 0.5 s. What is
-expected is the least of what the models of the muscle's heat do, with no help of the other muscle or with its heat times anything
-up to ten, as heater_not_responding has it. Simulated: 0.9 to 1.8 s after a muscle tore ([joints](../joints.md#safety)).
+**Detected** while a muscle is limited without a gap, by its maximum, its temperature or the supply. The expected motion is counted from zero when the limit
+begins, and again each time the joint has moved by 0.9 mm. The fault trips when the muscle should have moved the joint by at least 3 mm (three times
+`responding_min_m`) and the joint has moved by less than 0.3 of that (`responding_ratio`), for 0.5 s. The expected motion is the smallest of the models
+of the muscle's heat, without the other muscle or with its heat times any factor up to ten, as in heater_not_responding. In simulation it trips 0.9 to
+1.8 s after a muscle tore ([joints](../joints.md#safety)).
 
-It trips as well where the joint **moves the other way**: three times in a row, while one more millimetre was expected of a limited muscle by
-every model, the joint moved by at least 0.3 of that in the other direction. So swapped heaters, or a sensor with the wrong sign,
-are found when the controller has driven a muscle to its limit: simulated, 1 to 13 s after arming, where the limit moves the joint by 3 mm
-at all ([attacks](../attacks.md#joints)).
+It also trips if the joint **moves the other way**: three times in a row every model expected another millimetre from a limited muscle, and the joint moved
+by at least 0.3 of that in the other direction. So swapped heaters, or a sensor with the wrong sign, are found once the controller has driven a muscle to
+its limit: in simulation 1 to 13 s after arming, if the limit moves the joint by 3 mm at all ([attacks](../attacks.md#joints)).
 
-**Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves
-nothing until its slack is taken up, and whether more heat would take it up is found out only by giving it.
+**Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves nothing until its slack is
+taken up, and only more heat would show whether that happens.
 
-**Which muscle** the recording tells: both channels show this fault, and the one whose `applied_W` was at its maximum has it. With positions: a
-joint that stands below its reference has lost its agonist, above it its antagonist.
+**Which muscle** it is, the recording shows: both channels have this fault, and it concerns the one whose `applied_W` was at its maximum. By the position:
+a joint below its reference has lost its agonist, one above it its antagonist.
 
-**Reaction:** both channels of the joint go cold. What is expected counts anew; a reset is not refused because of this fault.
+**Reaction:** both channels of the joint go cold. The expected motion is counted from zero; a reset is not refused because of this fault.
 
 ## Likely causes
 
@@ -946,82 +926,78 @@ joint that stands below its reference has lost its agonist, above it its antagon
 
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
-3. Did it move the wrong way? Let `identify` tell whether heat moves it so: `moved_backwards`. Then do one of these: swap both heaters
+3. Did it move the wrong way? `identify` shows whether heat moves it so (`moved_backwards`). Then do one of these: swap both heaters
    with their current senses; change the sign of `m_per_count`, `offset_m`, `min_m` and `max_m`, and swap the last two; or swap
    `agonist` and `antagonist` in `[[joint]]`, and move `[channel.position]` as it is to the new agonist.
-4. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
+4. Are both taut? Then find what held the joint. Set `max_travel_m` so that it lies within the end stops.
 5. Reset, arm.
 
 ## Margin
 
-In metres, a least value: how far the joint moved since what is expected counts, and 0.3 of what the muscle should have moved it. While
-less than 3 mm are expected, or nothing is limited, used is 0. Where the joint moved the other way: how far of the last millimetre that was
-expected, and 0.3 of it, a greatest value.
+In metres, a minimum: how far the joint moved since the counting began, and 0.3 of how far the muscle should have moved it. While less than 3 mm is expected,
+or nothing is limited, used is 0. If the joint moved the other way, a maximum: how far, during the last expected millimetre, and 0.3 of it.
 
 ## Not detected
 
-- A loose muscle that is not asked for more than it can give: what the other one, a spring or a load does for it is not noticed.
-- If nothing pulls the joint away, the loose muscle is hot already when it reaches its limit: no motion is expected then, and
+- A loose muscle from which no more is asked than it can give: the other muscle, a spring or a load does its work.
+- A loose muscle that is already hot when it reaches its limit, because nothing pulls the joint away: then no motion is expected, and
   [controller_invalid](controller_invalid.md) follows after 120 s.
-- A demand that falls below the limit again and again, as a noisy one may: what is expected then counts anew each time.
-- Slack that the other muscle takes up at once, since both stay taut: the joint jumps by a part of it and follows on. Less pretension is
-  left; `calibrate` again.
-- A joint that moves the wrong way with muscles whose limit moves it by less than 3 mm. [over_travel](over_travel.md) ends its way, and
-  `identify` tells.
-- Where the other muscle draws the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.
+- A demand that falls below the limit again and again, as a noisy one may: the expected motion is then counted from zero each time.
+- Slack that the other muscle takes up at once, because both stay taut: the joint jumps by a part of it and continues to follow. Less pretension is left;
+  `calibrate` again.
+- A joint that moves the wrong way with muscles whose limit moves it by less than 3 mm. [over_travel](over_travel.md) ends the motion, and `identify` shows
+  the cause.
+- If the other muscle pulls the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.
 """
 
 
 class UnderVoltage(FaultError):
-    """The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
-from it."""
+    """The supply is too low, or it cannot be measured. No duty can be computed from an unknown supply."""
 
     number = 40
     name = "under_voltage"
     meaning = """\
-The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
-from it."""
+The supply is too low, or it cannot be measured. No duty can be computed from an unknown supply."""
     remedy = """\
-1. Measure at the board's terminals, with all channels at work.
-2. Right there, wrong in the row's supply_V (0 means absent): divider, converter, scaling.
-3. Low under load only: the supply or its wires.
+1. Measure at the board's terminals, with all channels active.
+2. If it is right there, but the row's supply_V is wrong (0 means absent), check divider, converter and scaling.
+3. If it is low under load only, check the supply and its wires.
 4. Reset each channel. The first reset starts the self-test; when it has passed the heartbeat beats."""
     page = """\
 # 40 under_voltage
 
-The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
-from it.
+The supply is too low, or it cannot be measured. No duty can be computed from an unknown supply.
 
 **Detected** when the supply is below 10.8 V, or its reading is absent (older than 10 ms, or an error), for 20 ms
 (`supply.min_V`, `supply.hold_ms`; the age is `max_age_ms` of the supply's input).
 
-**Reaction:** every channel cold, heartbeat off. In the 20 ms before, an absent supply already gives no duty.
+**Reaction:** every channel cold, heartbeat off. During the 20 ms before, the duty is already 0 if the reading is absent.
 
 ## Likely causes
 
 - the supply is off. A board that is started without it has this fault 0.1 s after boot; the self-test waits
-- it sags under load: too small, long thin wires, current limit
-- a battery at its end
+- the supply sags under load: it is too weak, its wires are long and thin, or its current is limited
+- an empty battery
 - the divider or the converter of the measurement
 
 ## Remedy
 
-1. Measure at the board's terminals, with all channels at work.
-2. Right there, wrong in the row's `supply_V` (0 means absent): divider, converter, scaling.
-3. Low under load only: the supply or its wires.
+1. Measure at the board's terminals, with all channels active.
+2. If it is right there, but the row's `supply_V` is wrong (0 means absent), check divider, converter and scaling.
+3. If it is low under load only, check the supply and its wires.
 4. Reset each channel. The first reset starts the self-test; when it has passed the heartbeat beats.
 
 ## Margin
 
-In volts, a least value. 12.0 V over 10.8 V is used 0.90. The rows carry `supply_V` itself.
+In volts, a minimum. 12.0 V over 10.8 V is used 0.90. The rows carry `supply_V` itself.
 
 ## Not detected
 
-- What happens behind the supply switch: the supply is measured before it. A fuse or a pump that does not pump shows as
+- Anything behind the supply switch, because the supply is measured before it. A blown fuse, or a pump that does not pump, shows as
   [heater_open](heater_open.md).
 - Dips shorter than 20 ms.
-- A supply that reads too high or too low by a constant: the power is then wrong by the same part. The bounds on
-  power (0.95 to 1.05) must cover it.
+- A supply reading that is wrong by a constant factor: the power is then wrong too. The temperature's hot end [counts that](../safety.md#power) as far as
+  the configured range of the supply allows.
 """
 
 
@@ -1035,8 +1011,7 @@ The supply is above what the board is made for."""
     remedy = """\
 1. Measure at the terminals before anything is reset.
 2. If it is too high, replace the supply. Raise the limit only if transistors, capacitors and pump are made for it.
-3. If it is right, the scaling is wrong: then every power was wrong as well, by the same part: too low if the
-   supply reads too high. Correct it.
+3. If it is right, the scaling is wrong. Then every power was wrong as well: too low if the supply reads too high. Correct the scaling.
 4. Reset each channel."""
     page = """\
 # 41 over_voltage
@@ -1045,24 +1020,23 @@ The supply is above what the board is made for.
 
 **Detected** when it reads more than 13.2 V for 20 ms (`supply.max_V`, `supply.hold_ms`).
 
-**Reaction:** every channel cold, heartbeat off: the supply's switch opens and keeps the voltage from the power
-switches, but not from whatever is wired before it.
+**Reaction:** every channel cold, heartbeat off: the supply switch opens and keeps the voltage from the power switches, but not from parts that are
+wired before it.
 
-The power of a muscle does not rise with the voltage while it is below the limit: the duty follows the measured supply.
+Below the limit a muscle's power does not rise with the voltage, because the duty follows the measured supply.
 
 ## Likely causes
 
-- the wrong supply, or one that is adjustable and was adjusted
-- no load on an unregulated supply
-- something feeds back: a motor on the same supply
+- a wrong or wrongly adjusted supply
+- an unregulated supply without load
+- something feeds back into the supply, such as a motor
 - the divider of the measurement
 
 ## Remedy
 
 1. Measure at the terminals **before** anything is reset.
 2. If it is too high, replace the supply. Raise the limit only if transistors, capacitors and pump are made for it.
-3. If it is right, the scaling is wrong: then every power was wrong as well, by the same part: too low if the
-   supply reads too high. Correct it.
+3. If it is right, the scaling is wrong. Then every power was wrong as well: too low if the supply reads too high. Correct the scaling.
 4. Reset each channel.
 
 ## Margin
@@ -1071,31 +1045,30 @@ In volts. 12.0 of 13.2 V, used 0.91. The rows carry `supply_V` itself.
 
 ## Not detected
 
-- Spikes shorter than 20 ms: those are for a suppressor on the board.
+- Spikes shorter than 20 ms: use a suppressor on the board.
 - A supply that cannot be measured: that is [under_voltage](under_voltage.md).
 - A converter that clips below the limit. Its full scale must lie well above 13.2 V.
 """
 
 
 class PowerLimitExceeded(FaultError):
-    """The channel draws more power than anybody may have asked for."""
+    """The channel draws more power than can have been asked for."""
 
     number = 42
     name = "power_limit_exceeded"
     meaning = """\
-The channel draws more power than anybody may have asked for."""
+The channel draws more power than can have been asked for."""
     remedy = """\
-1. Compare applied_W with supply × current in the recording. Together until the end: the limits do not fit each other.
-   Apart: heater or switch.
-2. If they part by a constant factor, it is a scaling. Check the sense with a known resistor.
-3. If they part suddenly, look at the switch, with the supply off.
+1. Compare applied_W with supply × current in the recording. If they agree until the end, the two limits do not fit each other.
+2. If they differ by a constant factor, it is a scaling. Check the sense with a known resistor.
+3. If they diverge suddenly, check the switch, with the supply off.
 4. Reset, arm."""
     page = """\
 # 42 power_limit_exceeded
 
-The channel draws more power than anybody may have asked for.
+The channel draws more power than can have been asked for.
 
-**Detected** when supply × averaged current is above 1.25 `max_W` + 0.3 W (5.9 W for 4.5 W), or no number, for 100 ms (`max_measured_W`, `over_power_ms`).
+**Detected** when supply × averaged current is above 1.25 `max_W` + 0.3 W (5.9 W for 4.5 W), or NaN, for 100 ms (`max_measured_W`, `over_power_ms`).
 It is judged in every state, also while off.
 
 **Reaction:** the channel goes cold. If the current goes on, [heater_stuck_on](heater_stuck_on.md) follows 50 ms later
@@ -1104,16 +1077,15 @@ and opens the supply.
 ## Likely causes
 
 - a switch that conducts by itself while the duty is high (at a low duty [heater_short](heater_short.md) is faster)
-- the resistance that the duty was computed from is too high: the true one is lower, and more power flows
-- `max_W` was raised and `max_measured_W` was not: it must lie above max_W by the errors of measurement
-- sense or supply scaled wrongly
+- the resistance from which the duty was computed is too high: the true one is lower, so more power flows
+- `max_W` was raised, but `max_measured_W` was not: it must exceed max_W by the errors of measurement
+- sense or supply is scaled wrongly
 
 ## Remedy
 
-1. Compare `applied_W` with supply × current in the recording. Together until the end: the limits do not fit each other.
-   Apart: heater or switch.
-2. If they part by a constant factor, it is a scaling. Check the sense with a known resistor.
-3. If they part suddenly, look at the switch, with the supply off.
+1. Compare `applied_W` with supply × current in the recording. If they agree until the end, the two limits do not fit each other.
+2. If they differ by a constant factor, it is a scaling. Check the sense with a known resistor.
+3. If they diverge suddenly, check the switch, with the supply off.
 4. Reset, arm.
 
 ## Margin
@@ -1298,22 +1270,22 @@ In seconds: how long the counter has stood, of 0.5 s.
 
 
 class CommandTimeout(FaultError):
-    """Every command to heat expires unless it is renewed. The master has fallen silent."""
+    """The master has fallen silent: every command to heat expires unless it is renewed."""
 
     number = 60
     name = "command_timeout"
     meaning = """\
-Every command to heat expires unless it is renewed. The master has fallen silent."""
+The master has fallen silent: every command to heat expires unless it is renewed."""
     remedy = """\
-1. See what the sender was doing at the time of the fault.
-2. Send every 50 to 80 ms, also when nothing changes.
+1. Find out what the sender was doing at the time of the fault.
+2. Send every 50 to 80 ms, even if nothing changes.
 3. Stop sending before you reset: commands to heat are refused now, and ten refused ones in a row keep the reset from
    working (command_not_allowed).
 4. Reset, arm, command."""
     page = """\
 # 60 command_timeout
 
-Every command to heat expires unless it is renewed. The master has fallen silent.
+The master has fallen silent: every command to heat expires unless it is renewed.
 
 **Detected** when a channel has been active for more than 0.25 s without a renewal (`command.timeout_ms`). `position`,
 `power` and `renew` renew; `identify` and `calibrate` only when they start, so they need `renew` while they run.
@@ -1325,26 +1297,26 @@ Periods that were left out after an [overrun](overrun.md) count: no command was 
 
 - the commanding program ended, hangs, or lost its connection
 - it stopped with its last command still in force: end with `rest` or `disarm`
-- it renews too seldom: 0.25 s should have room for three renewals
+- it renews too rarely: leave room for three renewals within 0.25 s
 - it renews another channel
 
 ## Remedy
 
-1. See what the sender was doing at the time of the fault.
-2. Send every 50 to 80 ms, also when nothing changes.
+1. Find out what the sender was doing at the time of the fault.
+2. Send every 50 to 80 ms, even if nothing changes.
 3. Stop sending before you reset: commands to heat are refused now, and ten refused ones in a row keep the reset from
    working ([command_not_allowed](command_not_allowed.md)).
 4. Reset, arm, command.
 
 ## Margin
 
-In seconds: the age of the last renewal, of 0.25 s. 0.06 of 0.25 is used 0.24. The largest value over a day says how
-near the connection is to failing. While nothing is active it is 0.
+In seconds: the age of the last renewal, of 0.25 s. 0.06 of 0.25 is used 0.24. The maximum over a day says how
+close the connection is to failing. While nothing is active it is 0.
 
 ## Not detected
 
-- A sender that renews without thinking: a program that hangs in the part that decides, but not in the part that sends.
-- A wrong command that is renewed faithfully.
+- A program that hangs in the part that decides, but not in the part that renews.
+- A wrong command that is renewed.
 """
 
 
@@ -1356,22 +1328,21 @@ class CommandDamaged(FaultError):
     meaning = """\
 Commands arrive with a wrong checksum or a counter that does not follow."""
     remedy = """\
-1. Do all channels of the bus have it? Then it is the bus. One channel: its sender.
+1. If all channels on the bus have it, the cause is the bus; if one channel has it, its sender.
 2. Stop all senders but one.
 3. Check termination and wiring of the bus.
-4. Reset, arm. With a damaged stream still coming, the fault comes back within ten commands."""
+4. Reset, arm. If damaged commands still arrive, the fault returns within ten of them."""
     page = """\
 # 61 command_damaged
 
 Commands arrive with a wrong checksum or a counter that does not follow.
 
-**Detected** at the tenth tick in a row in which a damaged command came (`damaged_in_a_row`). Ticks without any command
-do not count; a tick with only whole commands sets the count back. Damaged commands are never obeyed.
+**Detected** at the tenth tick in a row in which a damaged command came (`damaged_in_a_row`). Ticks without any command do not count; a tick with only
+intact commands resets the count. Damaged commands are never obeyed.
 
 **Reaction:** the channel goes cold.
 
-Checked are commands over CAN ([can.md](../can.md#commanding)). A tick in which a whole command comes beside a damaged one
-counts as damaged.
+Only commands over CAN are checked ([can.md](../can.md#commanding)). A tick with both an intact and a damaged command counts as damaged.
 
 ## Likely causes
 
@@ -1381,47 +1352,47 @@ counts as damaged.
 
 ## Remedy
 
-1. Do all channels of the bus have it? Then it is the bus. One channel: its sender.
+1. If all channels on the bus have it, the cause is the bus; if one channel has it, its sender.
 2. Stop all senders but one.
 3. Check termination and wiring of the bus.
-4. Reset, arm. With a damaged stream still coming, the fault comes back within ten commands.
+4. Reset, arm. If damaged commands still arrive, the fault returns within ten of them.
 
 ## Margin
 
-A count, of 10. Used 0.3 is three damaged ones in a row. It stands still while nothing is heard.
+A count, of 10. Used 0.3 means three damaged ones in a row. The count does not change while nothing is heard.
 
 ## Not detected
 
-- Damage that keeps the checksum right: of 4 bits or more, one in 256.
-- Every second command damaged: the count never reaches 10. But then whole commands do come through.
-- A sender of which nothing arrives at all: [command_timeout](command_timeout.md).
+- Damage that leaves the checksum right: one in 256 of errors of 4 bits or more.
+- Damage to every second command: the count never reaches 10. But then the intact commands are obeyed.
+- A sender from which nothing arrives at all: [command_timeout](command_timeout.md).
 """
 
 
 class CommandNotAllowed(FaultError):
-    """Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
-channel is doing."""
+    """A program keeps sending commands that the channel's state does not allow. Sender and board disagree about what the channel is
+doing."""
 
     number = 62
     name = "command_not_allowed"
     meaning = """\
-Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
-channel is doing."""
+A program keeps sending commands that the channel's state does not allow. Sender and board disagree about what the channel is
+doing."""
     remedy = """\
-1. Stop the stream first. The count stands at its limit as long as refused commands come: a reset among them is not
-   obeyed, and is answered 'cause persists'.
+1. Stop the stream first. The count stays at its limit while refused commands come: a reset among them is not obeyed, and is answered
+   'cause persists'.
 2. Send reset, alone in its tick and not in the tick after another one.
 3. Let the sender read the channel's state: send commands to heat only when it is armed or active.
 4. Find the other sender, if there is one."""
     page = """\
 # 62 command_not_allowed
 
-Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
-channel is doing.
+A program keeps sending commands that the channel's state does not allow. Sender and board disagree about what the channel is
+doing.
 
 **Detected** at the tenth tick in a row with a command that was refused as "wrong state" (`refused_in_a_row`). Ticks
-without a command do not count; a tick with none but other answers sets the count back. Refusals for other reasons (out
-of range, busy, not ready) do not count either.
+without a command do not count; a tick with other answers only resets the count. Refusals for other reasons (out of range,
+busy, not ready) do not count either.
 
 **Reaction:** the channel goes cold. Most often it is cold already; then it only changes from `disarmed` to `fault`.
 
@@ -1433,62 +1404,59 @@ of range, busy, not ready) do not count either.
 
 ## Remedy
 
-1. **Stop the stream first.** The count stands at its limit as long as refused commands come: a reset among them is not
-   obeyed, and is answered "cause persists".
+1. **Stop the stream first.** The count stays at its limit while refused commands come: a reset among them is not obeyed, and is answered
+   "cause persists".
 2. Send `reset`, alone in its tick and not in the tick after another one.
 3. Let the sender read the channel's state: send commands to heat only when it is `armed` or `active`.
 4. Find the other sender, if there is one.
 
 ## Margin
 
-A count, of 10. It stands still while no command comes. Used 0.1 to 0.3 now and then is a sender that is a little behind
-the state.
+A count, of 10. It does not change while no command comes. An occasional 0.1 to 0.3 means that the sender lags a little behind the
+state.
 
 ## Not detected
 
-- Refused and obeyed commands in turn, each in its own tick.
+- Refused and obeyed commands that alternate, each in its own tick.
 - Commands that are allowed but wrong.
 """
 
 
 class EmergencyStop(FaultError):
-    """The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
-firmware."""
+    """The emergency stop is pressed, its circuit is broken, or its input cannot be read. The firmware treats all three alike."""
 
     number = 63
     name = "emergency_stop"
     meaning = """\
-The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
-firmware."""
+The emergency stop is pressed, its circuit is broken, or its input cannot be read. The firmware treats all three alike."""
     remedy = """\
-1. Make sure that the reason is gone.
+1. Make sure that the reason for pressing it is gone.
 2. Release the button; the input must read high.
 3. Reset each channel. The first reset starts the self-test, 0.23 s; then arm.
-4. If it is not pressed, measure the loop: closed is high."""
+4. If it is not pressed, measure the loop: the input is high when the loop is closed."""
     page = """\
 # 63 emergency_stop
 
-The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
-firmware.
+The emergency stop is pressed, its circuit is broken, or its input cannot be read. The firmware treats all three alike.
 
 **Detected** at once: the input is read at each tick, and anything but "high, read without an error" trips.
 
 **Reaction:** every channel cold and the heartbeat off in the same tick; the supply opens after the pump's decay, 20 ms.
-The fault stays when the stop is released. The self-test does not run while the stop is pressed, and ends in the tick at
-which it is; in the first 0.1 s after boot nothing is latched, but everything is off.
+The fault stays when the stop is released. While the stop is pressed, the self-test does not run; if it is pressed during the self-test, the test ends in
+the same tick. In the first 0.1 s after boot nothing is latched, but everything is off.
 
 ## Likely causes
 
-- it was pressed. Ask why before you release it
+- somebody pressed it. Ask why before you release it
 - a wire of the loop is broken, a plug is open
 - the input's line is not held by the firmware
 
 ## Remedy
 
-1. Make sure that the reason is gone.
+1. Make sure that the reason for pressing it is gone.
 2. Release the button; the input must read high.
 3. Reset each channel. The first reset starts the self-test, 0.23 s; then arm.
-4. If it is not pressed, measure the loop: closed is high.
+4. If it is not pressed, measure the loop: the input is high when the loop is closed.
 
 ## Margin
 
@@ -1503,14 +1471,14 @@ A flag: 0 is closed, 1 is open, the limit is 0.
 
 
 class BusOff(FaultError):
-    """The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
-its interface is down, which is the same for the board."""
+    """The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or its interface is down, which is
+the same for the board."""
 
     number = 70
     name = "bus_off"
     meaning = """\
-The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
-its interface is down, which is the same for the board."""
+The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or its interface is down, which is
+the same for the board."""
     remedy = """\
 1. Bus unpowered, measure between CAN-H and CAN-L: 60 Ω.
 2. Compare the bit rates of all nodes.
@@ -1519,15 +1487,14 @@ its interface is down, which is the same for the board."""
     page = """\
 # 70 bus_off
 
-The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
-its interface is down, which is the same for the board.
+The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or its interface is down, which is
+the same for the board.
 
 **Detected** at the tick at which the telemetry thread reports it (`can_bus_off_ms` is 0: at once).
 
-**Reaction:** every channel cold. The heartbeat goes on: a bus is no reason to doubt the switches. In the table its
-scope is therefore `channel`, but no channel is spared. It does not occupy the board's latch: the emergency stop, a
-stuck switch or any other fault of the board stops the heartbeat as ever. While it lasts no self-test begins and no
-fault of the board can be reset.
+**Reaction:** every channel goes cold. The heartbeat continues, because a bus is no reason to doubt the switches. Therefore its scope in the table is
+`channel`, although it affects all channels. Any fault of the board, such as the emergency stop or a stuck switch, still stops the heartbeat. While the
+fault lasts, no self-test begins and no fault of the board can be reset.
 
 `supercoild` reports the state of the interface in `[can]`; without `[can]`, and in the simulation, it stays "active".
 
@@ -1548,7 +1515,7 @@ fault of the board can be reset.
 
 ## Margin
 
-In seconds: for how long, of 0: it is not judged (used 0) while the bus works, infinite when it is off.
+In seconds: for how long the controller has been off, of 0. Used is 0 while the bus works, and infinite when it is off.
 
 ## Not detected
 
@@ -1576,11 +1543,11 @@ next step is bus_off."""
 The CAN controller sees so many errors that it no longer marks them on the bus ("error passive"). It still works; the
 next step is [bus_off](bus_off.md).
 
-**Detected** when the state is error-passive, bus-off or down for 1 s without a gap (`can_error_passive_ms`). Being off is
-found earlier, as its own fault.
+**Detected** when the state is error-passive, bus-off or down for 1 s without a gap (`can_error_passive_ms`). Bus-off is
+found earlier, as a fault of its own.
 
-**Reaction:** as for bus_off: every channel cold, and the heartbeat goes on. While it lasts no self-test begins and no
-fault of the board can be reset.
+**Reaction:** as for bus_off: every channel goes cold, and the heartbeat continues. While the fault lasts, no self-test begins and no fault of the board can
+be reset.
 
 Without `[can]` in the configuration, and in the simulation, this fault cannot appear.
 
@@ -1588,7 +1555,7 @@ Without `[can]` in the configuration, and in the simulation, this fault cannot a
 
 - the board is alone on its bus: no node acknowledges. Typical on a bench
 - termination or wiring that is nearly right
-- disturbance: a motor's cable beside the bus
+- interference: a motor's cable beside the bus
 - a bit rate that is slightly off
 
 ## Remedy
@@ -1600,8 +1567,8 @@ Without `[can]` in the configuration, and in the simulation, this fault cannot a
 
 ## Margin
 
-In seconds: how long it has been passive, of 1 s. Short spells that never reach 1 show a bus that is
-nearly bad.
+In seconds: how long it has been passive, of 1 s. Short spells that never reach 1 s show a bus that is
+close to failing.
 
 ## Not detected
 
@@ -1611,13 +1578,13 @@ nearly bad.
 
 class NodeConflict(FaultError):
     """Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
-mix. Neither can know whose node it is, so both go cold."""
+mix. Neither can know whose node it is, so both boards go cold."""
 
     number = 72
     name = "node_conflict"
     meaning = """\
 Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
-mix. Neither can know whose node it is, so both go cold."""
+mix. Neither can know whose node it is, so both boards go cold."""
     remedy = """\
 1. supercoil monitor with one of the boards unplugged shows which nodes are taken.
 2. Give each board its own first_node in [can](../configuration.md#can), and restart it.
@@ -1626,7 +1593,7 @@ mix. Neither can know whose node it is, so both go cold."""
 # 72 node_conflict
 
 Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
-mix. Neither can know whose node it is, so both go cold.
+mix. Neither can know whose node it is, so both boards go cold.
 
 **Detected** when the heartbeat (Status) of one of this board's own nodes is heard from another sender: at the tick after
 the telemetry thread reads it. A board sends its heartbeat 10 times a second (at least once), so two boards find each
@@ -1634,8 +1601,8 @@ other within 0.1 s (1 s). The fault's cause lasts 2.5 s after the last such fram
 never among them: the kernel does not hand them back to the socket that sent them.
 
 **Reaction:** every channel cold, as for [bus_off](bus_off.md), and the heartbeat of the charge pump goes on: a wrong
-address is no reason to doubt the switches. While it lasts no self-test begins and nothing can be reset or armed: a board
-does not start where its nodes are taken.
+address is no reason to doubt the switches. While the conflict lasts, no self-test begins and nothing can be reset or
+armed: a board does not start if its nodes are taken.
 
 ## Likely causes
 
@@ -1711,57 +1678,56 @@ A flag: 0 is unchanged, 1 changed, the limit is 0.
 
 
 class ControllerInvalid(FaultError):
-    """The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes."""
+    """The controller has failed: its demand is NaN, or it has demanded more than it can get for two minutes."""
 
     number = 81
     name = "controller_invalid"
     meaning = """\
-The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes."""
+The controller has failed: its demand is NaN, or it has demanded more than it can get for two minutes."""
     remedy = """\
-1. Margin in seconds (120 of 120): saturated. Look at limited_by in the recording: which limit, and for how long?
-2. Maximum: a smaller reference, or more power if the muscle may. Temperature or unproven: ask for no more than is held for good
-   (supercoild --check), or set shape_reference.
-3. No number: look at the estimates before the fault; go back to a simpler controller; identify anew.
-4. Reset, arm. A controller starts anew when it is entered."""
+1. If the margin is in seconds (120 of 120), the demand was limited. Look at limited_by in the recording: which limit, and for how long?
+2. If it was the maximum, ask for less, or allow more power if the muscle may have it. If it was temperature or unproven, ask for no more than can be held
+   permanently (supercoild --check), or set shape_reference.
+3. If it was NaN, look at the estimates before the fault, go back to a simpler controller, and identify again.
+4. Reset, arm. A controller starts afresh when it is activated."""
     page = """\
 # 81 controller_invalid
 
-The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes.
+The controller has failed: its demand is NaN, or it has demanded more than it can get for two minutes.
 
 **Detected** in two ways:
 - The demanded power is NaN or infinite: found at the next tick. In the tick itself the limiter already gives 0 W
   (limited by: invalid).
-- More was demanded than was given for 120 s without a gap while active (`saturated_s`), whichever limit took it: maximum,
-  temperature, slew, supply. To want less than 0 W is how a muscle cools, and does not count.
+- More was demanded than was given for 120 s without a gap while active (`saturated_s`), whichever limit reduced it: maximum,
+  temperature, slew, supply. A demand below 0 W does not count: that is how a muscle cools.
 
 **Reaction:** the channel goes cold.
 
 ## Likely causes
 
-- no number: gains that diverge, a learned parameter that became absurd
+- NaN: gains that diverge, a learned parameter that became absurd
 - a position that 4.5 W cannot reach: too much load, a softer muscle
-- a set point that stays above the travel that is held for good, without `shape_reference`
-- `power` by hand above `max_W`
+- a set point that stays above the travel that can be held permanently, without `shape_reference`
+- a command `power` above `max_W`
 - a supply that is too weak for the demanded power
 
 ## Remedy
 
-1. Margin in seconds (120 of 120): saturated. Look at `limited_by` in the recording: which limit, and for how long?
-2. Maximum: a smaller reference, or more power if the muscle may. Temperature or unproven: ask for no more than is held for good
-   (`supercoild --check`), or set [`shape_reference`](../control.md#references-that-a-muscle-can-follow).
-3. No number: look at the estimates before the fault; go back to a simpler controller; `identify` anew.
-4. Reset, arm. A controller starts anew when it is entered.
+1. If the margin is in seconds (120 of 120), the demand was limited. Look at `limited_by` in the recording: which limit, and for how long?
+2. If it was the maximum, ask for less, or allow more power if the muscle may have it. If it was temperature or unproven, ask for no more than can be held
+   permanently (`supercoild --check`), or set [`shape_reference`](../control.md#references-that-a-muscle-can-follow).
+3. If it was NaN, look at the estimates before the fault, go back to a simpler controller, and `identify` again.
+4. Reset, arm. A controller starts afresh when it is activated.
 
 ## Margin
 
-In seconds: for how long it has demanded more than it got, of 120 s. After NaN, measured is that number
-and used is infinite.
+In seconds: for how long it has demanded more than it got, of 120 s. After NaN, measured is NaN and used is infinite.
 
 ## Not detected
 
-- A controller that is wrong within its limits: it oscillates, or tracks badly.
-- Saturation with a single free tick in every two minutes.
-- A controller that wants less than 0 W for ever.
+- A controller that oscillates or tracks badly within its limits.
+- A limited demand with a single tick without limit in every two minutes.
+- A controller that demands less than 0 W permanently.
 """
 
 

@@ -1752,7 +1752,7 @@ The board could not prove that it can cut the heat. It never gets armed."""
 The board could not prove that it can cut the heat. It never gets armed.
 
 **Detected** in the self-test: at every boot, and again after every reset of a board's fault. It takes 0.23 s. Twice a
-pulse of the probe's duty (2 %, 30 ms) is set while one of the two ways of cutting is closed and the other open:
+pulse of the probe's duty (2 %, 30 ms) is set while one of the two switches may conduct and the other is off:
 
 | from | heartbeat | enable | duty | a current means |
 |---|---|---|---|---|

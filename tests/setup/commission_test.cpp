@@ -137,10 +137,11 @@ TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
       c.refused.c_str());
 }
 
-/// A motion of 16 um either way.
+/// A time constant of 56 s, and senses that no meter was compared with: a motion of some 20 um.
 TEST(Commission, AMotionThatStandingStillWouldFollowAsWellIsSaid) {
   for (const bool small : {true, false}) {
-    HeldOutBoard board(held_out_muscle(small ? 91058 : 24, error), "learned_ff", 0.02);
+    HeldOutBoard board(small ? held_out_muscle(2002, error, 5.0) : held_out_muscle(24, error),
+                       "learned_ff", small ? 0.0 : 0.02);
     Listener nobody;
     operating::Commission steps = board.steps(nobody);
     CHECK_TRUE(steps.calibrate().has_value());

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   const double slower = argc > 4 ? std::atof(argv[4]) : 1.0;
   int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, untold = 0;
   std::printf(
-      "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio "
+      "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um standing_um ratio "
       "calibrated_s identified_s took_s rise_K untold_K\n");
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
@@ -25,12 +25,14 @@ int main(int argc, char** argv) {
       const Commissioned c = commission_by_script(muscle);
       const double ratio = c.error_m / c.promised_m;
       std::printf(
-          "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %12.0f %12.0f %6.0f %6.0f %8.2f %s "
+          "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %11.2f %5.2f %12.0f %12.0f %6.0f %6.0f "
+          "%8.2f %s "
           "%s\n",
           seed, muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
-          1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m, ratio,
-          c.calibrated_s, c.identified_s, c.took_s, c.hottest_rise_K, c.untold_K,
-          c.fault == Fault::none ? "" : name(c.fault).data(), c.refused.c_str());
+          1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m,
+          1e6 * c.standing_still_m, ratio, c.calibrated_s, c.identified_s, c.took_s,
+          c.hottest_rise_K, c.untold_K, c.fault == Fault::none ? "" : name(c.fault).data(),
+          c.refused.c_str());
       std::fflush(stdout);
       untold += c.untold_K > 0.0 ? 1 : 0;
       if (!c.refused.empty()) continue;

@@ -20,7 +20,7 @@ constexpr double short_strokes_ratio = 0.7;
 /// Quicker ones show nothing that this does not, and a person sees it.
 constexpr double min_period_s = 5.0;
 /// Slower ones only take time: a smaller sine shows a slow muscle in this one.
-constexpr double max_period_s = 45.0;
+constexpr double max_period_s = 36.0;
 
 /// One period's error differs from the next one's, and motion from that of identify: of 200 muscles
 /// (tests/setup/setup_study.cpp, 1 to 200) 97 % stay below.

@@ -10,6 +10,12 @@
 
 namespace supercoil {
 
+/// Slower motion counts less: a drift may be anything. Of any motion: higher, and a sine of 0.25
+/// rad/s and 18 mm would have moments that prove nothing for longer than a dither waits.
+inline constexpr double motion_corner_rad_per_s = 1.0;
+/// Of a dither's answer: a load or a draught moves the muscle by more than the dither, but slower.
+inline constexpr double dither_corner_rad_per_s = 4.0;
+
 /// The position that a muscle's model has, step by step of some 10 ms.
 class ExpectedMotion {
  public:
@@ -23,6 +29,7 @@ class ExpectedMotion {
     state_ = discrete_.transition * state_ + discrete_.held.col(0) * power_W;
     return 0.5 * response_ratio_ * (before_m + state_[1]);
   }
+  double response_ratio() const { return response_ratio_; }
   /// Where another model of the same muscle is.
   void take_over(const ExpectedMotion& other) { state_ = other.state_; }
 
@@ -43,6 +50,8 @@ struct SensorStep {
 struct Dither {
   int half_steps = 1;
   double amplitude_W = 0.0;
+  /// Of the high-passes through which its answer is looked at.
+  double corner_rad_per_s = dither_corner_rad_per_s;
   /// Until its answer in open loop is needed_deviations of the noise; infinite: never.
   double decided_s = INFINITY;
 
@@ -52,12 +61,6 @@ struct Dither {
   }
   double step_W(int place) const { return sign(place) * amplitude_W; }
 };
-
-/// Slower motion counts less: a drift may be anything. Of any motion: higher, and a sine of 0.25
-/// rad/s and 18 mm would have moments that prove nothing for longer than a dither waits.
-inline constexpr double motion_corner_rad_per_s = 1.0;
-/// Of a dither's answer: a load or a draught moves the muscle by more than the dither, but slower.
-inline constexpr double dither_corner_rad_per_s = 4.0;
 
 /// The slowest and so the gentlest dither that is decided within in_time_s on a muscle that moves
 /// so, its answer at most 20 µm or two counts; where none is in time, the one that is decided

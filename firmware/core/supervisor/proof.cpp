@@ -83,6 +83,12 @@ double provable_W(const ProofSettings& s, const Dither& dither, double warmer_ai
   return std::clamp(provable_K * s.max_W / rest_K(s, s.max_W), 0.0, s.max_W);
 }
 
+/// Without a decision what was seen is forgotten: it may have been before contact was lost.
+double block_s(const Dither& dither) {
+  const bool decides = std::isfinite(dither.decided_s);
+  return decides ? std::max(max_block_s, loop_ratio * dither.decided_s) : max_block_s;
+}
+
 double steps_s(double rate_Hz) {
   return static_cast<double>(ticks_of_step(rate_Hz)) / rate_Hz;
 }
@@ -109,7 +115,7 @@ SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
                                         double rate_Hz) {
   constexpr double time_constants = 5.0;
-  constexpr double max_settle_s = 60.0;
+  constexpr double max_settle_s = 45.0;
   ProofSettings all_arrives = settings;
   all_arrives.response_ratio = 1.0;
   SmallSignal::Settings s;
@@ -132,7 +138,7 @@ Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& m
       step_ticks_(ticks_of_step(rate_Hz)),
       plan_(plan_proof(settings, muscle, rate_Hz)),
       all_(match_for(muscle, motion_corner_rad_per_s)),
-      dither_(match_for(muscle, dither_corner_rad_per_s, settings.response_ratio)) {
+      dither_(match_for(muscle, plan_.dither.corner_rad_per_s, settings.response_ratio)) {
   enter(Stage::watching);
 }
 
@@ -150,7 +156,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double response_rat
   plan_.for_air(settings_, warmer_air_K_);
   const ExpectedMotion before = all_.motion;
   all_ = match_for(muscle, motion_corner_rad_per_s);
-  dither_ = match_for(muscle, dither_corner_rad_per_s, response_ratio);
+  dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, response_ratio);
   all_.motion.take_over(before);
   settled_ = false;
   enter(Stage::watching);
@@ -161,6 +167,8 @@ void Proof::plan(double max_power_ratio, const control::PhysicalParameters& musc
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
   plan_.for_air(settings_, warmer_air_K_);
   dither_place_ = -1;  // of one that may have had other halves
+  dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, settings_.response_ratio);
+  settled_ = false;
   allow();
 }
 
@@ -245,7 +253,7 @@ void Proof::judge(double power_W, double hottest_K) {
       enter(Stage::swallowed);
     }
   }
-  if (block_s_ > max_block_s) begin_block();
+  if (block_s_ > block_s(plan_.dither)) begin_block();
   drive_dither(hottest_K);
 }
 

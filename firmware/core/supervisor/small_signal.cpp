@@ -9,13 +9,16 @@ void SmallSignal::start(const Settings& settings, const ExpectedMotion& motion) 
   *this = {};
   settings_ = settings;
   motion_ = motion;
-  expected_ = measured_ = {dither_corner_rad_per_s, settings.step_s};
+  expected_ = measured_ = {settings.dither.corner_rad_per_s, settings.step_s};
   step_ticks_ = std::max<std::int64_t>(1, std::llround(settings.rate_Hz * settings.step_s));
   from_ = static_cast<int>(settings.settle_s / settings.step_s);
   const int period = 2 * settings.dither.half_steps;
-  const int wanted = static_cast<int>(measured_s / (period * settings.step_s));
+  const auto periods_in = [&](double time_s) {
+    return static_cast<int>(time_s / (period * settings.step_s));
+  };
+  const int enough = std::clamp(periods_in(long_s), min_periods, enough_periods);
   // The first period only begins the motion.
-  end_ = from_ + (1 + std::max(min_periods, wanted)) * period;
+  end_ = from_ + (1 + std::max(enough, periods_in(measured_s))) * period;
 }
 
 bool SmallSignal::step(double position_m, double applied_W) {

@@ -36,9 +36,11 @@ class SmallSignal {
  private:
   void end_step(double position_m, double power_W);
 
-  /// Long enough that a decided dither is known to some 3 %.
+  /// Long enough that a decided dither is known to some 3 %; to 4 % where that takes long.
   static constexpr double measured_s = 4.0;
-  static constexpr int min_periods = 4;
+  static constexpr double long_s = 10.0;
+  static constexpr int min_periods = 2;
+  static constexpr int enough_periods = 4;
 
   Settings settings_;
   ExpectedMotion motion_{{}, 0.01};

@@ -83,6 +83,23 @@ class LostContact {
   long dithers = 0;
 };
 
+/// 2 J/K, 27 s of time constant, and a fifth of the travel: no dither of a second moves it.
+test::RigSettings slow_board() {
+  constexpr double slower = 12.0;
+  constexpr double weaker = 0.2;
+  test::RigSettings s = deaf_board(true);
+  ChannelSettings& channel = s.firmware.channels[Rig::tested];
+  for (control::PhysicalParameters* muscle :
+       {&channel.muscle, &s.board.channels[Rig::tested].plant}) {
+    muscle->thermal_mass_J_per_K *= slower;
+    muscle->force_per_kelvin_N_per_K *= weaker;
+  }
+  channel.thermal.bounds.min_mass_J_per_K *= slower;
+  channel.thermal.bounds.max_mass_J_per_K *= slower;
+  channel.thermal.boot_rise_K = 20.0;  // or it is armed after minutes
+  return s;
+}
+
 test::RigSettings rubbing_board(double friction_ratio, double response_ratio) {
   test::RigSettings s = deaf_board(true);
   s.board.channels[Rig::tested].effects.friction_ratio = friction_ratio;
@@ -256,5 +273,49 @@ TEST(LostContact, IsProvenByTheMotionOfASineWithoutADither) {
   muscle.run(60.0);
   CHECK(muscle.rig.fault() == Fault::none);
   LONGS_EQUAL(0, muscle.dithers);
+  CHECK_FALSE(muscle.limited);
+}
+
+TEST(LostContact, OfASlowMuscleIsFoundWhileItIsHeldAtAPower) {
+  for (const double power_W : {2.0, 3.0, 4.0}) {
+    for (const double moment_s : {100.0, 101.7, 103.3}) {
+      LostContact muscle(slow_board());
+      muscle.start(Verb::power, always(power_W));
+      muscle.run(moment_s);
+      CHECK(muscle.rig.fault() == Fault::none);
+      CHECK_COMPARE(muscle.rig.snapshot().applied_W, >, 0.7 * power_W);
+      muscle.lose_contact();
+      muscle.run(60.0);
+      check_found(muscle, 135.0);
+    }
+  }
+}
+
+TEST(LostContact, OfASlowMuscleIsNoneInADraughtAndFoundWhileItHoldsAPosition) {
+  for (const double controller : {0.0, 1.0, 2.0}) {
+    LostContact muscle(slow_board());
+    muscle.rig.send(Verb::controller, controller);
+    muscle.start(Verb::position, always(0.0025));
+    muscle.run(200.0);
+    for (const double cooling : {1.5, 1.0}) {
+      muscle.cool(cooling);
+      muscle.run(100.0);
+    }
+    CHECK(muscle.rig.fault() == Fault::none);
+    CHECK_FALSE(muscle.limited);
+    muscle.lose_contact();
+    muscle.run(60.0);
+    check_found(muscle, 135.0);
+  }
+}
+
+TEST(LostContact, IsNoneWhereASlowMuscleIsHeldForLong) {
+  LostContact muscle(slow_board());
+  muscle.start(Verb::power, always(2.5));
+  muscle.run(400.0);
+  CHECK(muscle.rig.fault() == Fault::none);
+  CHECK_COMPARE(muscle.dithers, >, 1000);
+  // Never taken away, nor held down.
+  CHECK_COMPARE(muscle.min_W, >, 1.9);
   CHECK_FALSE(muscle.limited);
 }

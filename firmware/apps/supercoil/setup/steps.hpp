@@ -59,7 +59,7 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      true, false, SetupStep::InJoint::of_agonist},
     {"move",
      "follows a slow sine between 0.24 and 0.56 of the travel that it can hold, less for a slow "
-     "muscle, three periods of 45 s at most; compares the error with the promised one",
+     "muscle, three periods of 36 s at most; compares the error with the promised one",
      false, false, SetupStep::InJoint::of_agonist},
 }};
 

@@ -478,8 +478,9 @@ identified, unless the file has the configuration's own parameters). This is dec
 2. If there is no such motion, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle) whose response is at
    most 20 µm, or two counts of a coarse sensor. The expected response is the one that [identify](../control.md#identify) measured: if friction leaves
    a quarter of the model's motion, the dither has four times the power, up to a tenth of `max_W`. (In simulation, friction of 0.2 % of the load leaves
-   0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that this does not move enough is held to the safe power, as `--check` says. The
-   dither begins early enough to be decided within half of the time in which a muscle at the interval's hot end, with its maximum power, the lowest
+   0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that this does not move enough is held to the safe power, as `--check` says. A half
+   lasts 1.2 s at most; that of a slow muscle, which takes minutes to the limit, up to 6 s, if no shorter one is decided in time and the muscle would move
+   by at most 80 µm (or eight counts) if friction let it go. The dither begins early enough to be decided within half of the time in which a muscle at the interval's hot end, with its maximum power, the lowest
    mass and a quarter of the lowest heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. Nothing from before the dither is used.
 3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. When the model has fallen by twice
    `responding_min_m`, and less than 0.17 of that is seen, it is this fault. A muscle that falls is intact, and friction or hysteresis swallows its
@@ -492,7 +493,7 @@ identified, unless the file has the configuration's own parameters). This is dec
 
 | | |
 |---|---|
-| decision | a matched filter: Σ expected·measured / Σ expected², both without what is slower than 1 rad/s (of all power) or 4 rad/s (of the dither), as soon as the expected motion is 18.6 standard deviations of this ratio's noise |
+| decision | a matched filter: Σ expected·measured / Σ expected², both without what is slower than 1 rad/s (of all power) or 4 rad/s (of the dither; the longer its halves are than 1.2 s, the lower), as soon as the expected motion is 18.6 standard deviations of this ratio's noise |
 | noise | `position.noise_rms_m` and the counts, or what the model leaves of the motion, whichever is larger |
 | dead below | a ratio of 0.17: 3.1 standard deviations, so 1 dead muscle of 1000 passes a block |
 | false alarm | if an intact muscle's response is half of the model's, less than once in 10⁹ blocks (6.2 standard deviations; counted up to 4, where it is at most twice a normal tail) |

@@ -119,3 +119,36 @@ TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
   const ProofPlan plan = plan_proof(patient, {}, 1000.0);
   LONGS_EQUAL(std::lround(1.2 / dither_step_s), plan.dither.half_steps);
 }
+
+namespace {
+
+constexpr double slower = 12.0;
+
+/// 2 J/K: 27 s of time constant, and a small travel.
+control::PhysicalParameters slow_muscle() {
+  control::PhysicalParameters muscle;
+  muscle.thermal_mass_J_per_K *= slower;
+  muscle.force_per_kelvin_N_per_K *= 0.2;
+  return muscle;
+}
+
+ProofSettings slow_proof() {
+  ProofSettings s = paper_proof();
+  s.thermal.bounds.min_mass_J_per_K *= slower;
+  s.thermal.bounds.max_mass_J_per_K *= slower;
+  return s;
+}
+
+}  // namespace
+
+TEST(Dither, OfASlowMuscleIsASlowOne) {
+  // A tenth of max_W takes seconds to move it by 20 um, and it has minutes to the limit.
+  ProofSettings slow = slow_proof();
+  slow.max_power_ratio = 1.94;
+  const ProofPlan plan = plan_proof(slow, slow_muscle(), 1000.0);
+  CHECK_COMPARE(plan.dither.half_steps * dither_step_s, >, 1.2);
+  DOUBLES_EQUAL(4.0 * 1.2, plan.dither.corner_rad_per_s * plan.dither.half_steps * dither_step_s,
+                1e-9);
+  CHECK_COMPARE(plan.dither.decided_s, <, 2.5 * plan.dither.half_steps * dither_step_s);
+  CHECK_COMPARE(plan.safe_W, <, 0.4 * plan.provable_W);
+}

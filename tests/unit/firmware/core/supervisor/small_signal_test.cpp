@@ -88,7 +88,7 @@ TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
 TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
   control::PhysicalParameters slow;
   slow.thermal_mass_J_per_K = 15.0 * slow.heat_transfer_W_per_K;
-  DOUBLES_EQUAL(60.0, plan_small_signal(paper_proof(), slow, held_W, rate_Hz).settle_s, 0.0);
+  DOUBLES_EQUAL(45.0, plan_small_signal(paper_proof(), slow, held_W, rate_Hz).settle_s, 0.0);
   const auto low = plan_small_signal(paper_proof(), {}, 0.0, rate_Hz);
   DOUBLES_EQUAL(2.0 * low.dither.amplitude_W, low.hold_W, 1e-12);
   DOUBLES_EQUAL(2.25, plan_small_signal(paper_proof(), {}, 4.5, rate_Hz).hold_W, 1e-12);

@@ -55,7 +55,8 @@ class StateVariableFilter {
   /// with first-order hold it is the sample of *this* tick.
   void step(Scalar input) {
     const Accumulator<Scalar> now(input);
-    State next = transition_ * state_;
+    // Lazy: in place; g++ 12 calls Eigen's usual product, and waits for what comes back.
+    State next = transition_.lazyProduct(state_);
     if constexpr (hold == Hold::zero_order) {
       next += start_ * now;
     } else {

@@ -48,13 +48,17 @@ PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
       hottest_K_(first_rise_K(board.channels[0], board, thermal_bounds(board.channels[0]))) {}
 
 PowerLeft::Most PowerLeft::at(double hottest_C) const {
-  Most most{limiter_.max_W(), LimitedBy::maximum};
-  const auto bound = [&](double power_W, LimitedBy by) {
-    if (power_W < most.power_W) most = {power_W, by};
+  // Apart: a pair that is copied at each bound is waited for.
+  double power_W = limiter_.max_W();
+  LimitedBy by = LimitedBy::maximum;
+  const auto bound = [&](double bound_W, LimitedBy limit) {
+    if (!(bound_W < power_W)) return;
+    power_W = bound_W;
+    by = limit;
   };
   bound(limiter_.max_W(hottest_C), LimitedBy::temperature);
   bound(provable_W_, LimitedBy::unproven);
-  return most;
+  return {power_W, by};
 }
 
 }  // namespace supercoil::host_sim

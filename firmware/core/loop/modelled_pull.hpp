@@ -26,6 +26,7 @@ class ModelledPull {
   double heat_W() const { return heat_W_; }
   /// position_m: its own contraction. At most 0: slack; NaN: not known.
   double at_N(double position_m, const control::PhysicalParameters& muscle) const {
+    if (!place_.knows_pull()) return NAN;
     return place_.cold_pull_N(position_m, muscle.stiffness_N_per_m) +
            newtons_per_watt(muscle) * heat_W_;
   }

@@ -12,21 +12,27 @@ double Limiter::max_W(double temperature_C) const {
 }
 
 Limiter::Result Limiter::step(double demanded_W, double temperature_C) {
-  Result result{demanded_W, LimitedBy::nothing};
-  const auto cap = [&](double cap_W, LimitedBy by) {
-    if (result.power_W > cap_W) result = {cap_W, by};
+  // Apart: a pair that is copied at each limit is waited for.
+  double power_W = demanded_W;
+  LimitedBy by = LimitedBy::nothing;
+  const auto hold_at = [&](double limit_W, LimitedBy limit) {
+    power_W = limit_W;
+    by = limit;
+  };
+  const auto cap = [&](double cap_W, LimitedBy limit) {
+    if (power_W > cap_W) hold_at(cap_W, limit);
   };
   if (!std::isfinite(demanded_W) || std::isnan(temperature_C)) {
-    result = {0.0, LimitedBy::invalid};
+    hold_at(0.0, LimitedBy::invalid);
   } else {
-    if (demanded_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
+    if (demanded_W < settings_.min_W) hold_at(settings_.min_W, LimitedBy::minimum);
     cap(max_W(), LimitedBy::maximum);
     cap(max_W(temperature_C), LimitedBy::temperature);
     cap(unproven_W_, LimitedBy::unproven);
     cap(last_W_ + rise_W_, LimitedBy::slew);
   }
-  last_W_ = result.power_W;
-  return result;
+  last_W_ = power_W;
+  return {power_W, by};
 }
 
 }  // namespace supercoil

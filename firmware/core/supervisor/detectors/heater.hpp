@@ -121,10 +121,13 @@ class NotResponding final : public Detector {
   static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
                                     1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
 
+  static constexpr std::size_t alone = steps + 2;  ///< motions of a muscle without another
+  static constexpr std::size_t all = alone + gains.size();
+
   /// Where the muscle may be: the first `count` of them.
   struct Motions {
-    std::array<double, steps + 2 + gains.size()> m;
-    std::size_t count = steps + 2;  ///< of a muscle alone
+    std::array<double, all> m;
+    std::size_t count = alone;
 
     /// The least that one of them has risen. In four rows side by side: one waits for itself.
     double least_above(const Motions& low) const {
@@ -155,8 +158,8 @@ class NotResponding final : public Detector {
       motions.m[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
     if (opposed_m == nullptr) return motions;
     for (std::size_t i = 0; i < gains.size(); ++i)
-      motions.m[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
-    motions.count = motions.m.size();
+      motions.m[alone + i] = expected_m[0] - gains[i] * opposed[0];
+    motions.count = all;
     return motions;
   }
 
@@ -171,9 +174,11 @@ class NotResponding final : public Detector {
     high_ = std::max(high_, position_m);
     // The models have heat only: a muscle may still be on its way.
     if (elapsed_s_ <= in_time_ratio * settings_.window_s) {
-      for (std::size_t i = 0; i < motions.count; ++i) {
-        expected_low_.m[i] = std::min(expected_low_.m[i], motions.m[i]);
-        expected_high_.m[i] = std::max(expected_high_.m[i], motions.m[i]);
+      // By a count that the compiler knows: two at once.
+      if (motions.count == alone) {
+        widen<alone>(motions);
+      } else {
+        widen<all>(motions);
       }
     }
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
@@ -201,6 +206,14 @@ class NotResponding final : public Detector {
 
  private:
   static constexpr double in_time_ratio = 0.95;  ///< of the window
+
+  template <std::size_t count>
+  void widen(const Motions& motions) {
+    for (std::size_t i = 0; i < count; ++i) {
+      expected_low_.m[i] = std::min(expected_low_.m[i], motions.m[i]);
+      expected_high_.m[i] = std::max(expected_high_.m[i], motions.m[i]);
+    }
+  }
 
   Settings settings_;
   double step_s_;

@@ -56,6 +56,7 @@ class HoldTimer {
 
   /// One tick. True from the tick on at which it has held for hold_s.
   bool step(bool holds) {
+    if (!holds && held_s_ == 0.0) return false;
     held_s_ = holds ? held_s_ + step_s_ : std::max(0.0, held_s_ - forgets_s_);
     // Half a step of tolerance: sums of steps are not exact.
     return holds && held_s_ + 0.5 * step_s_ > hold_s_;

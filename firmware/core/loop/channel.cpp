@@ -26,7 +26,6 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
                   board.supervision.min_supply_V, settings.heater.sense_filter_s, board.step_s()) {}
 
 void Channel::add_tuning(Command& command) {
-  if (command.verb != Verb::store && command.verb != Verb::tune) return;
   control::PhysicalParameters muscle;
   std::size_t quantity = 0;
   for (const control::PhysicalRange& range : control::physical_ranges)
@@ -113,12 +112,12 @@ const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_ve
   return s;
 }
 
-Answer Channel::answer(const Command& command, const BoardTick& board) {
+Reply Channel::answer(const Command& command, const BoardTick& board) {
   const Reply reply = obey(command, board);
   // Only an obeyed command ends a row of damaged or refused ones.
   if (reply.refusal == Refusal::wrong_state) commands_.refused = true;
   if (reply.refusal == Refusal::none) commands_.obeyed = true;
-  return {command, reply.refusal, reply.nearest};
+  return reply;
 }
 
 Reply Channel::obey(const Command& command, const BoardTick& board) {

@@ -43,7 +43,7 @@ class Channel {
 
   // The stages of a tick, in this order.
   void sample(hal::Time now);
-  Answer answer(const Command& command, const BoardTick& board);
+  Reply answer(const Command& command, const BoardTick& board);
   void supervise(const BoardTick& board);
   void estimate() { axis_.estimate(); }
   void control();
@@ -95,7 +95,7 @@ class Channel {
   PlaybackStatus playback() const { return axis_.playback(); }
   /// As Playback::align; from one other thread.
   void align_playback(double ahead_s) { axis_.align_playback(ahead_s); }
-  /// In the thread that sends commands, as all of the tuner.
+  /// Of what is_tuning(). In the thread that sends commands, as all of the tuner.
   void add_tuning(Command& command);
   Tuner& tuner() { return tuner_; }
   const Tuner& tuner() const { return tuner_; }

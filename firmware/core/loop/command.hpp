@@ -71,6 +71,11 @@ constexpr bool takes(Verb verb, double value) {
   }
 }
 
+/// The Tuner gives it what the loop needs for it, and is told the answer.
+constexpr bool is_tuning(Verb verb) {
+  return verb == Verb::tune || verb == Verb::store;
+}
+
 /// Places of what is tuned: a controller's is its own, an estimator's has this much added.
 inline constexpr std::size_t first_estimator_place = 8;
 

@@ -113,7 +113,7 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   ++ticks_;
 }
 
-bool Loop::send(Command command) {
+bool Loop::send_tuning(Command command) {
   const bool known = command.channel < channels_.size();
   if (known) channels_[command.channel]->add_tuning(command);
   if (commands_.push(command)) return true;
@@ -121,11 +121,9 @@ bool Loop::send(Command command) {
   return false;
 }
 
-bool Loop::answer(Answer& answer) {
-  if (!answers_.pop(answer)) return false;
+void Loop::conclude_tuning(const Answer& answer) {
   const std::uint8_t channel = answer.command.channel;
   if (channel < channels_.size()) channels_[channel]->tuner().conclude(answer);
-  return true;
 }
 
 void Loop::obey() {
@@ -135,18 +133,19 @@ void Loop::obey() {
   while (damaged_.pop(damaged)) {
     if (damaged < channels_.size()) channels_[damaged]->note_damaged();
   }
-  Command command;
-  for (int i = 0; i < max_commands_per_tick && commands_.pop(command); ++i) {
-    Answer answer{command, Refusal::no_such_channel};
-    if (!takes(command.verb, command.value)) {
-      answer = {command, Refusal::out_of_range, 0.0};
-    } else if (command.channel < channels_.size()) {
-      if (command.verb == Verb::reset) reset_board();
-      Channel& channel = *channels_[command.channel];
-      answer = channel.answer(command, now_);
-    }
-    answers_.push(answer);
+  const auto obey_one = [this](const Command& command) {
+    const Reply reply = reply_to(command);
+    answers_.push({command, reply.refusal, reply.nearest});
+  };
+  for (int i = 0; i < max_commands_per_tick && commands_.consume_one(obey_one); ++i) {
   }
+}
+
+Reply Loop::reply_to(const Command& command) {
+  if (!takes(command.verb, command.value)) return {Refusal::out_of_range, 0.0};
+  if (command.channel >= channels_.size()) return Refusal::no_such_channel;
+  if (command.verb == Verb::reset) reset_board();
+  return channels_[command.channel]->answer(command, now_);
 }
 
 /// A rising edge of the reset of any channel, while no detector of the board trips. Before the

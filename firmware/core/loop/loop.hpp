@@ -67,8 +67,15 @@ class Loop {
   void tick(hal::Time due, hal::Time woke, std::int64_t skipped);
 
   /// From one other thread, which is that of the channels' tuners: false when the ring is full.
-  bool send(Command command);
-  bool answer(Answer& answer);
+  /// Inline: a command that is copied once more is waited for.
+  bool send(const Command& command) {
+    return is_tuning(command.verb) ? send_tuning(command) : commands_.push(command);
+  }
+  bool answer(Answer& answer) {
+    if (!answers_.pop(answer)) return false;
+    if (is_tuning(answer.command.verb)) conclude_tuning(answer);
+    return true;
+  }
   /// A frame for this channel was damaged; from one other thread, as take() is.
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
   bool take(Row& row) { return rows_.pop(row); }
@@ -86,7 +93,10 @@ class Loop {
   std::int64_t overruns() const { return overruns_; }
 
  private:
+  bool send_tuning(Command command);
+  void conclude_tuning(const Answer& answer);
   void obey();
+  Reply reply_to(const Command& command);
   void measure_air(hal::Time now);
   void judge_board(hal::Time now, double late_s, std::int64_t skipped);
   void latch(Fault cause, const detectors::Margin& margin);

@@ -66,6 +66,39 @@ TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
+TEST(ProofStages, InWarmAirAMuscleIsAtItsLimitSooner) {
+  constexpr double hotter_K = 55.0, warmer_K = 30.0;  // each alone leaves a second
+  ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
+  plan.for_air(paper_proof(), warmer_K);
+  HeldMuscle muscle(paper_proof());
+  muscle.run(5.0);
+  muscle.hotter_K = hotter_K;
+  muscle.run(0.05);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.warmer_air_K = warmer_K;
+  muscle.run(0.05);
+  DOUBLES_EQUAL(plan.safe_W, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(ProofStages, PowerIsTakenBackAfterThreeQuartersOfTheTimeToTheLimit) {
+  const ProofSettings s = paper_proof();
+  const double worst_W_per_K = 0.25 * s.thermal.bounds.min_transfer_W_per_K;
+  const double full_K = 4.5 * 1.05 / worst_W_per_K;
+  const double hottest_K = 3.0 * 1.05 / s.thermal.bounds.min_transfer_W_per_K;
+  const double limit_K = s.trip_C - s.thermal.air.warmest_C;
+  const double to_limit_s = s.thermal.bounds.min_mass_J_per_K / worst_W_per_K *
+                            std::log((full_K - hottest_K) / (full_K - limit_K));
+  HeldMuscle muscle(s);
+  muscle.run(30.0);
+  muscle.swing_m = 60e-6;
+  double undecided_s = 0.0;
+  for (; undecided_s < 30.0 && muscle.proof.max_W() > 4.0; undecided_s += 0.01) {
+    muscle.run(0.01);
+    if (muscle.proof.answered()) undecided_s = 0.0;
+  }
+  DOUBLES_EQUAL(0.75 * to_limit_s, undecided_s, 0.1);
+}
+
 TEST(ProofStages, ADitherHasRoomAtTheGreatestPower) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 4.5;
@@ -152,6 +185,33 @@ TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.min_W, 1e-9);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
   CHECK_FALSE(muscle.unanswered);
+}
+
+TEST(ProofStages, ADeadMuscleIsFoundAtTheSafePowerToo) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(9.0);
+  muscle.off_sensor = true;
+  muscle.hotter_K = 500.0;  // overdue at once
+  muscle.run(0.05);
+  muscle.hotter_K = 0.0;
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+  muscle.run(10.0);
+  CHECK(muscle.unanswered);
+}
+
+TEST(ProofStages, ARemovalOfPowerThatALoadHidesEndsAtTheSafePower) {
+  ProofSettings far = paper_proof();
+  far.obvious_m = 0.1;  // farther than the muscle ever moves
+  HeldMuscle muscle(far);
+  muscle.run(20.0);
+  muscle.off_sensor = true;
+  for (int i = 0; i < 1000 && muscle.proof.max_W() > 0.0; ++i)
+    muscle.run(0.01);
+  DOUBLES_EQUAL(0.0, muscle.proof.max_W(), 0.0);
+  muscle.swing_m = 5e-3;
+  muscle.run(3.5);
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
 TEST(ProofStages, WithoutAPositionNothingIsJudged) {

@@ -128,4 +128,6 @@ TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
   DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
   muscle.proof.learn({}, 1.0);
   DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
+  muscle.proof.plan(strong.max_power_ratio, {});
+  DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
 }

@@ -250,20 +250,61 @@ TEST(ChannelSupervisor, CoolingIsNotALostController) {
 
 /// Of a joint's muscle, whose heat changes and which moves nothing. Less than it gets is asked for
 /// where there is a minimum.
+TEST(ChannelSupervisor, AControllerIsNotLostWhereNothingIsToHeat) {
+  Channel channel;
+  channel.inputs.heater.limited = true;
+  channel.inputs.axis.demanded_W = 5.0;
+  channel.inputs.commands.heating = false;
+  for (int i = 0; i < 130000; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+namespace {
+
+/// Of a joint's muscle that asks for more than it gets and does not move, within two seconds.
+Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, int)>& at_tick) {
+  Channel channel;
+  channel.inputs.axis.in_joint = true;
+  channel.inputs.heater.limited = true;
+  channel.inputs.axis.demanded_W = 3.7;
+  Fault found = Fault::none;
+  for (int i = 0; i < 2000 && found == Fault::none; ++i) {
+    for (double& expected_m : channel.inputs.heater.expected_m)
+      expected_m += 4e-6;
+    at_tick(channel.inputs, i);
+    found = channel.step();
+  }
+  return found;
+}
+
+}  // namespace
+
 TEST(ChannelSupervisor, OnlyAMuscleThatIsAskedForMoreThanItGetsIsLoose) {
   for (const double demanded_W : {3.5, 3.7}) {
-    Channel channel;
-    channel.inputs.axis.in_joint = true;
-    channel.inputs.heater.limited = true;
-    channel.inputs.axis.demanded_W = demanded_W;
-    Fault found = Fault::none;
-    for (int i = 0; i < 2000 && found == Fault::none; ++i) {
-      for (double& expected_m : channel.inputs.heater.expected_m)
-        expected_m += 4e-6;
-      found = channel.step();
-    }
-    check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none, found);
+    check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none,
+                found_of_a_muscle_without_motion(
+                    [&](ChannelInputs& e, int) { e.axis.demanded_W = demanded_W; }));
   }
+}
+
+TEST(ChannelSupervisor, AMuscleThatIsOffIsNotLoose) {
+  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int) {
+                e.heater.off = true;
+                e.heater.current.value = 0.0;
+              }));
+}
+
+// Positions from before say nothing of how far it has moved since.
+TEST(ChannelSupervisor, ALooseMuscleIsJudgedAnewAfterACalibrationAndWhereMoreIsKnownOfIt) {
+  constexpr int every = 700;  // of 750 after which it should have been seen to move
+  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
+                e.axis.recalibrated.reset();
+                const double here_m = e.axis.position.value;
+                if (tick % every == 0) e.axis.recalibrated = {here_m, here_m, 1.0};
+              }));
+  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
+                e.axis.expected_anew = tick % every == 0;
+              }));
 }
 
 TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {

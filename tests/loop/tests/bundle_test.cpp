@@ -249,14 +249,18 @@ TEST(Bundle, ADitherThatOneOfThemCannotFollowIsNone) {
   rig.run(0.01);
   // More is asked for than the weakest may have: there is room for the dither below that.
   double most_W = 0.0;
+  double apart_W = 0.0;
   const double from_s = rig.time_s();
   while (rig.time_s() - from_s < 60.0) {
     rig.send(Verb::power, 2.5);
     rig.tick();
-    for (const std::uint8_t i : {leader, follower, last})
+    for (const std::uint8_t i : {leader, follower, last}) {
       most_W = std::max(most_W, of(i).applied_W);
+      apart_W = std::max(apart_W, std::abs(of(i).applied_W - of(leader).applied_W));
+    }
   }
   CHECK_COMPARE(most_W, <, 1.52);
+  CHECK_COMPARE(apart_W, <, 0.02);
   CHECK(all(State::active));
   CHECK(of(leader).limited_by != LimitedBy::unproven);
 }

@@ -120,6 +120,31 @@ TEST(JointPull, PullsNoHarderOnceTheMusclesAreKnownBetter) {
   CHECK_COMPARE(applied_W, >, 0.9 * max_W / gain_ratio());
 }
 
+TEST(JointPull, ItsLimitFollowsWhatIsLearnedOfTheAntagonistAlone) {
+  constexpr double max_W = 1.2;
+  RigSettings settings = joint_board();
+  settings.firmware.joints[0].max_co_contraction_W = max_W;
+  Rig fresh(settings);
+  begin(fresh);
+  const auto gain_ratio = [&] {
+    return fresh.loop.channel(antagonist).dc_gain_m_per_W() /
+           fresh.loop.channel(agonist).dc_gain_m_per_W();
+  };
+  const double before = gain_ratio();
+  CHECK(fresh.answer_of(antagonist, Verb::identify) == Refusal::none);
+  CHECK(fresh.run_until(
+      [&] {
+        fresh.loop.send({antagonist, Verb::renew, 0.0});
+        return fresh.loop.channel(antagonist).state().state() != State::active;
+      },
+      400.0));
+  CHECK_COMPARE(std::abs(gain_ratio() / before - 1.0), >, 0.1);
+  CHECK_FALSE(follows_until_fault(fresh, 0.1, [] { return 0.0; }));
+  CHECK(fresh.answer_of(antagonist, Verb::power, 1.02 * max_W / gain_ratio()) ==
+        Refusal::out_of_range);
+  CHECK(fresh.answer_of(antagonist, Verb::power, 0.98 * max_W / gain_ratio()) == Refusal::none);
+}
+
 TEST(JointPull, PullsAgainstItselfForMinutesWithoutAFault) {
   for (const bool known : {false, true}) {
     RigSettings settings = known_joint(3.0);

@@ -69,6 +69,23 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
   CHECK_FALSE(rig().interval_missed);
 }
 
+/// It was taken in power that compared senses told.
+TEST(SteadyHeatRead, NarrowsNothingWhereTheSensesAreNotCompared) {
+  settings.firmware.channels[0].senses = {};
+  const auto hottest_C = [&](const board::ThermalFacts& heat) {
+    settings.firmware.channels[0].heat = heat;
+    rig_.reset();
+    rig().hold_power(1.5, 10.0);
+    return rig().snapshot().hottest_C;
+  };
+  board::ThermalFacts read;
+  read.steady_rise_K = 10.0;
+  read.steady_error_K = 1.0;
+  read.steady_min_W = 1.45;
+  read.steady_max_W = 1.55;
+  DOUBLES_EQUAL(hottest_C({}), hottest_C(read), 0.5);
+}
+
 TEST(SteadyHeatRead, IsRefusedWhereTheMuscleMayNotBeInSteadyHeat) {
   check(Refusal::wrong_state, read(20.0));
   rig().hold_power(1.0, 24.0);

@@ -72,8 +72,12 @@ class Proof {
   const ProofSettings& settings() const { return settings_; }
   /// True over measured power may be this much from now on, of the same muscle.
   void plan(double max_power_ratio, const control::PhysicalParameters& muscle);
-  /// Every position moved, by a new calibration.
-  void recalibrated() { settled_ = false; }
+  /// Every position moved, by a new calibration: those of this step so far are of the former one.
+  void recalibrated() {
+    settled_ = false;
+    sums_.position_m = 0.0;
+    sums_.positions = 0;
+  }
 
   /// At this tick it was seen to follow its power.
   bool answered() const { return answered_; }

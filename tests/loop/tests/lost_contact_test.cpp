@@ -266,6 +266,22 @@ TEST(LostContact, IsNoneWhileALivingMuscleIsHeldInADraught) {
   }
 }
 
+/// What a new scale makes of a position that stands still is no answer.
+TEST(LostContact, IsNotHiddenByScalesThatAreTold) {
+  LostContact muscle(deaf_board(true));
+  muscle.start(Verb::power, always(2.5));
+  muscle.run(20.0);
+  muscle.lose_contact();
+  muscle.limited = false;
+  for (int i = 0; i < 20; ++i) {
+    const double ratio = i % 2 == 0 ? 1.3 : 1.0 / 1.3;
+    muscle.rig.send(Verb::scale, ratio * muscle.rig.snapshot().position_m);
+    muscle.run(0.4);
+  }
+  CHECK(muscle.limited || muscle.rig.state() == State::fault);
+  CHECK_COMPARE(muscle.hottest_C, <, 120.0);
+}
+
 TEST(LostContact, IsProvenByTheMotionOfASineWithoutADither) {
   LostContact muscle(deaf_board(true));
   muscle.rig.send(Verb::controller, 2.0);

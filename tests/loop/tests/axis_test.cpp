@@ -236,6 +236,7 @@ TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
 
 /// A dither that the sensor's noise hides is not waited for.
 TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
+  settings.firmware.channels[0].response_ratio = 0.3;  // of an earlier muscle
   const auto identified_s = [&](double noise_rms_m) {
     settings.firmware.channels[0].supervision.position_noise_rms_m = noise_rms_m;
     settings.board.channels[0].position.noise_rms = noise_rms_m;

@@ -121,3 +121,31 @@ TEST(Heater, OwesNothingOfTheLastPowerAfterARest) {
     CHECK(rig.state() == State::armed);
   }
 }
+
+TEST(Heater, AnEnableLineThatCannotBeSetIsAFaultOfTheBoard) {
+  Rig rig(settings);
+  rig.boot();
+  rig.muscle().enable.refuses = hal::Status::io_error;
+  rig.send(Verb::arm);
+  rig.run(0.01);
+  CHECK(rig.loop.board_fault() == Fault::line_failed);
+  CHECK(rig.state() == State::fault);
+}
+
+/// As a hot end that was known to be below it once, and is above where derating begins.
+TEST(Heater, HeatThatDeratingDoesNotHoldIsAFault) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.thermal.boot_rise_K = 20.0;
+  channel.limiter.derate_from_C = 60.0;
+  channel.limiter.derate_to_C = 90.0;
+  channel.supervision.trip_C = 70.0;
+  Rig rig(settings);
+  arm(rig);
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::power, 4.5);
+        return rig.state() == State::fault;
+      },
+      20.0));
+  CHECK(rig.fault() == Fault::over_temperature);
+}

@@ -55,6 +55,18 @@ TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
 }
 
 /// Behind noise a probe's current could hide: nothing is proven.
+TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
+  constexpr double leak_A = 0.006;  // half of a probe's current is more
+  for (const double off_current_A : {0.05, 0.003}) {
+    RigSettings leaking = rough_board();
+    leaking.firmware.channels[1].supervision.off_current_A = off_current_A;
+    Rig rig(leaking);
+    rig.board.channel(1).current.set({.offset = leak_A});
+    rig.run(1.0);
+    CHECK_EQUAL(off_current_A > leak_A, rig.loop.self_test().passed());
+  }
+}
+
 TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RigSettings noisy = rough_board();

@@ -69,6 +69,23 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
   CHECK_FALSE(rig().interval_missed);
 }
 
+/// It was told in what the senses were corrected by then.
+TEST(SteadyHeatRead, IsForgottenWhereTheSensesAreComparedAnew) {
+  rig().hold_power(1.5, 24.0);
+  check(Refusal::none, read(true_rise_K()));
+  CHECK(update()->heat.has_reading());
+  for (const double power_W : {0.5, 1.0}) {
+    rig().hold_power(power_W, 2.5);
+    const double meter_A = rig().muscle().true_power_W() / 12.0;
+    check(Refusal::none, rig().answer_to(Verb::compare_supply, 12.0));
+    check(Refusal::none, rig().answer_to(Verb::compare_current, meter_A));
+  }
+  const auto kept = update();
+  CHECK(kept.has_value());
+  CHECK(kept->senses.compared());
+  CHECK_FALSE(kept->heat.has_reading());
+}
+
 /// It was taken in power that compared senses told.
 TEST(SteadyHeatRead, NarrowsNothingWhereTheSensesAreNotCompared) {
   settings.firmware.channels[0].senses = {};

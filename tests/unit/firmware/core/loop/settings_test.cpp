@@ -74,6 +74,14 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
   check_says("must not exceed max_co_contraction_W", "joint");
 }
 
+TEST(BoardSettingsCheck, ABundleIsProvenByItsLeaderAlone) {
+  settings.channels.resize(3);
+  add_bundle(settings, {{0, 2}});
+  CHECK_FALSE(check(settings).has_value());
+  settings.channels[2].supervision.proof_of_response = true;
+  check_says("channel 3 cannot prove by itself that it responds", "bundle");
+}
+
 TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
   control::ControllerSettings controller;
   controller.kind = control::ControllerKind::learned_ff;

@@ -95,6 +95,13 @@ TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
 }
 
 /// Where nothing settles and nothing is noisy, from the very first step on.
+TEST(SmallSignal, IsAsLargeWhateverWasFoundOfAnEarlierMuscle) {
+  ProofSettings rubbed = paper_proof();
+  rubbed.response_ratio = 0.5;
+  DOUBLES_EQUAL(plan_small_signal(paper_proof(), {}, held_W, rate_Hz).dither.amplitude_W,
+                plan_small_signal(rubbed, {}, held_W, rate_Hz).dither.amplitude_W, 0.0);
+}
+
 TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
   const control::PhysicalParameters muscle;
   auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);

@@ -29,8 +29,9 @@ class Command:
 
 def positional_values(programs, command, name, text):
     if command == "supercoil command":
-        verbs = text.split(" and ", 1)[1]
-        return ["state", *(verb.split()[0] for verb in re.sub(r"\([^)]*\)", "", verbs).split(","))]
+        verbs = text.split(" and ", 1)[1].split("; N is ")[0]
+        words = (verb.split()[0] for verb in re.sub(r"\([^)]*\)", "", verbs).split(","))
+        return list(dict.fromkeys(["state", *words]))
     if name.startswith("SCENARIO"):
         listed = subprocess.run([programs / "supercoil-sim", "list"], check=True, capture_output=True, text=True).stdout
         return re.findall(r"^  (\S+)", listed.split("\n\n")[0], re.M)

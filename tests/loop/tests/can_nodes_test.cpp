@@ -70,8 +70,8 @@ TEST(NodesOnCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
 /// Nothing on the bus tells that two sessions are of one master.
 TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   CanRig joint(joint_board());
-  Master antagonist;
-  antagonist.node = 2;
+  Master antagonist_master;
+  antagonist_master.node = 2;
   Master stranger;
   stranger.node = 2;
   stranger.name = 0x4321;
@@ -87,13 +87,14 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   follow();
 
   // Who holds both nodes keeps others from both.
-  CHECK(joint.claim(antagonist) == Refusal::none);
+  CHECK(joint.claim(antagonist_master) == Refusal::none);
   CHECK(joint.claim(stranger) == Refusal::not_lease_holder);
   CHECK(joint.command(stranger, Verb::rest) == Refusal::not_lease_holder);
   follow();
 
   // Who holds the agonist's alone does not; both muscles rest together.
-  CHECK(joint.command(antagonist, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  CHECK(joint.command(antagonist_master, telemetry::Opcode::lease, telemetry::releases) ==
+        Refusal::none);
   CHECK(joint.claim(stranger) == Refusal::none);
   follow();
   CHECK(joint.command(stranger, Verb::rest) == Refusal::none);
@@ -126,33 +127,33 @@ TEST(NodesOnCan, TheAgonistsNodeTellsTheJointAndBothHeaters) {
     told.at(m.part) = m;
   };
   joint.run(0.2);
-  const Snapshot& agonist = joint.loop.channel(0).snapshot();
-  const Snapshot& antagonist = joint.loop.channel(1).snapshot();
+  const Snapshot& agonist_now = joint.loop.channel(0).snapshot();
+  const Snapshot& antagonist_now = joint.loop.channel(1).snapshot();
   DOUBLES_EQUAL(10, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID], 2);
   LONGS_EQUAL(0, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);
-  CHECK(agonist.mode == Mode::position && antagonist.mode == Mode::joint);
+  CHECK(agonist_now.mode == Mode::position && antagonist_now.mode == Mode::joint);
 
   constexpr double deg_per_m = 180.0 / 3.14159265358979 / 0.015;
   for (const supercoil_joint_t& part : told) {
-    DOUBLES_EQUAL(deg_per_m * agonist.position_m, supercoil_joint_angle_deg_decode(part.angle_deg),
-                  0.3);
+    DOUBLES_EQUAL(deg_per_m * agonist_now.position_m,
+                  supercoil_joint_angle_deg_decode(part.angle_deg), 0.3);
   }
   DOUBLES_EQUAL(-0.002 * deg_per_m, supercoil_joint_reference_deg_decode(told[0].reference_deg),
                 0.001);
-  DOUBLES_EQUAL(antagonist.demanded_W,
+  DOUBLES_EQUAL(antagonist_now.demanded_W,
                 supercoil_joint_co_contraction_w_decode(told[1].co_contraction_w), 0.05);
   const auto is_of = [](const Snapshot& muscle, double hottest_C, double applied_W, double Ohm) {
     DOUBLES_EQUAL(muscle.hottest_C, hottest_C, 1.0);
     DOUBLES_EQUAL(muscle.applied_W, applied_W, 0.3);  // with the noise of the sensor
     DOUBLES_EQUAL(muscle.resistance_Ohm, Ohm, 0.1);
   };
-  is_of(agonist, supercoil_joint_agonist_hottest_c_decode(told[2].agonist_hottest_c),
+  is_of(agonist_now, supercoil_joint_agonist_hottest_c_decode(told[2].agonist_hottest_c),
         supercoil_joint_agonist_applied_w_decode(told[3].agonist_applied_w),
         supercoil_joint_agonist_resistance_ohm_decode(told[3].agonist_resistance_ohm));
-  is_of(antagonist, supercoil_joint_antagonist_hottest_c_decode(told[4].antagonist_hottest_c),
+  is_of(antagonist_now, supercoil_joint_antagonist_hottest_c_decode(told[4].antagonist_hottest_c),
         supercoil_joint_antagonist_applied_w_decode(told[5].antagonist_applied_w),
         supercoil_joint_antagonist_resistance_ohm_decode(told[5].antagonist_resistance_ohm));
-  CHECK(antagonist.hottest_C > agonist.hottest_C + 2.0);
+  CHECK(antagonist_now.hottest_C > agonist_now.hottest_C + 2.0);
 }
 
 TEST(NodesOnCan, WithoutAJointNobodyTellsOne) {

@@ -171,7 +171,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
     while (next_unit_ < std::min(due, units))
       learn(next_unit_++);
   }
-  pid_.update_derivative(in.position);
+  pid_.update_derivative(in);
   regressors_.step(motion_of(in), static_cast<double>(in.model_jerk));
   const Weights& psi = regressors_.values();
   if (settings_.learn) {

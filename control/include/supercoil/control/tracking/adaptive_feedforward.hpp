@@ -22,7 +22,7 @@ struct AdaptiveFeedforwardSettings {
   /// ωc. At 8 the loop holds for ±20 % of all six physical parameters at once with 1.5 ms of delay
   /// (loop_margin_test.cpp).
   double bandwidth_rad_per_s = 8.0;
-  double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
+  double derivative_filter_rad_per_s = 60.0;  ///< of the error, twice this pole
   double follow_s = 0.5;                      ///< time constant with which θ̄ follows
 };
 
@@ -79,7 +79,7 @@ class AdaptiveFeedforward {
 
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
-    pid_.update_derivative(in.position);
+    pid_.update_derivative(in);
     motion_ = motion_of(in);
     return pid_.step(in, feedforward(motion_));
   }

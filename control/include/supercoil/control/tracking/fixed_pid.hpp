@@ -15,10 +15,14 @@ namespace supercoil::control {
 /// 8 rad/s, and is followed within 0.34 µm at 1 rad/s.
 constexpr double damping_share = 0.36;
 
-/// ωc of a FixedPid tuned for the muscle. Its damping rate µ/m̂ is about θ2/(θ1 m̂).
+/// µ/m̂ of the muscle, about: the lag that a FixedPid tuned for it leaves in the open loop.
+inline double damping_rate(const Theta& theta, double moving_mass_kg) {
+  return theta[1] / (theta[0] * moving_mass_kg);
+}
+
+/// ωc of a FixedPid tuned for the muscle.
 inline double feedback_bandwidth(double max_rad_per_s, const Theta& theta, double moving_mass_kg) {
-  const double damping_rad_per_s = theta[1] / (theta[0] * moving_mass_kg);
-  return std::min(max_rad_per_s, damping_share * damping_rad_per_s);
+  return std::min(max_rad_per_s, damping_share * damping_rate(theta, moving_mass_kg));
 }
 
 /// For laws that are nothing without their FixedPid.
@@ -28,12 +32,15 @@ inline void check_bandwidth(LawProblems& problems, double bandwidth_rad_per_s) {
 
 /// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle,
 /// or of the one that was found since: of the open loop that leaves about ωc/s.
+///
+/// ė is filtered as a whole. Were only ẋ, its lag would act as an error that no bandwidth removes:
+/// 0.6 µm rms on the paper's sine, 2.3 µm on its steps.
 template <class Scalar>
 class FixedPid {
  public:
   using Wide = Accumulator<Scalar>;
 
-  /// bandwidth: ωc. filter: of the derivative of x, twice this pole. step_s: > 0, in seconds.
+  /// bandwidth: ωc. filter: of the derivative of e, twice this pole. step_s: > 0, in seconds.
   FixedPid(const RegressionScale& scale, double bandwidth_rad_per_s, double filter_rad_per_s,
            double step_s)
       : bandwidth_rad_per_s_(bandwidth_rad_per_s),
@@ -72,9 +79,9 @@ class FixedPid {
     integral_step_ = tuned_integral_step_ * Wide(ratio);
   }
 
-  /// As if the muscle had long moved as the model does; the integral is zero.
+  /// As if the muscle had long moved as the model does, at this distance; the integral is zero.
   void start(const LawStart<Scalar>& at) {
-    slope_.settle(at.position, at.model.velocity);
+    slope_.settle(at.model.position - at.position);
     integral_ = Wide{};
     demanded_ = at.power;
   }
@@ -86,9 +93,9 @@ class FixedPid {
   /// The wanted power: the rest and this. The integrator holds while the power is limited, unless
   /// the error leads out of the limit.
   Scalar step(const LawInput<Scalar>& in, Scalar rest) {
-    const Scalar error = in.model.position - in.position;
-    const bool leads_out = (demanded_ > in.applied) == (error < Scalar(0));
-    if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
+    const Scalar e = error(in);
+    const bool leads_out = (demanded_ > in.applied) == (e < Scalar(0));
+    if (!in.limited || leads_out) integral_ += Wide(e) * integral_step_;
     demanded_ = rest + feedback(in) + to<Scalar>(integral_);
     return demanded_;
   }
@@ -97,7 +104,7 @@ class FixedPid {
   /// What the last step wanted.
   Scalar demanded() const { return demanded_; }
   /// Before step(), once a tick.
-  void update_derivative(Scalar position) { slope_.step(position); }
+  void update_derivative(const LawInput<Scalar>& in) { slope_.step(error(in)); }
 
   static constexpr std::size_t gains = 3;
   GainValue gain(std::size_t i) const {
@@ -107,10 +114,10 @@ class FixedPid {
   }
 
  private:
+  static Scalar error(const LawInput<Scalar>& in) { return in.model.position - in.position; }
   Scalar feedback(const LawInput<Scalar>& in) const {
-    const auto velocity = to<Scalar>(slope_.state()[1] * slope_gain_);
-    return (in.model.position - in.position) * proportional_ +
-           (in.model.velocity - velocity) * derivative_;
+    const auto rate = to<Scalar>(slope_.state()[1] * slope_gain_);
+    return error(in) * proportional_ + rate * derivative_;
   }
 
   double bandwidth_rad_per_s_;

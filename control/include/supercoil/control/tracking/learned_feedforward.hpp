@@ -35,7 +35,7 @@ struct LearnedFeedforwardSettings {
   RegressionScale scale;                      ///< of the nominal muscle
   double max_W = 4.5;                         ///< > 0: the scale of powers
   double bandwidth_rad_per_s = 8.0;           ///< at most
-  double derivative_filter_rad_per_s = 80.0;  ///< of x, twice this pole
+  double derivative_filter_rad_per_s = 80.0;  ///< of the error, twice this pole
   double follow_s = 0.5;                      ///< time constant with which w̄ follows
   double forgetting_s = 60.0;                 ///< in which an observation's weight falls to 1/e
   bool learn = true;                          ///< otherwise w stays that of the linear muscle

@@ -31,7 +31,7 @@ struct MracLeastSquaresSettings {
   double follow_s = 1.0;  ///< time constant with which the law follows what is found
   /// ωc of the fixed PID beside it: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle.
   double bandwidth_rad_per_s = 2.0;
-  double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
+  double derivative_filter_rad_per_s = 60.0;  ///< of the error, twice this pole
 };
 
 /// λ and α of the same law with constants of its own.
@@ -112,7 +112,7 @@ class MracLeastSquares {
     position_.step(in.position);
     far_power_.step(in.applied);
     far_position_.step(in.position);
-    pid_.update_derivative(in.position);
+    pid_.update_derivative(in);
     if (++tick_ == ticks_per_update_) update();
     if (since_change_s() > settings_.hold_s)
       follower_ += (clamped_parameters() - follower_) * follow_step_;

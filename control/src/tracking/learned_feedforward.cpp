@@ -53,6 +53,7 @@ LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings&
       iterative_(repetition(), step_s),
       period_finder_(step_s),
       share_(share()),
+      bandwidth_(bandwidth()),
       follow_step_(step_s / s.follow_s) {
   retune(theta_);
 }
@@ -103,6 +104,15 @@ LearnedShare LearnedFeedforward<Scalar>::share() const {
 }
 
 template <class Scalar>
+BandwidthAdaptation LearnedFeedforward<Scalar>::bandwidth() const {
+  const double mass_kg = settings_.scale.moving_mass_kg;
+  return BandwidthAdaptation(
+      {.max_rad_per_s = feedback_bandwidth(settings_.bandwidth_rad_per_s, theta_, mass_kg),
+       .lag_rad_per_s = damping_rate(theta_, mass_kg),
+       .step_s = step_s_});
+}
+
+template <class Scalar>
 void LearnedFeedforward<Scalar>::retune(const Theta& theta) {
   theta_ = theta;
   pid_.set_bandwidth(
@@ -113,6 +123,7 @@ void LearnedFeedforward<Scalar>::retune(const Theta& theta) {
   followed_ = goal_ = judged_ = judged_next_ = linear_muscle();
   judged_updates_ = 0;
   share_ = share();
+  bandwidth_ = bandwidth();
   detector_ = Detector(detection());
   mismatch_ = MismatchDetector(mismatch_detection());
   signal_trend_.setZero();
@@ -133,6 +144,7 @@ ModelMotion<double> LearnedFeedforward<Scalar>::motion_of(const LawInput<Scalar>
 template <class Scalar>
 void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
   pid_.start(at);
+  pid_.schedule(to<Scalar>(slope_));
   LawInput<Scalar> now;
   now.position = at.position;
   now.model = at.model;
@@ -142,6 +154,7 @@ void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
   sum_.setZero();
   sum_W_ = 0.0;
   error_.restart();
+  bandwidth_.restart();
   tick_ = 0;
   settle_updates_ = updates_of(settle_s);
   next_unit_ = units;
@@ -179,9 +192,11 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
     followed_ += change;
     // What the feedforward takes over, the integral has held until now.
     pid_.hand_over_to_feedforward(change.dot(psi));
-    pid_.schedule(
-        to<Scalar>(std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope)));
+    slope_ = std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope);
   }
+  if (settings_.adapt_bandwidth)
+    bandwidth_.step(static_cast<double>(in.model.position - in.position), in.limited);
+  pid_.schedule(to<Scalar>(slope_ * bandwidth_.ratio()));
   if (settings_.find_period) follow_period(static_cast<double>(in.reference));
   feedforward_W_ = followed_.dot(psi) + iterative_.power_W() + repeated_W_;
   const Scalar demanded = pid_.step(in, to<Scalar>(feedforward_W_));

@@ -165,6 +165,7 @@ constexpr std::array<Tunable, tunable_count> all{{
     {"freeze_when_limited", TunableType::flag, 0.0, 1.0},
     {"sigma_modification", TunableType::number, 0.0, 1e3},
     {"dead_zone_W", TunableType::number, 0.0, 1e3},
+    {"adapt_bandwidth", TunableType::flag, 0.0, 1.0},
 }};
 
 /// What a law or an estimator calls a value must stand above.

@@ -288,6 +288,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_READ_TUNABLE_FREEZE_WHEN_LIMITED_CHOICE (45u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_SIGMA_MODIFICATION_CHOICE (46u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_DEAD_ZONE_W_CHOICE (47u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_ADAPT_BANDWIDTH_CHOICE (48u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_ALL_CHOICE (255u)
 
 #define SUPERCOIL_COMMAND_OPCODE_COMPARE_CHOICE (0u)
@@ -687,6 +688,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_TUNABLE_FREEZE_WHEN_LIMITED_CHOICE (45u)
 #define SUPERCOIL_TUNING_TUNABLE_SIGMA_MODIFICATION_CHOICE (46u)
 #define SUPERCOIL_TUNING_TUNABLE_DEAD_ZONE_W_CHOICE (47u)
+#define SUPERCOIL_TUNING_TUNABLE_ADAPT_BANDWIDTH_CHOICE (48u)
 #define SUPERCOIL_TUNING_TUNABLE_ALL_CHOICE (255u)
 
 #define SUPERCOIL_TUNING_REFUSAL_NONE_CHOICE (0u)
@@ -863,6 +865,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_FREEZE_WHEN_LIMITED_CHOICE (45u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_SIGMA_MODIFICATION_CHOICE (46u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_DEAD_ZONE_W_CHOICE (47u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_ADAPT_BANDWIDTH_CHOICE (48u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_ALL_CHOICE (255u)
 
 /* Frame Names. */
@@ -2259,7 +2262,7 @@ struct supercoil_tuning_t {
     uint8_t set;
 
     /**
-     * The value from now on, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (equal ones for a model that has none), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such place or parameter, or this kind does not have it.
+     * The value from now on, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (equal ones for a model that has none), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating, adapt_bandwidth: 0 or 1. NaN: there is no such place or parameter, or this kind does not have it.
      *
      * Range: -
      * Scale: 1

@@ -254,7 +254,7 @@ inline constexpr std::array<ValueName, 4> names_of_state{{
     {3, "fault"},
 }};
 
-inline constexpr std::array<ValueName, 49> names_of_tunable{{
+inline constexpr std::array<ValueName, 50> names_of_tunable{{
     {0, "kind"},
     {1, "proportional_W_per_m"},
     {2, "integral_W_per_m_s"},
@@ -303,6 +303,7 @@ inline constexpr std::array<ValueName, 49> names_of_tunable{{
     {45, "freeze_when_limited"},
     {46, "sigma_modification"},
     {47, "dead_zone_W"},
+    {48, "adapt_bandwidth"},
     {255, "all"},
 }};
 

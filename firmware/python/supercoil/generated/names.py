@@ -303,6 +303,7 @@ class Tunable(Named):
     freeze_when_limited = 45
     sigma_modification = 46
     dead_zone_W = 47
+    adapt_bandwidth = 48
     all = 255
 
 

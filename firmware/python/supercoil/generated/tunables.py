@@ -46,6 +46,7 @@ CONTROLLER_UNITS = {
     Tunable.freeze_when_limited: "",
     Tunable.sigma_modification: "",
     Tunable.dead_zone_W: "W",
+    Tunable.adapt_bandwidth: "",
 }
 
 # A value is sent as its place among them.
@@ -57,6 +58,7 @@ CONTROLLER_CHOICES = {
     Tunable.slow_when_oscillating: ("false", "true"),
     Tunable.reference_model: ("poles", "design", "eq8", "wm16"),
     Tunable.freeze_when_limited: ("false", "true"),
+    Tunable.adapt_bandwidth: ("false", "true"),
 }
 
 ESTIMATOR_UNITS = {

@@ -29,22 +29,26 @@ void scale_belief(NoisyLoop& loop, const Theta& factors) {
 
 TEST_GROUP(LearnedFeedforward){};
 
-TEST(LearnedFeedforward, FollowsTheSineWithin1Micrometre2AndAgainAfterAChange) {
+TEST(LearnedFeedforward, FollowsTheSineWithinHalfAMicrometreAndAgainAfterAChange) {
   NoisyLoop loop = learning_loop();
   loop.soft_from_s = 110.0;
   const auto um = loop.rms_um<2>({{{60.0, 110.0}, {185.4, 260.8}}});
   UT_PRINT(
       StringFromFormat("um: %.2f, 4th to 6th period after %.2f rms", um[0], um[1]).asCharString());
-  CHECK(um[0] <= 1.2);
-  CHECK(um[1] <= 2.0);
+  CHECK(um[0] <= 0.5);
+  CHECK(um[1] <= 1.0);
+  loop.controller.learned_ff.adapt_bandwidth = false;
+  CHECK(loop.rms_um<1>({{{60.0, 110.0}}})[0] <= 1.0);
 }
 
-TEST(LearnedFeedforward, FollowsStepsWithin3Micrometres5) {
+TEST(LearnedFeedforward, FollowsStepsWithinHalfAMicrometre) {
   NoisyLoop loop = learning_loop();
   loop.reference_m = supercoil::test::paper_steps_m;
   const auto um = loop.rms_um<1>({{{160.0, 240.0}}});
   UT_PRINT(StringFromFormat("um: %.2f rms", um[0]).asCharString());
-  CHECK(um[0] <= 3.5);
+  CHECK(um[0] <= 0.5);
+  loop.controller.learned_ff.adapt_bandwidth = false;
+  CHECK(loop.rms_um<1>({{{160.0, 240.0}}})[0] <= 1.0);
 }
 
 TEST(LearnedFeedforward, LearnsAMuscleThatIsBelieved30PercentOff) {

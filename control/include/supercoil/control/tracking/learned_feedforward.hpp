@@ -10,6 +10,7 @@
 
 #include "supercoil/control/estimation/change_detector.hpp"
 #include "supercoil/control/estimation/leaky_least_squares.hpp"
+#include "supercoil/control/tracking/bandwidth_adaptation.hpp"
 #include "supercoil/control/tracking/error_power.hpp"
 #include "supercoil/control/tracking/fixed_pid.hpp"
 #include "supercoil/control/tracking/iterative_learning.hpp"
@@ -27,10 +28,11 @@ namespace supercoil::control {
 ///
 /// The PID's gains are those of FixedPid at the feedback bandwidth that the muscle allows. g
 /// follows the learned slope of power over velocity, since a cold muscle needs more power for a
-/// metre than a hot one. A ChangeDetector tells changes of stiffness, gain, load and cooling; along
-/// the one that it names, w is moved at once and learned anew. A change that has the direction of
-/// none of these leaves more residual than there ever was: then w is learned anew from where it is.
-/// Where the reference repeats itself, IterativeLearning adds what this leaves.
+/// metre than a hot one, and BandwidthAdaptation where little but noise is left of the error. A
+/// ChangeDetector tells changes of stiffness, gain, load and cooling; along the one that it names,
+/// w is moved at once and learned anew. A change that has the direction of none of these leaves
+/// more residual than there ever was: then w is learned anew from where it is. Where the reference
+/// repeats itself, IterativeLearning adds what this leaves.
 struct LearnedFeedforwardSettings {
   RegressionScale scale;                      ///< of the nominal muscle
   double max_W = 4.5;                         ///< > 0: the scale of powers
@@ -39,8 +41,9 @@ struct LearnedFeedforwardSettings {
   double follow_s = 0.5;                      ///< time constant with which w̄ follows
   double forgetting_s = 60.0;                 ///< in which an observation's weight falls to 1/e
   bool learn = true;                          ///< otherwise w stays that of the linear muscle
-  double period_s = 0.0;     ///< in which the reference repeats itself; 0: it does not
-  bool find_period = false;  ///< where none is given
+  double period_s = 0.0;        ///< in which the reference repeats itself; 0: it does not
+  bool find_period = false;     ///< where none is given
+  bool adapt_bandwidth = true;  ///< lower it where only noise is left of the error
 };
 
 /// The law of LearnedFeedforwardSettings, in float or double. Positions and powers are in watts at
@@ -60,7 +63,10 @@ class LearnedFeedforward {
   /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
   void start(const LawStart<Scalar>& at);
 
-  void slow_down() { pid_.slow_down(); }
+  void slow_down() {
+    pid_.slow_down();
+    bandwidth_.scale(oscillation_gain_ratio);
+  }
 
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in);
@@ -89,6 +95,7 @@ class LearnedFeedforward {
   typename MismatchDetector::Settings mismatch_detection() const;
   IterativeLearning::Settings repetition() const;
   LearnedShare share() const;
+  BandwidthAdaptation bandwidth() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
   /// The number of updates that takes a time right for a typical muscle.
   std::int64_t updates_of(double usual_s) const {
@@ -143,6 +150,7 @@ class LearnedFeedforward {
   double repeated_W_ = 0.0;  ///< of a period that has ended, which fades
   LearnedShare share_;
   ErrorPower error_;
+  BandwidthAdaptation bandwidth_;
   double follow_step_;
   double filter_share_ = 0.0;
 
@@ -189,7 +197,8 @@ struct LearnedFeedforwardLaw : UsualLaw {
       setting_value<Settings, &Settings::forgetting_s>("forgetting_s"),
       setting_value<Settings, &Settings::learn>("learn"),
       setting_value<Settings, &Settings::period_s>("period_s"),
-      setting_value<Settings, &Settings::find_period>("find_period")};
+      setting_value<Settings, &Settings::find_period>("find_period"),
+      setting_value<Settings, &Settings::adapt_bandwidth>("adapt_bandwidth")};
 
   template <class Scalar>
   static LearnedFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {

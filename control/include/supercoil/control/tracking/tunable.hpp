@@ -60,7 +60,7 @@ struct Tunable {
 
 /// The places are those of the protocol (docs/can-protocol.md): new ones come last. In this order
 /// they can be set one after the other: what there is depends on the kind and reference_model.
-inline constexpr std::size_t tunable_count = 48;
+inline constexpr std::size_t tunable_count = 49;
 /// All of them, in that order.
 const std::array<Tunable, tunable_count>& tunables();
 /// tunable_count: there is none of this name.

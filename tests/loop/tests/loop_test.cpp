@@ -54,7 +54,6 @@ TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
   LONGS_EQUAL(256, taken);
 }
 
-/// Behind noise a probe's current could hide: nothing is proven.
 TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
   constexpr double leak_A = 0.006;  // half of a probe's current is more
   for (const double off_current_A : {0.05, 0.003}) {
@@ -67,6 +66,7 @@ TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
   }
 }
 
+/// Behind noise a probe's current could hide: nothing is proven.
 TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RigSettings noisy = rough_board();

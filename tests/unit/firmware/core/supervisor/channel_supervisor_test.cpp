@@ -248,8 +248,6 @@ TEST(ChannelSupervisor, CoolingIsNotALostController) {
     check_fault(Fault::none, channel.step());
 }
 
-/// Of a joint's muscle, whose heat changes and which moves nothing. Less than it gets is asked for
-/// where there is a minimum.
 TEST(ChannelSupervisor, AControllerIsNotLostWhereNothingIsToHeat) {
   Channel channel;
   channel.inputs.heater.limited = true;
@@ -279,6 +277,8 @@ Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, 
 
 }  // namespace
 
+/// Of a joint's muscle, whose heat changes and which moves nothing. Less than it gets is asked for
+/// where there is a minimum.
 TEST(ChannelSupervisor, OnlyAMuscleThatIsAskedForMoreThanItGetsIsLoose) {
   for (const double demanded_W : {3.5, 3.7}) {
     check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none,

@@ -94,7 +94,6 @@ TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
   DOUBLES_EQUAL(2.25, plan_small_signal(paper_proof(), {}, 4.5, rate_Hz).hold_W, 1e-12);
 }
 
-/// Where nothing settles and nothing is noisy, from the very first step on.
 TEST(SmallSignal, IsAsLargeWhateverWasFoundOfAnEarlierMuscle) {
   ProofSettings rubbed = paper_proof();
   rubbed.response_ratio = 0.5;
@@ -102,6 +101,7 @@ TEST(SmallSignal, IsAsLargeWhateverWasFoundOfAnEarlierMuscle) {
                 plan_small_signal(rubbed, {}, held_W, rate_Hz).dither.amplitude_W, 0.0);
 }
 
+/// Where nothing settles and nothing is noisy, from the very first step on.
 TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
   const control::PhysicalParameters muscle;
   auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);

@@ -24,25 +24,60 @@ constexpr double max_unheld_ratio = 4.0;
 /// What takes longer is no dither; of its half.
 constexpr double max_halves = 2.5;
 
-double peak_response_m(ExpectedMotion motion, const Dither& dither, int steps) {
-  double peak_m = 0.0;
-  for (int i = 0; i < steps; ++i)
-    peak_m = std::max(peak_m, std::abs(motion.step(dither.sign(i))));
-  return peak_m;
-}
+/// Of the longest half, in steps of 6.7 ms: that is at 149 Hz.
+constexpr std::size_t max_steps = 2250;
 
-double decided_s(ExpectedMotion motion, const Dither& dither, const SensorStep& sensor, int steps,
-                 double step_s) {
-  detectors::HighPass fast(dither.corner_rad_per_s, step_s);
-  const double needed_m = detectors::Response::needed_deviations * sensor.noise_m;
-  double sum_m2 = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const double response_m = fast.step(motion.step(dither.amplitude_W * dither.sign(i)));
-    sum_m2 += response_m * response_m;
-    if (sum_m2 >= needed_m * needed_m) return (i + 1) * step_s;
+/// What a dither must do, and how much of it.
+struct Needs {
+  double max_m;       ///< its peak
+  double max_W;       ///< its amplitude
+  double decisive_m;  ///< root of the sum of its squares, without its slow part
+  double step_s;
+};
+
+/// What a watt of a dither moves, in one pass of the model: it is linear.
+class UnitAnswer {
+ public:
+  UnitAnswer(const Needs& needs, const Dither& dither) : needs_(needs), dither_(dither) {}
+
+  /// For longest_s; no longer than useful_s if it is not decided until then.
+  void run(ExpectedMotion motion, double longest_s, double useful_s) {
+    detectors::HighPass fast(dither_.corner_rad_per_s, needs_.step_s);
+    const std::size_t steps = std::min(max_steps, steps_in(longest_s));
+    const std::size_t useful = std::min(steps, steps_in(useful_s));
+    double sum_m2 = 0.0;
+    for (steps_ = 0; steps_ < steps && (steps_ != useful || is_decided(sum_m2)); ++steps_) {
+      const double response_m = motion.step(dither_.sign(static_cast<int>(steps_)));
+      const double fast_m = fast.step(response_m);
+      peak_m_ = std::max(peak_m_, std::abs(response_m));
+      sum_m2 += fast_m * fast_m;
+      sums_m2_[steps_] = sum_m2;
+    }
   }
-  return INFINITY;
-}
+  double peak_m() const { return peak_m_; }
+  double amplitude_W() const { return std::min(needs_.max_m / peak_m_, needs_.max_W); }
+  double decided_s() const {
+    for (std::size_t i = 0; i < steps_; ++i) {
+      if (is_decided(sums_m2_[i])) return static_cast<double>(i + 1) * needs_.step_s;
+    }
+    return INFINITY;
+  }
+
+ private:
+  std::size_t steps_in(double time_s) const {
+    const double steps = time_s / needs_.step_s;
+    return steps < static_cast<double>(max_steps) ? static_cast<std::size_t>(steps) : max_steps;
+  }
+  bool is_decided(double sum_m2) const {
+    return amplitude_W() * std::sqrt(sum_m2) >= needs_.decisive_m;
+  }
+
+  Needs needs_;
+  Dither dither_;
+  std::size_t steps_ = 0;
+  double peak_m_ = 0.0;
+  std::array<double, max_steps> sums_m2_;
+};
 
 }  // namespace
 
@@ -56,19 +91,22 @@ ExpectedMotion::ExpectedMotion(const control::PhysicalParameters& muscle, double
 Dither dither_for(const ExpectedMotion& motion, const SensorStep& sensor, double max_W,
                   double in_time_s, double step_s) {
   const double max_m = std::max(max_response_m, max_counts * sensor.count_m);
+  const Needs needs{max_m, max_amplitude_ratio * max_W,
+                    detectors::Response::needed_deviations * sensor.noise_m, step_s};
   Dither best;
   for (const double half_s : halves_s) {
-    if (half_s > usual_half_s && best.decided_s <= in_time_s) break;
-    const double longest_s = max_halves * std::max(usual_half_s, half_s);
-    const int steps = static_cast<int>(longest_s / step_s);
+    const bool slow = half_s > usual_half_s;
+    if (slow && best.decided_s <= in_time_s) break;
     Dither dither;
     dither.corner_rad_per_s *= std::min(1.0, usual_half_s / half_s);
     dither.half_steps = std::max(2, static_cast<int>(std::lround(half_s / step_s)));
-    const double per_W_m = peak_response_m(motion, dither, steps);
-    dither.amplitude_W = std::min(max_m / per_W_m, max_amplitude_ratio * max_W);
-    const double unheld_m = dither.amplitude_W * per_W_m / motion.response_ratio();
-    if (half_s > usual_half_s && unheld_m > max_unheld_ratio * max_m) break;
-    dither.decided_s = decided_s(motion, dither, sensor, steps, step_s);
+    UnitAnswer answer(needs, dither);
+    answer.run(motion, max_halves * std::max(usual_half_s, half_s),
+               slow ? best.decided_s : INFINITY);
+    dither.amplitude_W = answer.amplitude_W();
+    const double unheld_m = dither.amplitude_W * answer.peak_m() / motion.response_ratio();
+    if (slow && unheld_m > max_unheld_ratio * max_m) break;
+    dither.decided_s = answer.decided_s();
     if (dither.decided_s < best.decided_s || dither.decided_s <= in_time_s) best = dither;
   }
   return best;

@@ -20,7 +20,7 @@ constexpr double overdue_ratio = 0.75;
 constexpr double provable_ratio = loop_ratio / overdue_ratio;
 /// A motion has this long to prove itself before a dither is added to it.
 constexpr double patience_s = 0.2;
-constexpr double max_block_s = 2.0;
+constexpr double usual_block_s = 2.0;
 /// Of obvious_m, rms: a position that moves this much by itself is not a dead sensor's.
 constexpr double loud_ratio = 0.1;
 constexpr double max_release_s = 3.0;
@@ -83,10 +83,9 @@ double provable_W(const ProofSettings& s, const Dither& dither, double warmer_ai
   return std::clamp(provable_K * s.max_W / rest_K(s, s.max_W), 0.0, s.max_W);
 }
 
-/// Without a decision what was seen is forgotten: it may have been before contact was lost.
-double block_s(const Dither& dither) {
-  const bool decides = std::isfinite(dither.decided_s);
-  return decides ? std::max(max_block_s, loop_ratio * dither.decided_s) : max_block_s;
+/// How hot a muscle gets that was cooled worst since it last answered.
+control::BasicIntervalEnd<double> uncooled(const ProofSettings& s, double step_s) {
+  return control::hot_end(min_transfer_W_per_K(s), s.thermal.bounds, step_s);
 }
 
 double steps_s(double rate_Hz) {
@@ -138,7 +137,8 @@ Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& m
       step_ticks_(ticks_of_step(rate_Hz)),
       plan_(plan_proof(settings, muscle, rate_Hz)),
       all_(match_for(muscle, motion_corner_rad_per_s)),
-      dither_(match_for(muscle, plan_.dither.corner_rad_per_s, settings.response_ratio)) {
+      dither_(match_for(muscle, plan_.dither.corner_rad_per_s, settings.response_ratio)),
+      uncooled_(uncooled(settings, step_s_)) {
   enter(Stage::watching);
 }
 
@@ -158,6 +158,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double response_rat
   all_ = match_for(muscle, motion_corner_rad_per_s);
   dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, response_ratio);
   all_.motion.take_over(before);
+  stop_dither();
   settled_ = false;
   enter(Stage::watching);
 }
@@ -166,7 +167,7 @@ void Proof::plan(double max_power_ratio, const control::PhysicalParameters& musc
   settings_.max_power_ratio = max_power_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
   plan_.for_air(settings_, warmer_air_K_);
-  dither_place_ = -1;  // of one that may have had other halves
+  stop_dither();  // it may have had other halves
   dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, settings_.response_ratio);
   settled_ = false;
   allow();
@@ -175,6 +176,19 @@ void Proof::plan(double max_power_ratio, const control::PhysicalParameters& musc
 /// As it is given no more than it can prove.
 double Proof::time_to_limit_s(double hottest_K) const {
   return supercoil::time_to_limit_s(settings_, plan_.provable_W, hottest_K);
+}
+
+/// So much of the time to the limit, less a reserve: by the clock, or by the heat since it last
+/// answered.
+bool Proof::is_used(double ratio, double reserve_s, double hottest_K) const {
+  const double proven_s = time_to_limit_s(proven_K_);
+  return unproven_s_ > ratio * time_to_limit_s(hottest_K) - reserve_s ||
+         proven_s - time_to_limit_s(worst_K_) > ratio * proven_s - reserve_s;
+}
+
+/// Of a dither.
+double Proof::decision_s() const {
+  return loop_ratio * plan_.dither.decided_s;
 }
 
 void Proof::step(const Input& in) {
@@ -201,13 +215,25 @@ void Proof::end_step(const Input& in) {
     plan_.for_air(settings_, warmer_air_K_);
     allow();
   }
+  const double hottest_K = in.hottest_K + in.warmer_air_K;
+  warm(power_W, in.heating, hottest_K);
   if (sums_.positions > 0) {
     compare(sums_.position_m / static_cast<double>(sums_.positions));
-    in.heating ? judge(power_W, in.hottest_K + in.warmer_air_K) : rest();
+    in.heating ? judge(power_W, hottest_K) : rest(hottest_K);
   } else {
     settled_ = false;
   }
   sums_ = {};
+}
+
+/// Of what was before the first heating nothing else is known than the hot end.
+void Proof::warm(double power_W, bool heating, double hottest_K) {
+  if (!heating && worst_K_ == 0.0) return;
+  if (worst_K_ == 0.0) proven_K_ = hottest_K;
+  const double true_W = settings_.max_power_ratio * power_W;
+  for (std::int64_t ticks = 0; ticks < sums_.ticks; ticks += step_ticks_)
+    worst_K_ = warmer_air_K_ + uncooled_.moved(worst_K_ - warmer_air_K_, true_W);
+  worst_K_ = std::fmax(worst_K_, hottest_K);
 }
 
 void Proof::compare(double position_m) {
@@ -225,46 +251,66 @@ void Proof::compare(double position_m) {
   stage_s_ += step_s_;
 }
 
-void Proof::rest() {
-  enter(Stage::watching);
+/// It gives back no time: a muscle that was not proven is so until it answers, or must have cooled
+/// so far that there is time for a dither.
+void Proof::rest(double hottest_K) {
   unproven_s_ = 0.0;
-  dither_place_ = -1;
-  dither_W_ = 0.0;
+  stop_dither();
+  const bool answered = all_.answered();
+  if (answered) prove(hottest_K);
+  const double needed_s = decided_ratio * time_to_limit_s(hottest_K) + decision_s();
+  const bool in_time = time_to_limit_s(worst_K_) >= needed_s;
+  if (stage_ != Stage::watching && (answered || in_time)) {
+    enter(Stage::watching);
+  } else if (stage_ == Stage::released) {
+    enter(Stage::overdue);
+  }
+  end_block();
 }
 
 void Proof::judge(double power_W, double hottest_K) {
   answered_ = all_.answered() || dither_.answered();
   const bool silent = stage_ == Stage::watching ? dither_.silent() : all_.silent() && must_move();
-  unproven_s_ = power_W > above_safe_ratio * plan_.safe_W ? unproven_s_ + step_s_ : 0.0;
+  const bool above_safe = power_W > above_safe_ratio * plan_.safe_W;
+  unproven_s_ = above_safe ? unproven_s_ + step_s_ : 0.0;
   if (stage_ == Stage::released) {
-    judge_release();
+    judge_release(hottest_K);
   } else if (answered_) {
-    unproven_s_ = 0.0;
+    prove(hottest_K);
     if (stage_ == Stage::overdue) enter(Stage::watching);
-    begin_block();
   } else if (silent && (stage_ == Stage::watching || stage_ == Stage::overdue)) {
     enter(Stage::released);
-  } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
-    unproven_s_ = 0.0;
-  } else if (unproven_s_ > overdue_ratio * time_to_limit_s(hottest_K)) {
-    if (stage_ == Stage::watching) {
-      enter(Stage::overdue);
-    } else if (stage_ == Stage::moving) {
-      enter(Stage::swallowed);
+  } else {
+    // What was used by heat goes on.
+    if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) unproven_s_ = 0.0;
+    if (above_safe && is_used(overdue_ratio, 0.0, hottest_K)) {
+      if (stage_ == Stage::watching) {
+        enter(Stage::overdue);
+      } else if (stage_ == Stage::moving) {
+        enter(Stage::swallowed);
+      }
     }
   }
-  if (block_s_ > block_s(plan_.dither)) begin_block();
-  drive_dither(hottest_K);
+  end_block();
+  drive_dither(power_W, hottest_K);
+}
+
+/// At this moment. From now on it may be anything again.
+void Proof::prove(double hottest_K) {
+  unproven_s_ = 0.0;
+  proven_K_ = worst_K_ = hottest_K;
+  begin_block();
 }
 
 bool Proof::must_move() const {
   return high_m_ - low_m_ >= release_ratio * settings_.obvious_m || stage_s_ >= max_release_s;
 }
 
-void Proof::judge_release() {
+void Proof::judge_release(double hottest_K) {
   if (!must_move()) return;
   unanswered_ = all_.silent();
   if (all_.answered()) {
+    prove(hottest_K);
     enter(Stage::moving);
   } else if (!unanswered_ && stage_s_ >= max_release_s) {
     enter(Stage::swallowed);
@@ -301,22 +347,35 @@ void Proof::begin_block() {
   block_s_ = 0.0;
 }
 
-void Proof::drive_dither(double hottest_K) {
-  const double begin_s =
-      decided_ratio * time_to_limit_s(hottest_K) - loop_ratio * plan_.dither.decided_s;
-  const bool due = stage_ == Stage::watching && unproven_s_ > std::max(begin_s, patience_s) &&
-                   std::isfinite(plan_.dither.decided_s);
+/// Without a decision what was seen is forgotten: it may have been before contact was lost.
+void Proof::end_block() {
+  const double dithered_s = dither_place_ < 0 ? 0.0 : decision_s();
+  if (block_s_ > std::fmax(usual_block_s, dithered_s)) begin_block();
+}
+
+/// Where the power is held down it is added too: nothing else could be answered there.
+void Proof::drive_dither(double power_W, double hottest_K) {
+  const bool watching = stage_ == Stage::watching;
+  const bool overdue = stage_ == Stage::overdue && power_W > 2.0 * plan_.dither.amplitude_W;
+  const bool in_time =
+      watching && unproven_s_ > patience_s && is_used(decided_ratio, decision_s(), hottest_K);
+  const bool due = (in_time || overdue) && std::isfinite(plan_.dither.decided_s);
   const int period = 2 * plan_.dither.half_steps;
   if (dither_place_ >= 0) dither_place_ = (dither_place_ + 1) % period;
   // A period that has begun is ended: halves of it would leave the position moved.
   const bool between = dither_place_ <= 0;
-  if (stage_ != Stage::watching || (between && !due)) {
+  if (!(watching || stage_ == Stage::overdue) || (between && !due)) {
     dither_place_ = -1;
   } else if (dither_place_ < 0) {
     dither_place_ = 0;
     begin_block();  // what moved before it says nothing of now
   }
   dither_W_ = dither_place_ < 0 ? 0.0 : plan_.dither.step_W(dither_place_);
+}
+
+void Proof::stop_dither() {
+  dither_place_ = -1;
+  dither_W_ = 0.0;
 }
 
 detectors::Margin Proof::margin() const {

@@ -108,7 +108,7 @@ class Proof {
     overdue,    ///< not proven in time: the safe power, until something is answered, or nothing
     released,   ///< a dither was not answered: no power, and the muscle must move
     moving,     ///< it did move: friction swallows a dither. Only its own motion proves it now
-    swallowed,  ///< nor does that. The safe power until the next start
+    swallowed,  ///< nor does that. The safe power until it rests, and then as after overdue
   };
 
   /// Where a block begins, one step's noise would be in all of it.
@@ -150,17 +150,23 @@ class Proof {
                   double response_ratio = 1.0) const;
 
   void end_step(const Input& in);
+  void warm(double power_W, bool heating, double hottest_K);
   void compare(double position_m);
-  void rest();
+  void rest(double hottest_K);
   void judge(double power_W, double hottest_K);
-  void judge_release();
+  void judge_release(double hottest_K);
+  void prove(double hottest_K);
   /// A living muscle, by now: the model moved far enough, or had time.
   bool must_move() const;
   double time_to_limit_s(double hottest_K) const;
+  bool is_used(double ratio, double reserve_s, double hottest_K) const;
+  double decision_s() const;
   void enter(Stage stage);
   void allow();
   void begin_block();
-  void drive_dither(double hottest_K);
+  void end_block();
+  void drive_dither(double power_W, double hottest_K);
+  void stop_dither();
   bool active() const { return settings_.wanted && known_; }
 
   ProofSettings settings_;
@@ -189,7 +195,12 @@ class Proof {
   double dither_W_ = 0.0;
   double max_W_ = INFINITY;
   double warmer_air_K_ = 0.0;
-  double unproven_s_ = 0.0;  ///< above the safe power
+  double unproven_s_ = 0.0;  ///< above the safe power, without a break
+  control::BasicIntervalEnd<double> uncooled_;
+  double proven_K_ = 0.0;  ///< how hot it was at most when it last answered
+  /// Of a muscle that lost contact then, and was cooled worst from then on; 0: it was not heated
+  /// yet.
+  double worst_K_ = 0.0;
   double block_s_ = 0.0;
   double stage_s_ = 0.0;
   double low_m_ = 0.0;  ///< of the expected position, since the stage began

@@ -479,17 +479,24 @@ identified, unless the file has the configuration's own parameters). This is dec
    most 20 µm, or two counts of a coarse sensor. The expected response is the one that [identify](../control.md#identify) measured: if friction leaves
    a quarter of the model's motion, the dither has four times the power, up to a tenth of `max_W`. (In simulation, friction of 0.2 % of the load leaves
    0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that this does not move enough is held to the safe power, as `--check` says. A half
-   lasts 1.2 s at most; that of a slow muscle, which takes minutes to the limit, up to 6 s, if no shorter one is decided in time and the muscle would move
+   lasts 1.2 s at most; that of a slow muscle up to 6 s, if no shorter one is decided in time and the muscle would move
    by at most 80 µm (or eight counts) if friction let it go. The dither begins early enough to be decided within half of the time in which a muscle at the interval's hot end, with its maximum power, the lowest
-   mass and a quarter of the lowest heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. Nothing from before the dither is used.
+   mass and a quarter of the lowest heat transfer, reaches `trip_C`. That half is 0.6 s where 4.5 W were held, and 1.7 s where 1.7 W were. (A muscle of
+   2 J/K has 7 s where 4.5 W were held and the senses were compared with a meter, and 2.8 s at the 2.8 W that it may have until then.) Nothing from before
+   the dither is used.
 3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. When the model has fallen by twice
    `responding_min_m`, and less than 0.17 of that is seen, it is this fault. A muscle that falls is intact, and friction or hysteresis swallows its
    dither: from then on only its own motion proves it. If that does not happen within three quarters of the time in 2., for example because it is at
-   rest, it gets at most the safe power until it rests or is disarmed.
+   rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have cooled (below).
 4. If nothing is decided within three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel gets at most the safe power
    until there is a response. Then a missing response counts only after a motion or a time as in 3., because hysteresis hides the beginning of a motion
-   that reverses. A position that moves by more than 0.1 of `responding_min_m` rms in a block, for whatever reason, is not that of a dead sensor: the
-   decision waits.
+   that reverses. The dither goes on at the safe power, so that a muscle at rest can respond. A position that moves by more than 0.1 of
+   `responding_min_m` rms in a block, for whatever reason, is hardly that of a dead sensor: the decision waits, but no longer than 5. allows.
+5. Neither a rest, nor less power, nor arming anew gives back time that was used without a response. From each response on, the firmware counts how hot
+   the muscle is at most if it lost contact at that moment, and has a quarter of the lowest heat transfer since: with the power that really acted, at rest
+   too. The shares of the time to the limit in 2. to 4. are used up by the clock, which a moment of less power restarts, or by that heat, whichever is sooner. So a muscle that was at the safe power for
+   long has less time when it is given more, and one that was held to the safe power, or whose power was taken away, gets the safe power after a rest until it
+   responds (at rest its fall is a response), or until so much time is left that a dither is decided in it: at rest, 8 s on the paper's muscle.
 
 | | |
 |---|---|
@@ -534,7 +541,7 @@ dither without a response: how far the muscle fell with the power, and 0.17 of w
 
 - A muscle that is not identified and is held at a constant power: once it is at rest, no motion is expected, so a sensor that slips off is not noticed.
   The same holds during identify, and with `proof_of_response = false`.
-- Any motion counts, in whatever direction and with whatever cause: a swinging load hides a dead muscle.
+- Of a muscle that is not identified any motion counts, in whatever direction and with whatever cause: a swinging load hides a dead muscle.
 - In a muscle that is not identified: anything within the first 20 s. At 4.5 W it has reached its final temperature long before.
 
 ## False alarms

@@ -8,6 +8,8 @@
 
 using namespace supercoil;
 using test::paper_proof;
+using test::slow_muscle;
+using test::slow_proof;
 
 namespace {
 
@@ -120,29 +122,8 @@ TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
   LONGS_EQUAL(std::lround(1.2 / dither_step_s), plan.dither.half_steps);
 }
 
-namespace {
-
-constexpr double slower = 12.0;
-
-/// 2 J/K: 27 s of time constant, and a small travel.
-control::PhysicalParameters slow_muscle() {
-  control::PhysicalParameters muscle;
-  muscle.thermal_mass_J_per_K *= slower;
-  muscle.force_per_kelvin_N_per_K *= 0.2;
-  return muscle;
-}
-
-ProofSettings slow_proof() {
-  ProofSettings s = paper_proof();
-  s.thermal.bounds.min_mass_J_per_K *= slower;
-  s.thermal.bounds.max_mass_J_per_K *= slower;
-  return s;
-}
-
-}  // namespace
-
 TEST(Dither, OfASlowMuscleIsASlowOne) {
-  // A tenth of max_W takes seconds to move it by 20 um, and it has minutes to the limit.
+  // A tenth of max_W takes seconds to move it by 20 um; from 2.8 W the limit is 5.6 s away.
   ProofSettings slow = slow_proof();
   slow.max_power_ratio = 1.94;
   const ProofPlan plan = plan_proof(slow, slow_muscle(), 1000.0);

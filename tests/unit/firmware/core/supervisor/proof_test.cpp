@@ -131,3 +131,81 @@ TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
   muscle.proof.plan(strong.max_power_ratio, {});
   DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
 }
+
+namespace {
+
+constexpr double limit_C = 160.0;
+
+/// Found, or held to the safe power, whatever follows; and never as hot as the limit.
+void check_safe(const HeldMuscle& muscle, const ProofSettings& settings) {
+  CHECK_COMPARE(muscle.hottest_C(), <, limit_C);
+  const double safe_W = plan_proof(settings, {}, 1000.0).safe_W;
+  CHECK(muscle.unanswered || muscle.proof.max_W() <= safe_W);
+}
+
+}  // namespace
+
+// Neither a rest nor a moment with little power gives back the time that was used without a proof.
+TEST(Proof, IsNotPutOffByRestsNorByMomentsWithLittlePower) {
+  for (const bool rests : {false, true}) {
+    for (const double heated_s : {0.25, 0.5, 1.0, 2.0}) {
+      HeldMuscle muscle(paper_proof());
+      muscle.run(20.0);
+      muscle.off_sensor = true;
+      for (int i = 0; i < 60 && !muscle.unanswered; ++i) {
+        muscle.heating = true;
+        muscle.demanded_W = 4.0;
+        muscle.run(heated_s);
+        muscle.heating = !rests;
+        muscle.demanded_W = 0.0;
+        muscle.run(0.1 * heated_s);
+      }
+      check_safe(muscle, paper_proof());
+    }
+  }
+}
+
+// A muscle off its sensor at the safe power comes to four times what it is believed to.
+TEST(Proof, IsAskedForTheSoonerTheHotterTheMuscleMayHaveBecomeBefore) {
+  HeldMuscle muscle(paper_proof());
+  muscle.demanded_W = 1.1;
+  muscle.run(20.0);
+  muscle.off_sensor = true;
+  muscle.run(80.0);
+  DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
+  muscle.demanded_W = 4.5;
+  muscle.run(10.0);
+  check_safe(muscle, paper_proof());
+}
+
+TEST(Proof, OfAMuscleWhoseSensorMovesWhenItLetsGoIsMissedInTime) {
+  ProofSettings s = paper_proof();
+  s.position_noise_rms_m = 30e-6;
+  s.max_power_ratio = 1.5;
+  control::PhysicalParameters weak;
+  weak.force_per_kelvin_N_per_K *= 0.35;
+  for (int i = 0; i < 24; ++i) {
+    HeldMuscle muscle(s, true, weak, static_cast<std::uint64_t>(i));
+    muscle.noise_m = s.position_noise_rms_m;
+    muscle.power_ratio = s.max_power_ratio;
+    muscle.demanded_W = 4.5;
+    muscle.run(20.0 + 0.23 * i);
+    CHECK_FALSE(muscle.unanswered);
+    muscle.off_sensor = true;
+    muscle.moved_m = 0.001;
+    muscle.run(20.0);
+    CHECK(muscle.unanswered);
+    CHECK_COMPARE(muscle.hottest_C(), <, limit_C);
+  }
+}
+
+// That the position moves for whatever reason is no proof for longer than there is time.
+TEST(Proof, OfADeadMuscleIsAskedForWhileALoadSwings) {
+  HeldMuscle muscle(paper_proof());
+  muscle.demanded_W = 4.5;
+  muscle.run(20.0);
+  muscle.off_sensor = true;
+  muscle.swing_m = 300e-6;
+  muscle.run(60.0);
+  check_safe(muscle, paper_proof());
+}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "supervisor/proof.hpp"
@@ -14,8 +15,14 @@ class HeldMuscle {
  public:
   static constexpr double tick_s = 1e-3;
 
-  explicit HeldMuscle(const ProofSettings& settings, bool known = true)
-      : proof(settings, {}, known, 1.0 / tick_s), heat_(settings.thermal.bounds, tick_s) {}
+  explicit HeldMuscle(const ProofSettings& settings, bool known = true,
+                      const control::PhysicalParameters& muscle = {}, std::uint64_t seed = 1)
+      : proof(settings, muscle, known, 1.0 / tick_s),
+        bounds_(settings.thermal.bounds),
+        air_C_(settings.thermal.air.warmest_C),
+        muscle_(muscle, tick_s),
+        heat_(settings.thermal.bounds, tick_s),
+        random_(seed) {}
 
   /// Until a fault, for at most so long.
   void run(double time_s) {
@@ -25,30 +32,35 @@ class HeldMuscle {
   }
 
   double demanded_W = 3.0;
-  bool off_sensor = false;
-  bool present = true;    ///< the position
-  bool heating = true;    ///< a command to heat is in force
-  bool obeys = true;      ///< false: more acts than was allowed
-  double hotter_K = 0.0;  ///< than the interval of its temperature says
+  bool off_sensor = false;  ///< and with a quarter of the least cooling from then on
+  bool present = true;      ///< the position
+  bool heating = true;      ///< a command to heat is in force
+  bool obeys = true;        ///< false: more acts than was allowed
+  double hotter_K = 0.0;    ///< than the interval of its temperature says
   double warmer_air_K = 0.0;
   double play_m = 0.0;   ///< friction: the sensor's end follows when it is drawn by so much
   double swing_m = 0.0;  ///< of a load that swings at 1 Hz
   double moved_m = 0.0;  ///< the position, by a new calibration
+  double noise_m = 10e-6;
+  double power_ratio = 1.05;  ///< true over measured
 
   Proof proof;
   bool unanswered = false;
   long dither_ticks = 0;
   double min_W = 1e3;   ///< that was allowed
   double peak_W = 0.0;  ///< that was asked for
+  /// Of a muscle with the least mass and cooling.
+  double hottest_C() const { return air_C_ + hottest_K_; }
 
  private:
   void tick() {
     time_s_ += tick_s;
     const double muscle_m = muscle_.step(power_W_);
     if (!off_sensor) end_m_ = std::clamp(end_m_, muscle_m - play_m, muscle_m + play_m);
-    heat_.step(1.05 * power_W_);
+    heat_.step(power_ratio * power_W_);
+    warm();
     const double swing = swing_m * std::sin(6.28 * time_s_);
-    const double position_m = end_m_ + moved_m + swing + noise_(random_);
+    const double position_m = end_m_ + moved_m + swing + noise_m * noise_(random_);
     proof.step({power_W_, dither_W_, 1, present, position_m, heat_.max_K() + hotter_K, heating,
                 warmer_air_K});
     unanswered = unanswered || proof.unanswered();
@@ -60,10 +72,21 @@ class HeldMuscle {
     peak_W = std::max(peak_W, asked_W);
   }
 
-  ExpectedMotion muscle_{{}, tick_s};
+  void warm() {
+    const double transfer_W_per_K = (off_sensor ? 0.25 : 1.0) * bounds_.min_transfer_W_per_K;
+    const double heating_W = power_ratio * power_W_ - transfer_W_per_K * true_K_;
+    true_K_ += tick_s / bounds_.min_mass_J_per_K * heating_W;
+    hottest_K_ = std::max(hottest_K_, true_K_);
+  }
+
+  control::ThermalBounds bounds_;
+  double air_C_;
+  ExpectedMotion muscle_;
   control::IntervalObserver heat_;
-  std::mt19937_64 random_{1};
-  std::normal_distribution<double> noise_{0.0, 10e-6};
+  std::mt19937_64 random_;
+  std::normal_distribution<double> noise_;
+  double true_K_ = 0.0;
+  double hottest_K_ = 0.0;
   double time_s_ = 0.0;
   double end_m_ = 0.0;
   double power_W_ = 0.0;

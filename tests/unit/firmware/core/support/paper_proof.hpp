@@ -16,4 +16,21 @@ inline ProofSettings paper_proof() {
   return s;
 }
 
+inline constexpr double slower = 12.0;
+
+/// 2 J/K: 27 s of time constant, and a small travel.
+inline control::PhysicalParameters slow_muscle() {
+  control::PhysicalParameters muscle;
+  muscle.thermal_mass_J_per_K *= slower;
+  muscle.force_per_kelvin_N_per_K *= 0.2;
+  return muscle;
+}
+
+inline ProofSettings slow_proof() {
+  ProofSettings s = paper_proof();
+  s.thermal.bounds.min_mass_J_per_K *= slower;
+  s.thermal.bounds.max_mass_J_per_K *= slower;
+  return s;
+}
+
 }  // namespace supercoil::test

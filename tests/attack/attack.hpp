@@ -47,9 +47,9 @@ struct Attack {
 std::vector<Attack> all_attacks();
 
 /// What the board is asked for when the attack begins, or is from the start.
-enum class Activity { disarmed, hold, power, ramp, rearm, identify, calibrate };
-inline constexpr std::array<std::string_view, 7> activity_names{
-    "disarmed", "hold", "power", "ramp", "re-arm", "identify", "calibrate"};
+enum class Activity { disarmed, hold, power, ramp, rearm, rests, identify, calibrate };
+inline constexpr std::array<std::string_view, 8> activity_names{
+    "disarmed", "hold", "power", "ramp", "re-arm", "rests", "identify", "calibrate"};
 
 /// What protects in this activity; empty: the firmware must.
 std::string_view guard_in(Activity activity, const Attack& attack);

@@ -15,6 +15,7 @@ namespace supercoil::test {
 inline constexpr double hold_ratio = 0.8;   ///< of what max_W would hold
 inline constexpr double press_ratio = 1.5;  ///< likewise: more than it can
 inline constexpr double rearm_every_s = 12.0;
+inline constexpr double rest_every_s = 1.0;
 
 /// Judged by the muscles' own temperatures: of the worst muscle.
 struct Damage {
@@ -64,6 +65,8 @@ class AttackedBoard {
   bool measure_asked() const { return measure_asked_; }
   /// Disarmed for a moment now and then.
   bool is_rearmed() const { return std::fmod(elapsed_s(), rearm_every_s) >= rearm_every_s - 0.3; }
+  /// At rest for a moment, a tenth of a second, now and then.
+  bool rests() const { return std::fmod(elapsed_s(), rest_every_s) >= rest_every_s - 0.1; }
 
   void send(Verb verb, double value = 0.0, std::uint8_t channel = 0) {
     loop_.send({channel, verb, value});

@@ -105,6 +105,8 @@ void AttackedMuscle::command_active() {
     case Activity::rearm:
       if (is_rearmed()) return send(Verb::disarm);
       return send(Verb::power, max_W);
+    case Activity::rests:
+      return rests() ? send(Verb::rest) : send(Verb::power, max_W);
     default:
       return send(Verb::power, max_W);
   }

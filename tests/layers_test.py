@@ -20,7 +20,7 @@ IO = ["can/", "can_client/", "config/", "plot/", "recorder/", "storage/", "telem
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/"],
     "identification": ["supercoil/control/", "supercoil/identification/", "Eigen/", "unsupported/Eigen/", "tl/"],
-    "hal/include": ["supercoil/hal/"],
+    "hal/include": ["supercoil/hal/", "tl/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
                   "sched.h", "sys/", "unistd.h"],
     "firmware/core": CORE,

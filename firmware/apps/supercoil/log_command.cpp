@@ -30,20 +30,20 @@ tl::expected<std::string, std::string> read(const std::string& path, storage::Fi
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
   auto content = files.read(path, bytes);
-  if (!content) return tl::unexpected(content.error().text);
+  if (!content) return tl::unexpected(content.error().text());
   return std::move(*content);
 }
 
 int say(const std::string& text, storage::Files& files) {
   const auto written = files.write({STDOUT_FILENO, "standard output"}, text);
-  return written ? exit_done : fail(exit_failed, written.error().text);
+  return written ? exit_done : fail(exit_failed, written.error().text());
 }
 
 int into_standard_output(const std::string& nothing, const Produce& produce) {
   storage::PosixFiles files;
   const auto count = produce([&](std::string_view part) -> tl::expected<void, std::string> {
     const auto written = files.write({STDOUT_FILENO, "standard output"}, part);
-    if (!written) return tl::unexpected(written.error().text);
+    if (!written) return tl::unexpected(written.error().text());
     return {};
   });
   if (!count) return fail(exit_failed, count.error());

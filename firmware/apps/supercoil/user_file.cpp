@@ -11,9 +11,9 @@ namespace supercoil::operating {
 
 namespace {
 
-tl::expected<void, std::string> text_of(const storage::Result<void>& result) {
+tl::expected<void, std::string> text_of(const Result<void>& result) {
   if (result) return {};
-  return tl::unexpected(result.error().text);
+  return tl::unexpected(result.error().text());
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ tl::expected<OutputFile, std::string> OutputFile::open(const std::string& path,
   const std::string temporary = path + ".part";
   static_cast<void>(files.unlink(temporary));  // of a run that was killed
   auto file = files.create(temporary);
-  if (!file) return tl::unexpected(file.error().text);
+  if (!file) return tl::unexpected(file.error().text());
   return OutputFile(path, std::move(*file), files);
 }
 
@@ -69,7 +69,7 @@ tl::expected<std::string, std::string> read_whole(const std::string& path) {
   if (bytes > max_bytes) return tl::unexpected(path + ": is larger than 1 GiB");
   storage::PosixFiles files;
   auto content = files.read(path, bytes);
-  if (!content) return tl::unexpected(content.error().text);
+  if (!content) return tl::unexpected(content.error().text());
   return std::move(*content);
 }
 

@@ -61,7 +61,7 @@ tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig
   if (!config.can) return {};
   const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
-  if (!bus) return tl::unexpected("can: " + bus.error().text);
+  if (!bus) return tl::unexpected("can: " + bus.error().text());
   parts.can_bus = std::move(*bus);
   parts.can = std::make_unique<telemetry::CanEndpoint>(*config.can, config.settings, *parts.loop,
                                                        *parts.can_bus,

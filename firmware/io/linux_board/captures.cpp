@@ -52,8 +52,7 @@ Captures::Scan& Captures::scan_of(const std::string& device) {
       .first->second;
 }
 
-hal_linux::Result<std::unique_ptr<hal::AdcChannel>> Captures::open(
-    const config::ConverterAddress& input) {
+Result<std::unique_ptr<hal::AdcChannel>> Captures::open(const config::ConverterAddress& input) {
   const Scan& scan = scan_of(input.device);
   if (!scan) return tl::unexpected(scan.error());
   const std::vector<std::string>& inputs = demanded_.at(input.device).inputs;

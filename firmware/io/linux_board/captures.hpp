@@ -20,10 +20,10 @@ class Captures {
 
   /// One of these inputs. Its device's capture runs until the last of its inputs ends; inputs of a
   /// device belong to one thread.
-  hal_linux::Result<std::unique_ptr<hal::AdcChannel>> open(const config::ConverterAddress& input);
+  Result<std::unique_ptr<hal::AdcChannel>> open(const config::ConverterAddress& input);
 
  private:
-  using Scan = hal_linux::Result<std::shared_ptr<hal_linux::IioScan>>;
+  using Scan = Result<std::shared_ptr<hal_linux::IioScan>>;
 
   void want(const config::ConverterAddress& input);
   Scan& scan_of(const std::string& device);

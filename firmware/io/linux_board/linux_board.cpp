@@ -75,13 +75,13 @@ tl::expected<std::string, std::string> LinuxBoard::start(double rate_Hz, int pri
     devices.insert(devices.end(), bus.conversions.begin(), bus.conversions.end());
     auto thread = hal_linux::BusThread::start({"bus " + bus.name, priority},
                                               hal::duration_from(1.0 / rate_Hz), devices);
-    if (!thread) return tl::unexpected(thread.error().text);
+    if (!thread) return tl::unexpected(thread.error().text());
     threads_.push_back(std::move(*thread));
   }
   if (!watchdog_address_) return {};
   auto watchdog =
       hal_linux::DevWatchdog::open(watchdog_address_->device, watchdog_address_->timeout_s);
-  if (!watchdog) return tl::unexpected("watchdog: " + watchdog.error().text);
+  if (!watchdog) return tl::unexpected("watchdog: " + watchdog.error().text());
   watchdog_ = std::move(*watchdog);
   if (watchdog_->outlives_program()) return {};
   return "the watchdog " + watchdog_address_->device +

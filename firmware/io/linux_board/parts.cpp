@@ -8,7 +8,7 @@ namespace {
 
 template <class Device>
 void note(const Part<Device>& part, std::vector<std::string>& missing) {
-  if (!part.device) missing.push_back(part.what + ": " + part.device.error().text);
+  if (!part.device) missing.push_back(part.what + ": " + part.device.error().text());
 }
 
 /// Opens devices of one machine.

@@ -19,7 +19,7 @@ namespace supercoil::linux_board {
 template <class Device>
 struct Part {
   std::string what;  ///< "channel 1, enable"
-  hal_linux::Result<std::unique_ptr<Device>> device;
+  Result<std::unique_ptr<Device>> device;
 };
 
 using OutputPart = Part<hal_linux::GpioOutput>;

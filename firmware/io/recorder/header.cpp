@@ -116,10 +116,10 @@ std::string not_ours(std::string_view file) {
   return {};
 }
 
-tl::expected<Header, HeaderError> decode_header(std::string_view start) {
+Result<Header> decode_header(std::string_view start) {
   const std::size_t line = first_line("").size();
   if (start.substr(0, line) != first_line(start.substr(line)))
-    return tl::unexpected(HeaderError{"is damaged: its header is not as it was written", false});
+    return failure("is damaged: its header is not as it was written");
   Reader reader(start);
   const auto row_bytes = reader.number<std::uint64_t>("row_bytes", 1, 1 << 20);
   Header h;
@@ -132,13 +132,11 @@ tl::expected<Header, HeaderError> decode_header(std::string_view start) {
   h.fault_time_ns = reader.number<std::int64_t>("fault_time_ns", INT64_MIN, INT64_MAX);
   h.rows_crc32 = reader.crc("rows_CRC32");
   if (!value_of(start, "program").empty()) h.program = std::string(reader.quoted("program"));
-  if (!reader.wrong().empty())
-    return tl::unexpected(HeaderError{"has a header that cannot be: " + reader.wrong(), false});
+  if (!reader.wrong().empty()) return failure("has a header that cannot be: " + reader.wrong());
   if (row_bytes != sizeof(Row)) {
-    return tl::unexpected(HeaderError{"has rows of " + std::to_string(row_bytes) +
-                                          " bytes; this program reads rows of " +
-                                          std::to_string(sizeof(Row)),
-                                      true});
+    return failure("has rows of " + std::to_string(row_bytes) +
+                       " bytes; this program reads rows of " + std::to_string(sizeof(Row)),
+                   std::errc::not_supported);
   }
   return h;
 }

@@ -62,8 +62,9 @@ tl::expected<Recording, std::string> decode(std::string_view file, Damaged damag
     recording.header = std::move(*header);
     recording.damage = fault_of_rows(recording.header, bytes);
   } else {
-    if (header.error().final) return tl::unexpected(std::move(header.error().text));
-    recording.damage = std::move(header.error().text);
+    if (header.error().code == std::errc::not_supported)
+      return tl::unexpected(header.error().text());
+    recording.damage = header.error().text();
   }
   if (damaged == Damaged::refuse && !recording.damage.empty())
     return tl::unexpected(std::move(recording.damage));

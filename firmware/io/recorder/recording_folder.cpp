@@ -1,7 +1,6 @@
 #include "recorder/recording_folder.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <system_error>
@@ -18,16 +17,13 @@ constexpr std::size_t max_digits = 18;
 
 }  // namespace
 
-storage::Result<std::vector<std::string>> list_folder(const std::string& folder) {
+Result<std::vector<std::string>> list_folder(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> names;
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
     names.push_back(entry->path().filename().string());
-  if (error) {
-    return tl::unexpected(
-        storage::FileError{error.value(), folder + ": cannot be listed: " + error.message()});
-  }
+  if (error) return failed_call(folder + ": cannot be listed", error.value());
   return names;
 }
 
@@ -49,7 +45,7 @@ std::string RecordingFolder::path_of(std::uint64_t number) const {
 tl::expected<RecordingFolder::Written, std::string> RecordingFolder::write(
     std::span<const std::string_view> parts) {
   const auto names = list_(folder_);
-  if (!names) return tl::unexpected(names.error().text);
+  if (!names) return tl::unexpected(names.error().text());
   std::vector<std::uint64_t> numbers;
   for (const std::string& name : *names) {
     if (const std::uint64_t number = number_of(name); number != 0) numbers.push_back(number);
@@ -66,20 +62,20 @@ tl::expected<RecordingFolder::Written, std::string> RecordingFolder::write(
   if (result) result = files_->rename(temporary, written.path);
   if (!result) {
     static_cast<void>(files_->unlink(temporary));  // a full disk needs the room
-    return tl::unexpected(result.error().text);
+    return tl::unexpected(result.error().text());
   }
   ++last_;
   // It is there, whole; only a power cut could still take its name away.
   if (const auto synced = files_->sync_folder(folder_); !synced)
-    written.problems.push_back(synced.error().text);
+    written.problems.push_back(synced.error().text());
   return written;
 }
 
-storage::Result<void> RecordingFolder::write_file(const std::string& path,
-                                                  std::span<const std::string_view> parts) {
+Result<void> RecordingFolder::write_file(const std::string& path,
+                                         std::span<const std::string_view> parts) {
   const auto file = files_->create(path);
   if (!file) return tl::unexpected(file.error());
-  storage::Result<void> result;
+  Result<void> result;
   for (const std::string_view part : parts) {
     if (result && !part.empty()) result = files_->write(*file, part);
   }
@@ -104,10 +100,10 @@ std::vector<std::string> RecordingFolder::make_room(const std::vector<std::uint6
     if (there < max_files_) break;
     const auto removed = files_->unlink(path_of(oldest));
     // One that stays must not use up the place of a new one: the next older goes instead.
-    if (removed || removed.error().code == ENOENT) {
+    if (removed || removed.error().code == std::errc::no_such_file_or_directory) {
       --there;
     } else {
-      problems.push_back(removed.error().text);
+      problems.push_back(removed.error().text());
     }
   }
   return problems;

@@ -15,10 +15,9 @@
 namespace supercoil::recorder {
 
 /// The names of everything in a folder, in any order.
-using ListFolder =
-    std::function<storage::Result<std::vector<std::string>>(const std::string& folder)>;
+using ListFolder = std::function<Result<std::vector<std::string>>(const std::string& folder)>;
 /// Asks the operating system.
-storage::Result<std::vector<std::string>> list_folder(const std::string& folder);
+Result<std::vector<std::string>> list_folder(const std::string& folder);
 
 /// The number of "flight-12.scfr"; 0 for a name that is none of ours.
 std::uint64_t number_of(std::string_view name);
@@ -41,8 +40,7 @@ class RecordingFolder {
   tl::expected<Written, std::string> write(std::span<const std::string_view> parts);
 
  private:
-  storage::Result<void> write_file(const std::string& path,
-                                   std::span<const std::string_view> parts);
+  Result<void> write_file(const std::string& path, std::span<const std::string_view> parts);
   void remove_left_over(const std::vector<std::string>& names);
   std::vector<std::string> make_room(const std::vector<std::uint64_t>& numbers);
   std::string path_of(std::uint64_t number) const;

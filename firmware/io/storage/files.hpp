@@ -5,18 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::storage {
-
-/// Why a call failed.
-struct FileError {
-  int code;          ///< errno's value
-  std::string text;  ///< "path: cannot be written: No space left on device"
-};
-
-template <class Value>
-using Result = tl::expected<Value, FileError>;
 
 /// A file being written.
 struct NewFile {
@@ -25,7 +16,7 @@ struct NewFile {
 };
 
 /// Every call may block for as long as the disk takes: never call one from the control loop. None
-/// throws. A file or folder that is not there is the error ENOENT.
+/// throws. An error has the path and errno's value: ENOENT for what is not there.
 class Files {
  public:
   virtual ~Files() = default;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,10 +12,8 @@ namespace supercoil::storage {
 
 namespace {
 
-tl::unexpected<FileError> failed(const std::string& path, const char* what) {
-  const int code = errno;
-  return tl::unexpected(
-      FileError{code, path + ": " + what + ": " + std::generic_category().message(code)});
+tl::unexpected<Error> failed(const std::string& path, const char* what) {
+  return failed_call(path + ": " + what, errno);
 }
 
 /// A system call, again for as long as a signal interrupts it.

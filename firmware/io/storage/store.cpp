@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <ctime>
 #include <limits>
 #include <utility>
@@ -50,7 +49,7 @@ tl::expected<Loaded, std::string> LearnedStore::load() {
     return tl::unexpected(current.problem + "; " + previous.problem);
   }
   if (const auto folder = files_->check_folder(folder_); !folder) {
-    return tl::unexpected(folder.error().text);
+    return tl::unexpected(folder.error().text());
   }
   return Loaded{};
 }
@@ -79,7 +78,7 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
   if (current.learned && board::same_content(*current.learned, next)) {
     // An earlier save may have failed, or a process ended, just before this.
     if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
-      return tl::unexpected(synced.error().text);
+      return tl::unexpected(synced.error().text());
     }
     synced_ = true;
     return current.learned->version;
@@ -93,7 +92,7 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
   synced_ = false;
   if (const auto replaced = replace(current, previous, content); !replaced) {
     static_cast<void>(remove(new_path_));  // a full disk needs the room; the cause is reported
-    return tl::unexpected(replaced.error().text);
+    return tl::unexpected(replaced.error().text());
   }
   synced_ = true;
   return next.version;
@@ -102,7 +101,7 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
 tl::expected<void, std::string> LearnedStore::forget() {
   const auto before = load();
   if (before && before->learned && !has_muscle()) return {};
-  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
+  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text());
   if (!before || !before->learned) return {};
   board::Learned kept;
   kept.senses = before->learned->senses;
@@ -129,7 +128,7 @@ Result<void> LearnedStore::clear() {
   const bool by_current = examine(*files_, path_).learned.has_value();
   for (const bool current : {!by_current, by_current}) {
     auto gone = current ? files_->rename(path_, cleared_path_) : files_->unlink(previous_path_);
-    if (!gone && gone.error().code != ENOENT) return gone;
+    if (!gone && gone.error().code != std::errc::no_such_file_or_directory) return gone;
     if (auto synced = files_->sync_folder(folder_); !synced) return synced;
   }
   return {};
@@ -175,9 +174,9 @@ Result<void> LearnedStore::set_aside(const std::string& path) {
   Result<void> linked;
   for (int i = 1; i < max_damaged; ++i) {
     linked = files_->link(path, name + std::to_string(i));
-    if (linked || linked.error().code != EEXIST) break;
+    if (linked || linked.error().code != std::errc::file_exists) break;
   }
-  if (!linked && linked.error().code == EEXIST) {
+  if (!linked && linked.error().code == std::errc::file_exists) {
     linked = link_fresh(path, name + std::to_string(max_damaged));
   }
   if (!linked) return linked;
@@ -192,7 +191,7 @@ Result<void> LearnedStore::link_fresh(const std::string& from, const std::string
 
 Result<void> LearnedStore::remove(const std::string& path) {
   auto removed = files_->unlink(path);
-  if (!removed && removed.error().code == ENOENT) return {};
+  if (!removed && removed.error().code == std::errc::no_such_file_or_directory) return {};
   return removed;
 }
 

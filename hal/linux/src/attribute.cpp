@@ -54,8 +54,8 @@ Result<Attribute> Attribute::open(const std::string& path, Use use) {
   auto file = open_file(path, flags(use));
   if (!file) return tl::unexpected(file.error());
   struct stat about {};
-  if (::fstat(file->number(), &about) != 0) return problem("cannot look at " + path, errno);
-  if (!S_ISREG(about.st_mode)) return problem(path + " is not a file");
+  if (::fstat(file->number(), &about) != 0) return failed_call("cannot look at " + path, errno);
+  if (!S_ISREG(about.st_mode)) return failure(path + " is not a file");
   return Attribute(std::move(*file), path);
 }
 
@@ -83,11 +83,11 @@ Result<std::string> Attribute::text() const {
   errno = 0;
   const Transfer got = read_start(file_, content.data(), content.size());
   if (got.status != hal::Status::ok) {
-    return errno == 0 ? problem(path_ + " is empty") : problem("cannot read " + path_, errno);
+    return errno == 0 ? failure(path_ + " is empty") : failed_call("cannot read " + path_, errno);
   }
   content.resize(got.bytes);
-  if (content.size() > max_text) return problem(path_ + " is longer than a page");
-  if (!std::all_of(content.begin(), content.end(), is_text)) return problem(path_ + " is not text");
+  if (content.size() > max_text) return failure(path_ + " is longer than a page");
+  if (!std::all_of(content.begin(), content.end(), is_text)) return failure(path_ + " is not text");
   while (!content.empty() && content.back() == '\n')
     content.pop_back();
   return content;
@@ -97,7 +97,7 @@ Result<void> Attribute::set(std::string_view text) const {
   errno = 0;
   if (write(text) == hal::Status::ok) return {};
   const std::string what = "cannot write '" + std::string(text) + "' to " + path_;
-  return errno == 0 ? problem(what + ": only a part was taken") : problem(what, errno);
+  return errno == 0 ? failure(what + ": only a part was taken") : failed_call(what, errno);
 }
 
 Result<std::int64_t> Attribute::whole() const {
@@ -105,7 +105,7 @@ Result<std::int64_t> Attribute::whole() const {
   if (!content) return tl::unexpected(content.error());
   const Number number = parse_number(*content);
   if (number.status != hal::Status::ok) {
-    return problem(path_ + " holds " + excerpt(*content) + ", which is not a whole number");
+    return failure(path_ + " holds " + excerpt(*content) + ", which is not a whole number");
   }
   return number.value;
 }

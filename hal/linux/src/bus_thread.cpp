@@ -9,7 +9,7 @@ namespace supercoil::hal_linux {
 Result<std::unique_ptr<BusThread>> BusThread::start(const ThreadSettings& settings,
                                                     hal::Duration period,
                                                     std::vector<BusDevice*> devices) {
-  if (period <= hal::Duration::zero()) return problem("a bus's period must be above 0");
+  if (period <= hal::Duration::zero()) return failure("a bus's period must be above 0");
   std::unique_ptr<BusThread> bus(new BusThread(period, std::move(devices)));
   auto thread = Thread::start(settings, [bus = bus.get()] { bus->run(); });
   if (!thread) return tl::unexpected(thread.error());

@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 namespace supercoil::hal_linux {
 
 namespace {
@@ -44,7 +46,7 @@ void Descriptor::close() noexcept {
 
 Result<Descriptor> open_file(const std::string& path, int flags) {
   const int number = uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC); });
-  if (number < 0) return problem("cannot open " + path, errno);
+  if (number < 0) return failed_call("cannot open " + path, errno);
   return Descriptor(number);
 }
 

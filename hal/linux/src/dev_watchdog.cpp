@@ -18,9 +18,9 @@ Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::strin
   const int refused = errno;
   const std::string what = path + " does not take a time-out of " + std::to_string(wanted_s) + " s";
   int has_s = 0;
-  if (::ioctl(device.number(), WDIOC_GETTIMEOUT, &has_s) != 0) return problem(what, refused);
+  if (::ioctl(device.number(), WDIOC_GETTIMEOUT, &has_s) != 0) return failed_call(what, refused);
   if (has_s >= 1 && has_s <= wanted_s) return has_s;
-  return problem(what + ", and has " + std::to_string(has_s) + " s", refused);
+  return failed_call(what + ", and has " + std::to_string(has_s) + " s", refused);
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::strin
 Result<std::unique_ptr<DevWatchdog>> DevWatchdog::open(const std::string& path, double timeout_s) {
   constexpr double max_s = 86400.0;
   if (!(timeout_s > 0.0 && timeout_s <= max_s)) {
-    return problem("a watchdog's time-out must be above 0 and at most a day");
+    return failure("a watchdog's time-out must be above 0 and at most a day");
   }
   auto device = open_file(path, O_WRONLY | O_NONBLOCK);
   if (!device) return tl::unexpected(device.error());

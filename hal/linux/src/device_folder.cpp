@@ -67,11 +67,11 @@ Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_vi
       wanted.find('/') == std::string_view::npos ? " with the name '" : " whose path ends with '";
   const std::string what = std::string(kind) + by + std::string(wanted) + "' in " + root;
   if (!meant.empty()) {
-    return problem("more than one " + what + ": " + described(meant) +
+    return failure("more than one " + what + ": " + described(meant) +
                    "; say which by the end of its path");
   }
-  if (all.empty()) return problem("no " + what + ": there is none");
-  return problem("no " + what + ": there are " + described(all));
+  if (all.empty()) return failure("no " + what + ": there is none");
+  return failure("no " + what + ": there are " + described(all));
 }
 
 std::string real_path(const std::string& path) {
@@ -106,7 +106,7 @@ Result<std::vector<std::string>> names_in(const std::string& folder) {
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     names.push_back(entry->path().filename().string());
   }
-  if (error) return problem("cannot look into " + folder, error.value());
+  if (error) return failed_call("cannot look into " + folder, error.value());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -4,6 +4,7 @@
 #include <gpiod.h>
 
 #include "supercoil/hal_linux/gpio_chip.hpp"
+#include "supercoil/hal_linux/status_of.hpp"
 
 namespace supercoil::hal_linux {
 
@@ -50,7 +51,7 @@ void HeldLine::Release::operator()(Handle* handle) const noexcept {
 
 Result<GpioChip> GpioChip::open(const std::string& path) {
   gpiod_chip* const chip = gpiod_chip_open(path.c_str());
-  if (chip == nullptr) return problem("cannot open " + path, errno);
+  if (chip == nullptr) return failed_call("cannot open " + path, errno);
   return GpioChip(std::unique_ptr<Handle, Close>(new Handle{chip}));
 }
 
@@ -76,10 +77,10 @@ LineDescription GpioChip::about(unsigned offset) const {
 Result<HeldLine> GpioChip::request(unsigned offset, Direction direction) && {
   const std::string what = "cannot request line " + std::to_string(offset);
   gpiod_line* const line = gpiod_chip_get_line(handle_->chip, offset);
-  if (line == nullptr) return problem(what, errno);
+  if (line == nullptr) return failed_call(what, errno);
   const int done = direction == Direction::output ? gpiod_line_request_output(line, "supercoil", 0)
                                                   : gpiod_line_request_input(line, "supercoil");
-  if (done != 0) return problem(what, errno);
+  if (done != 0) return failed_call(what, errno);
   return HeldLine(
       HeldLine::Owned(new HeldLine::Handle{std::exchange(handle_->chip, nullptr), line}));
 }

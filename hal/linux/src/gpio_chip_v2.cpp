@@ -4,6 +4,7 @@
 #include <gpiod.h>
 
 #include "supercoil/hal_linux/gpio_chip.hpp"
+#include "supercoil/hal_linux/status_of.hpp"
 
 namespace supercoil::hal_linux {
 
@@ -73,9 +74,9 @@ void HeldLine::Release::operator()(Handle* handle) const noexcept {
 
 Result<GpioChip> GpioChip::open(const std::string& path) {
   gpiod_chip* const chip = gpiod_chip_open(path.c_str());
-  if (chip == nullptr) return problem("cannot open " + path, errno);
+  if (chip == nullptr) return failed_call("cannot open " + path, errno);
   std::unique_ptr<Handle, Close> handle(new Handle{chip, gpiod_chip_get_info(chip)});
-  if (handle->info == nullptr) return problem("cannot ask " + path + " what it is", errno);
+  if (handle->info == nullptr) return failed_call("cannot ask " + path + " what it is", errno);
   return GpioChip(std::move(handle));
 }
 
@@ -103,15 +104,15 @@ Result<HeldLine> GpioChip::request(unsigned offset, Direction direction) && {
   const Settings settings(gpiod_line_settings_new());
   const LineConfig lines(gpiod_line_config_new());
   const RequestConfig config(gpiod_request_config_new());
-  if (!settings || !lines || !config) return problem(what, ENOMEM);
+  if (!settings || !lines || !config) return failed_call(what, ENOMEM);
   gpiod_request_config_set_consumer(config.get(), "supercoil");
   if (!settle(settings.get(), direction) ||
       gpiod_line_config_add_line_settings(lines.get(), &offset, 1, settings.get()) != 0) {
-    return problem(what, errno);
+    return failed_call(what, errno);
   }
   gpiod_line_request* const request =
       gpiod_chip_request_lines(handle_->chip, config.get(), lines.get());
-  if (request == nullptr) return problem(what, errno);
+  if (request == nullptr) return failed_call(what, errno);
   return HeldLine(HeldLine::Owned(new HeldLine::Handle{request, offset}));
 }
 

@@ -1,6 +1,5 @@
 #include "supercoil/hal_linux/gpio_line.hpp"
 
-#include <cerrno>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,7 +28,7 @@ Result<Chips> open_chips(const std::string& dev) {
     // Some systems keep a chip's former number as a link to it.
     if (real_path(node.folder) != real_path(dev) + "/" + base_name(node.folder)) continue;
     auto chip = GpioChip::open(node.folder);
-    chips.described.push_back(chip ? described(*chip) : chip.error().text);
+    chips.described.push_back(chip ? described(*chip) : chip.error().text());
     if (chip) chips.open.push_back(std::move(*chip));
   }
   return chips;
@@ -42,12 +41,12 @@ Result<GpioChip> find_chip(const std::string& label, const std::string& dev) {
   std::optional<GpioChip> found;
   for (GpioChip& chip : chips->open) {
     if (chip.label() != label) continue;
-    if (found) return problem("more than one " + what + ": " + listed(chips->described));
+    if (found) return failure("more than one " + what + ": " + listed(chips->described));
     found = std::move(chip);
   }
   if (found) return std::move(*found);
-  if (chips->described.empty()) return problem("no " + what + ": there is no chip at all");
-  return problem("no " + what + ": there are " + listed(chips->described));
+  if (chips->described.empty()) return failure("no " + what + ": there is no chip at all");
+  return failure("no " + what + ": there are " + listed(chips->described));
 }
 
 Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
@@ -58,15 +57,15 @@ Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
     if (!line.empty()) names.push_back("'" + line + "'");
     if (line != name || line.empty()) continue;
     if (found) {
-      return problem("more than one line '" + name + "' on " + described(chip) + ": " +
+      return failure("more than one line '" + name + "' on " + described(chip) + ": " +
                      std::to_string(*found) + " and " + std::to_string(offset));
     }
     found = offset;
   }
   if (found) return *found;
   const std::string what = "no line '" + name + "' on " + described(chip);
-  if (names.empty()) return problem(what + ": none of its lines has a name");
-  return problem(what + ": there are " + listed(names));
+  if (names.empty()) return failure(what + ": none of its lines has a name");
+  return failure(what + ": there are " + listed(names));
 }
 
 struct FoundLine {
@@ -90,8 +89,9 @@ Result<HeldLine> hold(FoundLine&& found, Direction direction) {
   auto line = std::move(found.chip).request(found.offset, direction);
   if (line) return line;
   const std::string& consumer = found.about.consumer;
-  const bool held = line.error().code == EBUSY && !consumer.empty();
-  return problem(held ? what + ", which '" + consumer + "' holds" : what, line.error().code);
+  const bool held = line.error().code == std::errc::device_or_resource_busy && !consumer.empty();
+  return failed_call(held ? what + ", which '" + consumer + "' holds" : what,
+                     static_cast<int>(line.error().code));
 }
 
 }  // namespace

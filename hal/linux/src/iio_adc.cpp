@@ -1,7 +1,6 @@
 #include "supercoil/hal_linux/iio_adc.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <limits>
 #include <string_view>
 
@@ -28,12 +27,12 @@ std::string inputs_of(const std::string& folder) {
 }  // namespace
 
 Result<std::unique_ptr<IioAdc>> IioAdc::open(const ConverterLocation& place) {
-  if (!is_input_name(place.input)) return problem("'" + place.input + "' is not an input's name");
+  if (!is_input_name(place.input)) return failure("'" + place.input + "' is not an input's name");
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return tl::unexpected(device.error());
   auto raw = Attribute::open(device->folder + "/in_" + place.input + "_raw", Attribute::Use::read);
-  if (!raw && raw.error().code == ENOENT) {
-    return problem("no input '" + place.input + "' on " + device->describe() + ": there are " +
+  if (!raw && raw.error().code == std::errc::no_such_file_or_directory) {
+    return failure("no input '" + place.input + "' on " + device->describe() + ": there are " +
                    inputs_of(device->folder));
   }
   if (!raw) return tl::unexpected(raw.error());

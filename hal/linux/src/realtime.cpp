@@ -114,7 +114,7 @@ SetupStep CpuLatencyRequest::hold(const std::string& path) {
   const std::string step = "CPUs kept from deep sleep";
   const std::string remedy = "run as root, or allow writing to " + path;
   auto opened = open_file(path, O_WRONLY | O_NONBLOCK);
-  if (!opened) return outcome(step, opened.error().text, remedy);
+  if (!opened) return outcome(step, opened.error().text(), remedy);
   // A binary number of microseconds; it holds for as long as the file is open.
   const std::array<char, sizeof(std::int32_t)> zero{};
   const auto written = write_next(*opened, zero.data(), zero.size());

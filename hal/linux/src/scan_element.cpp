@@ -62,7 +62,7 @@ Result<ScanType> parse_scan_type(std::string_view text) {
   parts.must(">>");
   type.shift = parts.number();
   if (single && parts.whole() && possible(type)) return type;
-  return problem("'" + std::string(text) + "' is not a scan type such as le:s12/16>>4");
+  return failure("'" + std::string(text) + "' is not a scan type such as le:s12/16>>4");
 }
 
 std::int64_t value_of(const ScanType& type, const std::byte* bytes) noexcept {

@@ -15,13 +15,13 @@ constexpr int max_scans = 4096;
 
 Result<void> check(const ScanLocation& place) {
   if (place.length < 2 || place.length > max_scans) {
-    return problem("a buffer of " + std::to_string(place.length) + " scans: must be 2 to 4096");
+    return failure("a buffer of " + std::to_string(place.length) + " scans: must be 2 to 4096");
   }
-  if (place.inputs.empty()) return problem("a scan of no inputs");
+  if (place.inputs.empty()) return failure("a scan of no inputs");
   for (auto input = place.inputs.begin(); input != place.inputs.end(); ++input) {
-    if (!is_input_name(*input)) return problem("'" + *input + "' is not an input's name");
+    if (!is_input_name(*input)) return failure("'" + *input + "' is not an input's name");
     if (std::find(place.inputs.begin(), input, *input) != input) {
-      return problem("input '" + *input + "' is there twice");
+      return failure("input '" + *input + "' is there twice");
     }
   }
   return {};
@@ -45,7 +45,7 @@ Result<ScanElement> enable_element(const std::string& elements, const std::strin
       .and_then([&] { return read_whole(path + "_index"); })
       .and_then([&](std::int64_t index) -> Result<ScanElement> {
         if (index < 0 || index > std::numeric_limits<int>::max()) {
-          return problem(path + "_index is out of range: " + std::to_string(index));
+          return failure(path + "_index is out of range: " + std::to_string(index));
         }
         return read_text(path + "_type").and_then(parse_scan_type).map([&](const ScanType& type) {
           return ScanElement{static_cast<int>(index), type, 0};
@@ -58,7 +58,7 @@ Result<void> set_trigger(const DeviceFolder& device, const ScanLocation& place) 
   if (place.trigger.empty()) {
     const auto current = read_text(path);
     if (current && !current->empty()) return {};
-    return problem("no trigger is named and none is set in " + path);
+    return failure("no trigger is named and none is set in " + path);
   }
   auto written = write_text(path, place.trigger);
   if (written) return written;
@@ -68,9 +68,9 @@ Result<void> set_trigger(const DeviceFolder& device, const ScanLocation& place) 
       names.push_back("'" + read_text(trigger.folder + "/name").value_or("?") + "'");
     }
   }
-  return problem(written.error().text + "; there are " +
-                     (names.empty() ? "no triggers at all" : "the triggers " + listed(names)),
-                 written.error().code);
+  return failed_call(written.error().text() + "; there are " +
+                         (names.empty() ? "no triggers at all" : "the triggers " + listed(names)),
+                     static_cast<int>(written.error().code));
 }
 
 /// Beside the inputs' offsets, that counts fit into a sample.
@@ -80,7 +80,7 @@ Result<void> place_elements(ReadyScan& ready) {
   ready.bytes = lay_out(all);
   const auto same = [](const ScanElement& a, const ScanElement& b) { return a.index == b.index; };
   if (std::adjacent_find(all.begin(), all.end(), same) != all.end()) {
-    return problem("two elements of a scan have the same index");
+    return failure("two elements of a scan have the same index");
   }
   const auto offset_of = [&](const ScanElement& element) {
     return std::find_if(all.begin(), all.end(),
@@ -90,7 +90,7 @@ Result<void> place_elements(ReadyScan& ready) {
   for (ScanElement& input : ready.inputs) {
     constexpr int bits_of_counts = 32;
     if (input.type.bits + (input.type.is_signed ? 0 : 1) > bits_of_counts) {
-      return problem("an input of " + std::to_string(input.type.bits) + " bits: 32 are the most");
+      return failure("an input of " + std::to_string(input.type.bits) + " bits: 32 are the most");
     }
     input.offset = offset_of(input);
   }

@@ -12,6 +12,7 @@
 
 #include "supercoil/hal_linux/device_folder.hpp"
 #include "supercoil/hal_linux/monotonic_clock.hpp"
+#include "supercoil/hal_linux/status_of.hpp"
 
 namespace supercoil::hal_linux {
 
@@ -97,9 +98,9 @@ bool is_classical_data(const can_frame& frame) {
 Result<std::unique_ptr<SocketCan>> SocketCan::open(const CanLocation& place) {
   auto link = open_can_interface(place);
   if (link) return std::make_unique<SocketCan>(place, std::move(*link));
-  if (link.error().code != ENODEV) return tl::unexpected(link.error());
+  if (link.error().code != std::errc::no_such_device) return tl::unexpected(link.error());
   const std::vector<std::string> there = can_interfaces(place.net);
-  return problem("no CAN interface '" + place.interface +
+  return failure("no CAN interface '" + place.interface +
                  "': " + (there.empty() ? "there is none" : "there are " + listed(there)));
 }
 

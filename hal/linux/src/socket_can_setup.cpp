@@ -27,15 +27,15 @@ Result<std::int64_t> told(const std::string& net, const std::string& interface, 
 Result<void> check(const CanLocation& place) {
   const std::string& name = place.interface;
   if (name.empty() || name.size() >= IFNAMSIZ || name.find('/') != std::string::npos) {
-    return problem("'" + name + "' is not a network interface name");
+    return failure("'" + name + "' is not a network interface name");
   }
   if (place.listen.size() > CAN_RAW_FILTER_MAX) {
-    return problem(name + ": listens to " + std::to_string(place.listen.size()) +
+    return failure(name + ": listens to " + std::to_string(place.listen.size()) +
                    " identifiers, and 512 are the most");
   }
   for (const std::uint16_t id : place.listen) {
     if (id > CAN_SFF_MASK) {
-      return problem(name + ": " + std::to_string(id) + " is not an 11-bit identifier (0 to 2047)");
+      return failure(name + ": " + std::to_string(id) + " is not an 11-bit identifier (0 to 2047)");
     }
   }
   return {};
@@ -45,7 +45,7 @@ Result<void> set_option(const Descriptor& socket, int level, int option, const v
                         std::size_t size, const std::string& what) {
   const auto length = static_cast<socklen_t>(size);
   if (::setsockopt(socket.number(), level, option, value, length) == 0) return {};
-  return problem("cannot set up a CAN socket: " + what, errno);
+  return failed_call("cannot set up a CAN socket: " + what, errno);
 }
 
 /// Only what is listened to comes in, from the first moment on: set before the socket is bound.
@@ -74,14 +74,14 @@ Result<void> set_options(const Descriptor& socket, const CanLocation& place) {
 Result<Descriptor> open_socket(const CanLocation& place, int index) {
   Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (!socket.is_open()) {
-    return problem("no CAN sockets (kernel modules can, can-raw)", errno);
+    return failed_call("no CAN sockets (kernel modules can, can-raw)", errno);
   }
   if (auto set = set_options(socket, place); !set) return tl::unexpected(set.error());
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = index;
   if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    return problem("cannot bind a CAN socket to " + place.interface, errno);
+    return failed_call("cannot bind a CAN socket to " + place.interface, errno);
   }
   return socket;
 }
@@ -93,7 +93,7 @@ Result<CanInterface> open_can_interface(const CanLocation& place) {
   const auto type = told(place.net, place.interface, "type");
   const auto index = told(place.net, place.interface, "ifindex");
   if (!type || !index || *type != ARPHRD_CAN) {
-    return problem("no CAN interface '" + place.interface + "'", ENODEV);
+    return failed_call("no CAN interface '" + place.interface + "'", ENODEV);
   }
   // Cannot be read of an interface that is down. A controller loses its carrier by bus-off alone.
   const auto carrier = told(place.net, place.interface, "carrier");

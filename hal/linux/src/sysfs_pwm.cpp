@@ -20,10 +20,10 @@ constexpr int max_steps = 1 << 24;
 
 Result<std::unique_ptr<SysfsPwm>> SysfsPwm::open(const PwmLocation& place) {
   if (place.steps < 1 || place.steps > max_steps) {
-    return problem("a PWM of " + std::to_string(place.steps) + " steps: must be 1 to 16777216");
+    return failure("a PWM of " + std::to_string(place.steps) + " steps: must be 1 to 16777216");
   }
   if (place.period_ns < place.steps || place.period_ns > max_period_ns) {
-    return problem("a PWM period of " + std::to_string(place.period_ns) +
+    return failure("a PWM period of " + std::to_string(place.period_ns) +
                    " ns: must be 1 ns a step (" + std::to_string(place.steps) + ") to 1 s");
   }
   auto files = open_pwm_files(place);

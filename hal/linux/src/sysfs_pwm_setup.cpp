@@ -32,16 +32,16 @@ Result<void> export_output(const DeviceFolder& chip, int number) {
   const auto count = read_whole(chip.folder + "/npwm");
   if (!count) return tl::unexpected(count.error());
   if (number < 0 || number >= *count) {
-    return problem(chip.describe() + " has " + std::to_string(*count) +
+    return failure(chip.describe() + " has " + std::to_string(*count) +
                    " outputs, counted from 0; there is no " + std::to_string(number));
   }
   const std::string folder = chip.folder + "/pwm" + std::to_string(number);
   if (!real_path(folder).empty()) return {};
   auto written = write_text(chip.folder + "/export", std::to_string(number));
-  if (!written && written.error().code == EBUSY) {
-    return problem("output " + std::to_string(number) + " of " + chip.describe() +
-                       " is used by a driver of the kernel (see /sys/kernel/debug/pwm)",
-                   EBUSY);
+  if (!written && written.error().code == std::errc::device_or_resource_busy) {
+    return failed_call("output " + std::to_string(number) + " of " + chip.describe() +
+                           " is used by a driver of the kernel (see /sys/kernel/debug/pwm)",
+                       EBUSY);
   }
   if (written) wait_for_rights(folder);
   return written;
@@ -79,7 +79,7 @@ Result<PwmState> state_of(const PwmFiles& files) {
   if (!enabled) return tl::unexpected(enabled.error());
   const auto polarity = files.polarity.text();
   if (!polarity) return tl::unexpected(polarity.error());
-  if (*period < 0 || *duty < 0) return problem(files.period.path() + " or its duty is negative");
+  if (*period < 0 || *duty < 0) return failure(files.period.path() + " or its duty is negative");
   return PwmState{*period, *duty, *enabled != 0, *polarity == "inversed"};
 }
 
@@ -148,7 +148,7 @@ Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns) {
   const auto now = state_of(files);
   if (!now) return tl::unexpected(now.error());
   if (now->period_ns != period_ns || now->duty_ns != 0 || !now->enabled || now->inversed) {
-    return problem(parent_of(files.period.path()) + " took every write and now shows period " +
+    return failure(parent_of(files.period.path()) + " took every write and now shows period " +
                    std::to_string(now->period_ns) + " ns, duty " + std::to_string(now->duty_ns) +
                    " ns, enable " + std::to_string(now->enabled ? 1 : 0) +
                    (now->inversed ? ", inversed" : ", normal") + ": wanted period " +

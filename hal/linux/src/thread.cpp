@@ -20,9 +20,9 @@ Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void(
   }
   ::pthread_attr_destroy(&attributes);
   if (error != 0) {
-    return problem("cannot start the thread '" + settings.name + "' with " +
-                       std::to_string(settings.stack_bytes) + " bytes of stack",
-                   error);
+    return failed_call("cannot start the thread '" + settings.name + "' with " +
+                           std::to_string(settings.stack_bytes) + " bytes of stack",
+                       error);
   }
   constexpr std::size_t max_name = 15;
   Thread thread(std::move(running));

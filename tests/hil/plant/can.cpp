@@ -76,7 +76,7 @@ int main(int count, char** arguments) {
     place.listen.push_back(identifier(arguments[i]));
   auto can = hal_linux::SocketCan::open(place);
   if (!can) {
-    std::fprintf(stderr, "supercoil-rig-can: %s\n", can.error().text.c_str());
+    std::fprintf(stderr, "supercoil-rig-can: %s\n", can.error().text().c_str());
     return 1;
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);

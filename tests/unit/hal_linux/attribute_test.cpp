@@ -8,6 +8,8 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
@@ -116,31 +118,31 @@ TEST(Attribute, NamesPathValueAndCauseInTheSetUp) {
   fail_next(Call::pwrite, "/value", EINVAL);
   const std::string path = folder / "value";
   STRCMP_EQUAL(("cannot write '0' to " + path + ": Invalid argument").c_str(),
-               attribute.set("0").error().text.c_str());
+               attribute.set("0").error().text().c_str());
   next(Call::pwrite, "/value", [] { return 1; });
   STRCMP_EQUAL(("cannot write '100' to " + path + ": only a part was taken").c_str(),
-               attribute.set("100").error().text.c_str());
+               attribute.set("100").error().text().c_str());
   fail_next(Call::pread, "/value", EIO);
   STRCMP_EQUAL(("cannot read " + path + ": Input/output error").c_str(),
-               attribute.text().error().text.c_str());
+               attribute.text().error().text().c_str());
   folder.write("value", "many words, more than anybody wants to read here\n");
   STRCMP_EQUAL((path + " holds 'many words, more than anybody wants to r'…, "
                        "which is not a whole number")
                    .c_str(),
-               attribute.whole().error().text.c_str());
+               attribute.whole().error().text().c_str());
 }
 
 TEST(Attribute, RefusesWhatIsNotText) {
   const auto attribute = opened("");
-  STRCMP_CONTAINS("is empty", attribute.text().error().text.c_str());
+  STRCMP_CONTAINS("is empty", attribute.text().error().text().c_str());
   folder.write("value", std::string("\x7f"
                                     "ELF\0\1",
                                     6));
-  STRCMP_CONTAINS("is not text", attribute.text().error().text.c_str());
+  STRCMP_CONTAINS("is not text", attribute.text().error().text().c_str());
   folder.write("value", std::string(4096, 'a'));
   LONGS_EQUAL(4096, attribute.text()->size());
   folder.write("value", std::string(4097, 'a'));
-  STRCMP_CONTAINS("is longer than a page", attribute.text().error().text.c_str());
+  STRCMP_CONTAINS("is longer than a page", attribute.text().error().text().c_str());
 }
 
 TEST(Attribute, DoesNotHangOnAPipeInItsPlace) {
@@ -155,6 +157,6 @@ TEST(Attribute, DoesNotHangOnAPipeInItsPlace) {
 TEST(Attribute, RefusesAFolderInItsPlace) {
   folder.make_folder("folder");
   STRCMP_EQUAL((folder / "folder" + " is not a file").c_str(),
-               read_text(folder / "folder").error().text.c_str());
+               read_text(folder / "folder").error().text().c_str());
   LONGS_EQUAL(EISDIR, write_text(folder / "folder", "1").error().code);
 }

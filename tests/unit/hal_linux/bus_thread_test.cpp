@@ -47,7 +47,7 @@ TEST_GROUP(ABus) {
 
   std::unique_ptr<BusThread> started(hal::Duration period) {
     auto bus = BusThread::start({"i2c-1"}, period, {&pwm, &bad, &good, &slow});
-    if (!bus) FAIL(bus.error().text.c_str());
+    if (!bus) FAIL(bus.error().text().c_str());
     return std::move(*bus);
   }
   static void wait_for_rounds(const BusThread& bus, std::uint64_t rounds) {
@@ -144,7 +144,7 @@ TEST(ABus, CanBeStartedAndEndedAtOnce) {
 
 TEST(ABus, OfAPeriodThatIsNoneIsAnError) {
   const auto bus = BusThread::start({"i2c-1"}, 0ns, {});
-  STRCMP_EQUAL("a bus's period must be above 0", bus.error().text.c_str());
+  STRCMP_EQUAL("a bus's period must be above 0", bus.error().text().c_str());
 }
 
 TEST(ABus, TellsHowItsPrioritySettingWent) {

@@ -10,6 +10,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
@@ -72,7 +74,7 @@ TEST(Descriptor, SaysWhichFileCannotBeOpened) {
   const auto file = open_file(folder / "no", O_RDONLY);
   LONGS_EQUAL(ENOENT, file.error().code);
   STRCMP_EQUAL(("cannot open " + folder / "no" + ": No such file or directory").c_str(),
-               file.error().text.c_str());
+               file.error().text().c_str());
 }
 
 TEST(Descriptor, TellsErrnosApart) {

@@ -8,6 +8,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -92,7 +94,7 @@ TEST(DevWatchdog, IsStoppedAgainWhenItsTimeIsTooLong) {
   STRCMP_EQUAL(
       (dev / "watchdog" + " does not take a time-out of 5 s, and has 30 s: Invalid argument")
           .c_str(),
-      open(5.0).error().text.c_str());
+      open(5.0).error().text().c_str());
   STRCMP_EQUAL("V", written().c_str());
 }
 
@@ -145,7 +147,7 @@ TEST(DevWatchdog, PassesOnWhyItCouldNotBeFed) {
 TEST(DevWatchdog, IsHeldBySomebodyElseOrNotThere) {
   fail_next(Call::open, "/watchdog", EBUSY);
   // The path of a file that is not open is the one that was asked for.
-  STRCMP_CONTAINS("watchdog: Device or resource busy", open(5.0).error().text.c_str());
+  STRCMP_CONTAINS("watchdog: Device or resource busy", open(5.0).error().text().c_str());
   dev.remove("watchdog");
   LONGS_EQUAL(ENOENT, open(5.0).error().code);
   dev.make_folder("watchdog");

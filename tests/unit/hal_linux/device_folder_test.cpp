@@ -21,7 +21,7 @@ const std::vector<DeviceFolder> three = {
 
 std::string chosen(const std::string& wanted, const std::vector<DeviceFolder>& all = three) {
   const auto device = choose(all, wanted, "PWM chip", "/r");
-  return device ? device->folder : device.error().text;
+  return device ? device->folder : device.error().text();
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST(DeviceFolders, OfARootThatIsNotThereAreAnError) {
   const auto folders = numbered_folders(root / "class/pwm", "pwmchip");
   LONGS_EQUAL(ENOENT, folders.error().code);
   STRCMP_EQUAL(("cannot look into " + root / "class/pwm" + ": No such file or directory").c_str(),
-               folders.error().text.c_str());
+               folders.error().text().c_str());
 }
 
 TEST(DeviceFolders, ListAtMostTwelve) {

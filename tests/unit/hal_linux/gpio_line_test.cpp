@@ -7,6 +7,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/gpio_kernel.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -45,7 +47,7 @@ TEST_GROUP(GpioLine) {
   }
   std::string answer(const std::string& chip, const std::string& line) const {
     const auto opened = output(chip, line);
-    return opened ? "open" : opened.error().text;
+    return opened ? "open" : opened.error().text();
   }
   static void check_status(hal::Status expected, hal::Status status) {
     STRCMP_EQUAL(hal::text(expected), hal::text(status));
@@ -158,7 +160,7 @@ TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
   }
   line.consumer = "fan";
   const auto held = read_undriven({"pinctrl-bcm2711", "GPIO5"}, dev.path());
-  STRCMP_CONTAINS("which 'fan' holds", held.error().text.c_str());
+  STRCMP_CONTAINS("which 'fan' holds", held.error().text().c_str());
 }
 
 TEST(GpioLine, KeepsNoMemoryOfChipsThatWereLookedAt) {

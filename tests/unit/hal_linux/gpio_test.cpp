@@ -15,7 +15,7 @@ TEST_GROUP(Gpio) {
   TemporaryFolder dev;
   std::string answer() const {
     const auto line = GpioOutput::open({"pinctrl-bcm2711", "GPIO17"}, dev.path());
-    return line ? "open" : line.error().text;
+    return line ? "open" : line.error().text();
   }
 };
 
@@ -25,7 +25,8 @@ TEST(Gpio, SaysThatThereIsNoChipAtAll) {
           .c_str(),
       answer().c_str());
   const auto input = GpioInput::open({"x", "y"}, "/nowhere");
-  STRCMP_EQUAL("cannot look into /nowhere: No such file or directory", input.error().text.c_str());
+  STRCMP_EQUAL("cannot look into /nowhere: No such file or directory",
+               input.error().text().c_str());
 }
 
 TEST(Gpio, SaysWhyAChipCannotBeOpened) {

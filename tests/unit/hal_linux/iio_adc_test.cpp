@@ -7,6 +7,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/hal_linux/monotonic_clock.hpp"
+#include "supercoil/hal_linux/status_of.hpp"
 
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
@@ -39,11 +40,11 @@ TEST_GROUP(IioAdc) {
   }
   std::string answer(const ConverterLocation& where) const {
     const auto adc = hal_linux::IioAdc::open(where);
-    return adc ? "open" : adc.error().text;
+    return adc ? "open" : adc.error().text();
   }
   std::unique_ptr<hal_linux::IioAdc> opened() const {
     auto adc = hal_linux::IioAdc::open(place());
-    if (!adc) FAIL(adc.error().text.c_str());
+    if (!adc) FAIL(adc.error().text().c_str());
     return std::move(*adc);
   }
   void check_latest(hal::Status expected) const {

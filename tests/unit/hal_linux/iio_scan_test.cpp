@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/scan_tree.hpp"
 
 using namespace supercoil;
@@ -35,7 +37,7 @@ TEST_GROUP(IioScan) {
 
   std::unique_ptr<hal_linux::IioScan> opened() const {
     auto scan = hal_linux::IioScan::open(board.place());
-    if (!scan) FAIL(scan.error().text.c_str());
+    if (!scan) FAIL(scan.error().text().c_str());
     return std::move(*scan);
   }
   /// The device gives these bytes at its next read.

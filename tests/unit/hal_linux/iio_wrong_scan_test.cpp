@@ -14,7 +14,7 @@ TEST_GROUP(IioWrongScan) {
 
   static std::string answer(const ScanLocation& place) {
     const auto scan = supercoil::hal_linux::IioScan::open(place);
-    return scan ? "open" : scan.error().text;
+    return scan ? "open" : scan.error().text();
   }
   std::string answer_to(const std::vector<std::string>& inputs) const {
     return answer(board.place(inputs));

@@ -44,7 +44,7 @@ TEST(PwmLeftOver, OfAnyKindIsBroughtToRestWithoutARefusal) {
     const auto period_ns = *rc::gen::element<std::int64_t>(5000, 100'000, 1'000'000, 1'000'000'000);
     PwmKernel kernel(left, true, rules);
     const auto pwm = SysfsPwm::open({"pca9685", 5, period_ns, 4095, kernel.root()});
-    if (!pwm) RC_FAIL(pwm.error().text);
+    if (!pwm) RC_FAIL(pwm.error().text());
     RC_ASSERT(all(kernel.refusals).empty());
     RC_ASSERT(kernel.state == (PwmState{period_ns, 0, true, false}));
   }));

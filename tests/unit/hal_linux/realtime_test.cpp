@@ -130,7 +130,7 @@ TEST(Realtime, SaysWhyTheCpusMaySleep) {
 TEST(Realtime, AThreadsStackThatIsTooSmallIsAnError) {
   const auto thread = Thread::start({"small", 0, -1, 1}, [] {});
   STRCMP_EQUAL("cannot start the thread 'small' with 1 bytes of stack: Invalid argument",
-               thread.error().text.c_str());
+               thread.error().text().c_str());
 }
 
 TEST(Realtime, TellsTheLimitThatThisProgramHas) {

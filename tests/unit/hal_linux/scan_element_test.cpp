@@ -71,7 +71,7 @@ TEST(ScanElements, WhatIsNoTypeIsRefused) {
                            "be:u16/16>>0>>0",
                            "LE:S16/16>>0"}) {
     STRCMP_EQUAL(("'" + std::string(text) + "' is not a scan type such as le:s12/16>>4").c_str(),
-                 parse_scan_type(text).error().text.c_str());
+                 parse_scan_type(text).error().text().c_str());
   }
   CHECK(parse_scan_type("le:s16/16X1>>0").has_value());
 }

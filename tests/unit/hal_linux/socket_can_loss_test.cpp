@@ -30,7 +30,7 @@ TEST_GROUP(SocketCanLoss) {
   }
   void open() {
     auto opened = SocketCan::open(place);
-    if (!opened) FAIL(opened.error().text.c_str());
+    if (!opened) FAIL(opened.error().text().c_str());
     can = std::move(*opened);
   }
   static void check(hal::Status expected, hal::Status status) {

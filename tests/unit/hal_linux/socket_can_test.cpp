@@ -32,12 +32,12 @@ TEST_GROUP(SocketCan) {
   }
   std::unique_ptr<SocketCan> opened() const {
     auto can = SocketCan::open(place);
-    if (!can) FAIL(can.error().text.c_str());
+    if (!can) FAIL(can.error().text().c_str());
     return std::move(*can);
   }
   std::string problem_of_opening() const {
     const auto can = SocketCan::open(place);
-    return can ? "" : can.error().text;
+    return can ? "" : can.error().text();
   }
   static void check(hal::Status expected, hal::Status status) {
     STRCMP_EQUAL(hal::text(expected), hal::text(status));

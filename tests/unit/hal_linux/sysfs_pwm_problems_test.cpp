@@ -22,7 +22,7 @@ PwmLocation place(const PwmKernel& kernel) {
 
 std::string answer(const PwmLocation& where) {
   const auto pwm = SysfsPwm::open(where);
-  return pwm ? "open" : pwm.error().text;
+  return pwm ? "open" : pwm.error().text();
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ TEST(SysfsPwmProblems, NameTheWriteThatFailed) {
       const auto pwm = SysfsPwm::open(place(kernel));
       CHECK_FALSE(pwm.has_value());
       LONGS_EQUAL(error, pwm.error().code);
-      STRCMP_CONTAINS(attribute, pwm.error().text.c_str());
+      STRCMP_CONTAINS(attribute, pwm.error().text().c_str());
       LONGS_EQUAL(0, waiting());
     }
   }

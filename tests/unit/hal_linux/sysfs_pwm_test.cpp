@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/hal_linux/status_of.hpp"
+
 #include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/pwm_kernel.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
@@ -17,7 +19,7 @@ namespace {
 
 std::unique_ptr<SysfsPwm> opened(const PwmKernel& kernel) {
   auto pwm = SysfsPwm::open({"i2c-1/1-0040", 5, 1'000'000, 4000, kernel.root()});
-  if (!pwm) FAIL(pwm.error().text.c_str());
+  if (!pwm) FAIL(pwm.error().text().c_str());
   return std::move(*pwm);
 }
 

@@ -51,7 +51,7 @@ tl::expected<std::unique_ptr<hal::CanBus>, std::string> open_bus(
     return std::move(*bus);
   }
   auto bus = hal_linux::SocketCan::open({name, listen, "/sys/class/net", listen.empty()});
-  if (!bus) return tl::unexpected(bus.error().text + "; a simulated board's is socketcand:PORT");
+  if (!bus) return tl::unexpected(bus.error().text() + "; a simulated board's is socketcand:PORT");
   return std::move(*bus);
 }
 

@@ -110,7 +110,7 @@ void judge(Candidate& candidate, const hal_linux::Machine& machine, int priority
            const hal::FindingSink& sink) {
   ConverterPart& part = *candidate.part;
   if (!part.device) {
-    return sink({part.what, Severity::problem, part.device.error().text,
+    return sink({part.what, Severity::problem, part.device.error().text(),
                  "load the converter's driver, or correct device and input (ls "
                  "/sys/bus/iio/devices)"});
   }

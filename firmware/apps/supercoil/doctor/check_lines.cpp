@@ -31,7 +31,7 @@ const char* text(hal_linux::Bias bias) {
 void check_output(const config::LineAddress& address, linux_board::OutputPart& part, int priority,
                   const hal::FindingSink& sink) {
   if (!part.device)
-    return sink({part.what, Severity::problem, part.device.error().text, rename_line});
+    return sink({part.what, Severity::problem, part.device.error().text(), rename_line});
   hal::Status status = hal::Status::ok;
   // Low, as it is already: what is timed is the call.
   const CallTime time = time_calls([&] { status = (*part.device)->set(false); }, priority);
@@ -46,7 +46,7 @@ void check_output(const config::LineAddress& address, linux_board::OutputPart& p
 void check_stop(const config::LineAddress& address, linux_board::InputPart& part, int priority,
                 const hal::FindingSink& sink) {
   if (!part.device)
-    return sink({part.what, Severity::problem, part.device.error().text, rename_line});
+    return sink({part.what, Severity::problem, part.device.error().text(), rename_line});
   hal::Level level;
   const CallTime time = time_calls([&] { level = (*part.device)->read(); }, priority);
   const std::string where = config::shown(address);
@@ -77,7 +77,7 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
   const auto at_rest = hal_linux::read_undriven(name, machine.dev);
   enable.device = hal_linux::GpioOutput::open(name, machine.dev);
   if (at_rest && enable.device) return sink(judged(what, *at_rest));
-  const std::string& why = at_rest ? enable.device.error().text : at_rest.error().text;
+  const std::string& why = at_rest ? enable.device.error().text() : at_rest.error().text();
   sink({what, Severity::problem, "released for a moment: " + why, "end what else takes this line"});
 }
 

@@ -15,7 +15,7 @@ void check(const config::PwmAddress& address, linux_board::PwmPart& part, int pr
     if (access.buffered()) shares.push_back({access.bus, write});
   };
   if (!part.device) {
-    sink({part.what, Severity::problem, part.device.error().text,
+    sink({part.what, Severity::problem, part.device.error().text(),
           "load the chip's driver, or correct pwm.device, pwm.number and pwm.period_ns (ls "
           "/sys/class/pwm)"});
     return share();

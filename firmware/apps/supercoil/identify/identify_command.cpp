@@ -127,7 +127,7 @@ int identify_command(const IdentifyOptions& options) {
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;
   if (const auto said = files.write({STDOUT_FILENO, "standard output"}, text); !said)
-    return refuse(options.json, exit_failed, said.error().text);
+    return refuse(options.json, exit_failed, said.error().text());
   if (!table) return fail(exit_failed, table.error());
   if (options.muscle.empty()) return exit_done;
   const auto written = write_whole(options.muscle, *table);

@@ -93,7 +93,7 @@ void check_competing_threads(const Machine& machine, const LoopThreadSettings& s
   const std::string what = "other programs";
   const auto processes = names_in(machine.proc);
   if (!processes) {
-    sink({what, Severity::warning, processes.error().text, "mount /proc"});
+    sink({what, Severity::warning, processes.error().text(), "mount /proc"});
     return;
   }
   CompetingThreads competing;

@@ -71,7 +71,7 @@ void check_throttling(const Machine& machine, const hal::FindingSink& sink) {
   const auto runtime_us = read_whole(path);
   const auto period_us = read_whole(machine.proc + "/sys/kernel/sched_rt_period_us");
   if (!runtime_us || !period_us || *period_us <= 0) {
-    const std::string why = runtime_us ? path + " has no period" : runtime_us.error().text;
+    const std::string why = runtime_us ? path + " has no period" : runtime_us.error().text();
     sink({what, Severity::warning, "not known: " + why, "use a kernel that reports it"});
     return;
   }

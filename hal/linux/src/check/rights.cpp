@@ -55,7 +55,7 @@ void check_priority(const Machine& machine, const LoopThreadSettings& settings,
   const auto tried = Thread::start({"doctor"}, [&] {
                        step = set_fifo_priority(::pthread_self(), settings.priority);
                      }).map([](Thread&&) {});
-  if (!tried) step = {"a thread", false, tried.error().text, "free memory"};
+  if (!tried) step = {"a thread", false, tried.error().text(), "free memory"};
   Finding result = finding("priority", step);
   if (!step.worked && has_capability(machine, CAP_SYS_NICE).value_or(false)) {
     result.found += ", although CAP_SYS_NICE is there";

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal/status.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 
 namespace supercoil::hal_linux {
 

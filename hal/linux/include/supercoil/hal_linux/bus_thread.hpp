@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "supercoil/hal/clock.hpp"
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/bus_device.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 #include "supercoil/hal_linux/thread.hpp"
 
 namespace supercoil::hal_linux {

@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal/error.hpp"
+#include "supercoil/hal/status.hpp"
 
 namespace supercoil::hal_linux {
 

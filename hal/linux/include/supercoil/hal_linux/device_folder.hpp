@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::hal_linux {
 

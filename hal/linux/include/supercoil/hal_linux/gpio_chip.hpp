@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "supercoil/hal/digital_line.hpp"
-#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::hal_linux {
 

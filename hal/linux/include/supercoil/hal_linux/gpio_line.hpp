@@ -5,8 +5,8 @@
 #include <string>
 
 #include "supercoil/hal/digital_line.hpp"
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/gpio_chip.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 
 namespace supercoil::hal_linux {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 
 namespace supercoil::hal_linux {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 
 namespace supercoil::hal_linux {
 

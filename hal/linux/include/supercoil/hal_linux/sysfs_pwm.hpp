@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal/pwm_output.hpp"
 #include "supercoil/hal_linux/attribute.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
-#include "supercoil/hal_linux/problem.hpp"
 
 namespace supercoil::hal_linux {
 

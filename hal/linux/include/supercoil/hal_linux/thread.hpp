@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/realtime.hpp"
 
 namespace supercoil::hal_linux {

@@ -57,7 +57,7 @@ TEST(Captures, ADeviceRunsOnceForAllItsInputs) {
   const auto supply = captures.open(wiring.supply);
   const auto position = captures.open(wiring.channels[0].position);
   const auto current = captures.open(wiring.channels[0].current);
-  if (!supply) FAIL(supply.error().text.c_str());
+  if (!supply) FAIL(supply.error().text().c_str());
   CHECK(position.has_value());
   CHECK(current.has_value());
   LONGS_EQUAL(1, times_enabled());
@@ -88,7 +88,7 @@ TEST(Captures, AMissingDeviceIsReportedForEachInput) {
   for (int i = 0; i < 2; ++i) {
     const auto position = captures.open(wiring.channels[0].position);
     CHECK_FALSE(position.has_value());
-    STRCMP_CONTAINS("'ads9999'", position.error().text.c_str());
-    STRCMP_CONTAINS("'ads7951'", position.error().text.c_str());
+    STRCMP_CONTAINS("'ads9999'", position.error().text().c_str());
+    STRCMP_CONTAINS("'ads7951'", position.error().text().c_str());
   }
 }

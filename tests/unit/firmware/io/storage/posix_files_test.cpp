@@ -44,7 +44,7 @@ TEST(PosixFiles, NeverWriteOverAFile) {
   const auto again = files.create(path("x"));
   CHECK_FALSE(again.has_value());
   LONGS_EQUAL(EEXIST, again.error().code);
-  STRCMP_EQUAL((path("x") + ": cannot be made: File exists").c_str(), again.error().text.c_str());
+  STRCMP_EQUAL((path("x") + ": cannot be made: File exists").c_str(), again.error().text().c_str());
 }
 
 TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {
@@ -64,7 +64,7 @@ TEST(PosixFiles, SayWhichPathIsNotThere) {
   const auto read = files.read(gone, 9);
   LONGS_EQUAL(ENOENT, read.error().code);
   STRCMP_EQUAL((gone + ": cannot be opened: No such file or directory").c_str(),
-               read.error().text.c_str());
+               read.error().text().c_str());
   LONGS_EQUAL(ENOENT, files.create(gone).error().code);
   LONGS_EQUAL(ENOENT, files.sync_folder(path("gone")).error().code);
   LONGS_EQUAL(ENOENT, files.check_folder(path("gone")).error().code);
@@ -87,7 +87,7 @@ TEST(PosixFiles, ReportAFullDisk) {
   const auto written = files.write(full, "x");
   LONGS_EQUAL(ENOSPC, written.error().code);
   STRCMP_EQUAL("/dev/full: cannot be written: No space left on device",
-               written.error().text.c_str());
+               written.error().text().c_str());
   CHECK(files.close(full).has_value());
   LONGS_EQUAL(EBADF, files.close(full).error().code);
 }
@@ -136,6 +136,6 @@ TEST(PosixFiles, GoOnWithWhatASignalInterrupts) {
   reader.join();
   ::close(ends[0]);
   ::sigaction(SIGUSR1, &before, nullptr);
-  CHECK_TEXT(written.has_value(), written ? "" : written.error().text.c_str());
+  CHECK_TEXT(written.has_value(), written ? "" : written.error().text().c_str());
   CHECK(read == content);
 }

@@ -16,7 +16,7 @@ namespace supercoil::test {
 
 /// What is in "/d".
 inline recorder::ListFolder names_on(const Disk& disk) {
-  return [&disk](const std::string& folder) -> storage::Result<std::vector<std::string>> {
+  return [&disk](const std::string& folder) -> Result<std::vector<std::string>> {
     std::vector<std::string> names;
     for (const auto& [path, inode] : disk.names)
       names.push_back(path.substr(folder.size() + 1));

@@ -11,7 +11,6 @@
 namespace supercoil::test {
 
 using storage::NewFile;
-using storage::Result;
 
 /// Real files whose process dies at a call: before it (even numbers) or after it (odd).
 class DeadlyFiles final : public storage::Files {

@@ -2,20 +2,16 @@
 
 #include <cerrno>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 namespace supercoil::test {
 
-using storage::FileError;
 using storage::NewFile;
-using storage::Result;
 
 namespace {
 
-tl::unexpected<FileError> failed(const std::string& path, int error) {
-  return tl::unexpected(
-      FileError{error, path + ": simulated: " + std::generic_category().message(error)});
+tl::unexpected<Error> failed(const std::string& path, int error) {
+  return failed_call(path + ": simulated", error);
 }
 
 }  // namespace

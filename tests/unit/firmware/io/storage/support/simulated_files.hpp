@@ -26,16 +26,16 @@ class SimulatedFiles final : public storage::Files {
   /// Calls that changed something on the disk or had it do something.
   int changes() const { return changes_; }
 
-  storage::Result<std::string> read(const std::string& path, std::size_t limit_bytes) override;
-  storage::Result<storage::NewFile> create(const std::string& path) override;
-  storage::Result<void> write(const storage::NewFile& file, std::string_view content) override;
-  storage::Result<void> sync(const storage::NewFile& file) override;
-  storage::Result<void> close(const storage::NewFile& file) override;
-  storage::Result<void> rename(const std::string& from, const std::string& to) override;
-  storage::Result<void> link(const std::string& from, const std::string& to) override;
-  storage::Result<void> unlink(const std::string& path) override;
-  storage::Result<void> sync_folder(const std::string& path) override;
-  storage::Result<void> check_folder(const std::string& path) override;
+  Result<std::string> read(const std::string& path, std::size_t limit_bytes) override;
+  Result<storage::NewFile> create(const std::string& path) override;
+  Result<void> write(const storage::NewFile& file, std::string_view content) override;
+  Result<void> sync(const storage::NewFile& file) override;
+  Result<void> close(const storage::NewFile& file) override;
+  Result<void> rename(const std::string& from, const std::string& to) override;
+  Result<void> link(const std::string& from, const std::string& to) override;
+  Result<void> unlink(const std::string& path) override;
+  Result<void> sync_folder(const std::string& path) override;
+  Result<void> check_folder(const std::string& path) override;
 
  private:
   struct Call {
@@ -44,7 +44,7 @@ class SimulatedFiles final : public storage::Files {
   };
   Call next();
   template <class Effect>
-  storage::Result<void> change(const std::string& path, Effect effect);
+  Result<void> change(const std::string& path, Effect effect);
 
   Disk& disk_;
   Mishap mishap_;

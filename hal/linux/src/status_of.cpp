@@ -1,7 +1,6 @@
-#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal_linux/status_of.hpp"
 
 #include <cerrno>
-#include <system_error>
 
 namespace supercoil::hal_linux {
 
@@ -22,15 +21,6 @@ hal::Status status_of(int error) noexcept {
     default:
       return hal::Status::io_error;
   }
-}
-
-tl::unexpected<Problem> problem(std::string text) {
-  return tl::unexpected<Problem>(Problem{0, std::move(text)});
-}
-
-tl::unexpected<Problem> problem(std::string text, int error) {
-  text += ": " + std::generic_category().message(error);
-  return tl::unexpected<Problem>(Problem{error, std::move(text)});
 }
 
 }  // namespace supercoil::hal_linux

@@ -189,7 +189,7 @@ tl::expected<toml::table, std::string> Draws::document(const std::vector<double>
 ScenarioOrProblems Draws::scenario(const std::vector<double>& drawn, std::size_t contender,
                                    std::size_t run) const {
   auto made = document(drawn, contender, run);
-  if (!made) return tl::unexpected(std::vector{config::Problem{study_->name, 0, "", made.error()}});
+  if (!made) return tl::unexpected(std::vector{Error{study_->name, 0, "", made.error()}});
   return scenario_from(std::move(*made), study_->name);
 }
 

@@ -162,7 +162,7 @@ std::vector<Goal> read_goals(Section section) {
 }
 
 /// A scenario of a file of its own, with what is wrong with that file.
-toml::table read_scenario_file(const std::string& path, std::vector<config::Problem>& problems) {
+toml::table read_scenario_file(const std::string& path, Errors& problems) {
   Diagnostics diagnostics(path);
   toml::table scenario = config::parse(config::read_text(path, diagnostics), diagnostics);
   problems = diagnostics.problems();
@@ -171,7 +171,7 @@ toml::table read_scenario_file(const std::string& path, std::vector<config::Prob
 
 /// The scenario, and what the study lays over it.
 toml::table read_base(Section& study, const std::string& name, const std::filesystem::path& beside,
-                      const toml::table& document, std::vector<config::Problem>& problems) {
+                      const toml::table& document, Errors& problems) {
   toml::table base;
   if (const auto builtin = builtin_scenario(name)) {
     Diagnostics none(name);
@@ -240,8 +240,7 @@ void keep_what_makes_a_run(toml::table& document) {
 
 }  // namespace
 
-tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& path,
-                                                             std::int64_t runs) {
+tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs) {
   Diagnostics diagnostics(path);
   const auto& builtin = builtin_studies();
   const auto found = std::ranges::find(builtin, path, &BuiltinScenario::name);
@@ -265,7 +264,7 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   Section head = top.section("study");
   read_head(head, study);
   if (runs > 0) study.runs = runs;
-  std::vector<config::Problem> of_scenario;
+  Errors of_scenario;
   study.base = head.text("scenario", "sine");
   study.scenario = read_base(head, study.base, beside, document, of_scenario);
   if (document.contains("scenario") && !document.get("scenario")->is_table())

@@ -133,7 +133,7 @@ std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const K
   const auto scenario = draws.scenario(draws.of_run(key.run), key.contender, key.run);
   if (scenario) return simulate(*scenario, study.window, stop);
   Outcome refused;
-  const config::Problem& first = scenario.error().front();
+  const Error& first = scenario.error().front();
   refused.refused = without_commas((first.key.empty() ? "" : first.key + ": ") + first.message);
   refused.values.fill(NAN);
   return refused;

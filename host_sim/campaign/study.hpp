@@ -59,7 +59,6 @@ const std::vector<BuiltinScenario>& builtin_studies();
 
 /// path: a .toml file, or the name of a built-in study. runs: in place of its own; 0: these. Or
 /// everything that is wrong with it.
-tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& path,
-                                                             std::int64_t runs = 0);
+tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs = 0);
 
 }  // namespace supercoil::host_sim::campaign

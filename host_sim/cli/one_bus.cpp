@@ -9,11 +9,9 @@ namespace supercoil::host_sim {
 
 namespace {
 
-using Problems = std::vector<config::Problem>;
-
-tl::unexpected<Problems> wrong(const std::string& file, const std::string& key,
-                               const std::string& value, const std::string& message) {
-  return tl::unexpected(Problems{{file, 0, key, message, value}});
+tl::unexpected<Errors> wrong(const std::string& file, const std::string& key,
+                             const std::string& value, const std::string& message) {
+  return tl::unexpected(Errors{{file, 0, key, message, value}});
 }
 
 /// "1", or "1 and 2", or "1 to 4"
@@ -29,8 +27,8 @@ void shift_noise(Scenario& board, int channels_before) {
   board.seed += static_cast<std::uint64_t>(channels_before);
 }
 
-tl::expected<std::vector<Scenario>, Problems> copies(const RunOptions& options,
-                                                     const Scenario& scenario) {
+tl::expected<std::vector<Scenario>, Errors> copies(const RunOptions& options,
+                                                   const Scenario& scenario) {
   const int first = scenario.can.first_node;
   const int most = (can::max_nodes + 1 - first) / scenario.channels();
   if (options.nodes > most) {
@@ -48,8 +46,8 @@ tl::expected<std::vector<Scenario>, Problems> copies(const RunOptions& options,
 }
 
 /// In lockstep, on one wire.
-tl::expected<void, Problems> check_alike(const std::string& file, const Scenario& board,
-                                         const Scenario& first) {
+tl::expected<void, Errors> check_alike(const std::string& file, const Scenario& board,
+                                       const Scenario& first) {
   struct Value {
     const char* key;
     double is;
@@ -72,8 +70,8 @@ std::string name_on_bus(const Scenario& board) {
   return board.name + ", node " + std::to_string(int{board.can.first_node});
 }
 
-tl::expected<std::vector<Scenario>, Problems> on_one_bus(const RunOptions& options,
-                                                         std::vector<Scenario> scenarios) {
+tl::expected<std::vector<Scenario>, Errors> on_one_bus(const RunOptions& options,
+                                                       std::vector<Scenario> scenarios) {
   if (scenarios.size() == 1) return copies(options, scenarios.front());
   int channels = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {

@@ -18,7 +18,7 @@ std::string name_on_bus(const Scenario& board);
 /// The options' scenarios as boards of one bus: copies of the only one (--nodes), or one for each
 /// scenario. Each has nodes and noise of its own. scenarios: as they were read, with the boards'
 /// files. The error names the option or the file that does not go with the others.
-tl::expected<std::vector<Scenario>, std::vector<config::Problem>> on_one_bus(
-    const RunOptions& options, std::vector<Scenario> scenarios);
+tl::expected<std::vector<Scenario>, Errors> on_one_bus(const RunOptions& options,
+                                                       std::vector<Scenario> scenarios);
 
 }  // namespace supercoil::host_sim

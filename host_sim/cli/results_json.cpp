@@ -50,7 +50,7 @@ ordered_json value_of(std::string_view cell) {
   return value;
 }
 
-void print_problems(const std::vector<config::Problem>& problems) {
+void print_problems(const Errors& problems) {
   std::puts(
       problems_json(problems).dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
 }
@@ -96,7 +96,7 @@ int refuse(bool json, int status, const std::string& message) {
   return status;
 }
 
-int refuse_problems(bool json, const std::vector<config::Problem>& problems) {
+int refuse_problems(bool json, const Errors& problems) {
   if (json) {
     print_problems(problems);
   } else {
@@ -110,7 +110,7 @@ int refuse_lines(bool json, const std::string& lines) {
     std::fputs(lines.c_str(), stderr);
     return exit_wrong_input;
   }
-  std::vector<config::Problem> problems;
+  Errors problems;
   std::string_view rest(lines);
   while (const auto line = next_line(rest))
     problems.push_back({"", 0, "", std::string(*line)});

@@ -27,7 +27,7 @@ void print_results(const nlohmann::ordered_json& results);
 /// Returns the status.
 int refuse(bool json, int status, const std::string& message);
 /// The same of a wrong input. Returns that status.
-int refuse_problems(bool json, const std::vector<config::Problem>& problems);
+int refuse_problems(bool json, const Errors& problems);
 /// A problem a line.
 int refuse_lines(bool json, const std::string& lines);
 

@@ -43,22 +43,21 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
   return Window{*from, *to};
 }
 
-using Problems = std::vector<config::Problem>;
-using OrProblems = tl::expected<void, Problems>;
+using OrErrors = tl::expected<void, Errors>;
 
 /// With an option, or what it names.
-Problems wrong_option(const std::string& option, const std::string& value,
-                      const std::string& message) {
+Errors wrong_option(const std::string& option, const std::string& value,
+                    const std::string& message) {
   return {{"", 0, option, message, value}};
 }
 
 /// As every command says it, or with --json for programs.
-int refuse(const RunOptions& options, const Problems& problems) {
+int refuse(const RunOptions& options, const Errors& problems) {
   if (options.json) {
     std::puts(problems_json(problems).dump(2).c_str());
     return exit_wrong_input;
   }
-  for (const config::Problem& problem : problems) {
+  for (const Error& problem : problems) {
     const bool of_option = problem.file.empty();
     const std::string value = problem.value.empty() ? "" : " " + problem.value;
     const std::string what = problem.key + value + ": " + problem.message;
@@ -69,8 +68,8 @@ int refuse(const RunOptions& options, const Problems& problems) {
 }
 
 /// Of --board, if there is one for this scenario.
-OrProblems use_own_board(const RunOptions& options, std::size_t place,
-                         const LearnedMuscles& learned, Scenario& scenario) {
+OrErrors use_own_board(const RunOptions& options, std::size_t place, const LearnedMuscles& learned,
+                       Scenario& scenario) {
   if (options.boards.empty()) return {};
   const std::string& board = options.boards[place];
   const auto config = config::read_board_config(board);
@@ -83,11 +82,11 @@ OrProblems use_own_board(const RunOptions& options, std::size_t place,
   }
   const auto used = use_board(scenario, *config, static_cast<std::size_t>(channel) - 1, learned);
   if (used) return {};
-  return tl::unexpected(Problems{{options.scenarios[place] + " on " + board, 0, "", used.error()}});
+  return tl::unexpected(Errors{{options.scenarios[place] + " on " + board, 0, "", used.error()}});
 }
 
 /// What of the options goes together, before any file is read.
-OrProblems check_together(const RunOptions& options) {
+OrErrors check_together(const RunOptions& options) {
   const std::size_t scenarios = options.scenarios.size();
   const std::string of_scenarios = std::to_string(scenarios) + " scenarios";
   if (scenarios > 1 && options.nodes > 1) {
@@ -98,7 +97,7 @@ OrProblems check_together(const RunOptions& options) {
     return tl::unexpected(wrong_option("--learned", options.learned,
                                        "is for one board, and there are " + of_scenarios));
   }
-  const auto once_for_each = [&](const char* option, std::size_t given) -> OrProblems {
+  const auto once_for_each = [&](const char* option, std::size_t given) -> OrErrors {
     if (given <= scenarios) return {};
     return tl::unexpected(wrong_option(
         option, "",
@@ -114,8 +113,8 @@ OrProblems check_together(const RunOptions& options) {
 }
 
 /// The scenarios with the boards that the options want, on one bus.
-tl::expected<std::vector<Scenario>, Problems> read_input(const RunOptions& options,
-                                                         LearnedFolder& folder_of_learned) {
+tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options,
+                                                       LearnedFolder& folder_of_learned) {
   if (auto together = check_together(options); !together)
     return tl::unexpected(std::move(together.error()));
   const auto learned = folder_of_learned.load();
@@ -131,7 +130,7 @@ tl::expected<std::vector<Scenario>, Problems> read_input(const RunOptions& optio
   return on_one_bus(options, std::move(scenarios));
 }
 
-tl::expected<Window, Problems> window_of(const RunOptions& options, const Scenario& scenario) {
+tl::expected<Window, Errors> window_of(const RunOptions& options, const Scenario& scenario) {
   const auto window = read_window(options.window, scenario.duration_s, scenario.step_s());
   if (window) return *window;
   return tl::unexpected(wrong_option("--window", options.window,

@@ -56,11 +56,10 @@ config::Section laid_over(const toml::table& document, const std::string& path, 
 }
 
 void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics) {
-  for (const config::Problem& problem : found.problems()) {
-    const bool said =
-        std::ranges::any_of(diagnostics.problems(), [&problem](const config::Problem& other) {
-          return other.key == problem.key && other.message == problem.message;
-        });
+  for (const Error& problem : found.problems()) {
+    const bool said = std::ranges::any_of(diagnostics.problems(), [&problem](const Error& other) {
+      return other.key == problem.key && other.message == problem.message;
+    });
     if (said) continue;
     diagnostics.add(problem.line, problem.key, problem.message, problem.value, problem.of_default);
   }

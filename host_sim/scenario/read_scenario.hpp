@@ -13,7 +13,7 @@
 namespace supercoil::host_sim {
 
 /// A scenario, or everything that is wrong with it.
-using ScenarioOrProblems = tl::expected<Scenario, std::vector<config::Problem>>;
+using ScenarioOrProblems = tl::expected<Scenario, Errors>;
 
 /// path: a .toml file, or the name of a built-in scenario.
 /// learned: takes the place of [muscle], and of [joint.antagonist_muscle].

@@ -9,9 +9,9 @@
 
 namespace supercoil {
 
-inline nlohmann::ordered_json problems_json(const std::vector<config::Problem>& problems) {
+inline nlohmann::ordered_json problems_json(const Errors& problems) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const config::Problem& problem : problems) {
+  for (const Error& problem : problems) {
     list.push_back({{"file", problem.file},
                     {"line", problem.line},
                     {"key", problem.key},

@@ -17,12 +17,12 @@ namespace {
 constexpr std::size_t max_channels = 16;
 
 /// In the order of the file; what [every_channel] has wrong is reported once, not for each channel.
-std::vector<Problem> in_order(std::vector<Problem> problems) {
+Errors in_order(Errors problems) {
   std::stable_sort(problems.begin(), problems.end(),
-                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
-  std::vector<Problem> result;
-  for (Problem& problem : problems) {
-    const auto same = [&](const Problem& other) { return other.text() == problem.text(); };
+                   [](const Error& a, const Error& b) { return a.line < b.line; });
+  Errors result;
+  for (Error& problem : problems) {
+    const auto same = [&](const Error& other) { return other.text() == problem.text(); };
     if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(problem));
   }
   return result;

@@ -48,7 +48,7 @@ struct BoardConfig {
 };
 
 /// A configuration, or everything that is wrong with it, in the order of the file.
-using BoardConfigOrProblems = tl::expected<BoardConfig, std::vector<Problem>>;
+using BoardConfigOrProblems = tl::expected<BoardConfig, Errors>;
 
 /// path: a .toml file.
 BoardConfigOrProblems read_board_config(const std::string& path);

@@ -3,22 +3,10 @@
 
 #include <string>
 #include <utility>
-#include <vector>
+
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::config {
-
-/// One mistake, with where it stands.
-struct Problem {
-  std::string file;
-  int line = 0;     ///< 0: the file as a whole
-  std::string key;  ///< the whole path, e.g. plant.moving_mass_kg; empty for the file as a whole
-  std::string message;
-  std::string value{};      ///< of the key, as it is written; "" where it has none
-  bool of_default = false;  ///< the key is absent, and its default is wrong here
-
-  /// "file:line: key = value: message"
-  std::string text() const;
-};
 
 /// Collects every mistake of a file, so that they can be corrected at once.
 class Diagnostics {
@@ -31,15 +19,15 @@ class Diagnostics {
         {file_, line, std::move(key), std::move(message), std::move(value), of_default});
   }
   bool empty() const { return problems_.empty(); }
-  const std::vector<Problem>& problems() const { return problems_; }
+  const Errors& problems() const { return problems_; }
   const std::string& file() const { return file_; }
 
  private:
   std::string file_;
-  std::vector<Problem> problems_;
+  Errors problems_;
 };
 
-/// Problems, a line each.
-std::string to_text(const std::vector<Problem>& problems);
+/// A line each.
+std::string to_text(const Errors& problems);
 
 }  // namespace supercoil::config

@@ -53,7 +53,7 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
   auto config = config::parse_board_config(changed, options.config);
   if (!config) {
     // The lines are those of a text that is not written.
-    for (config::Problem& problem : config.error())
+    for (Error& problem : config.error())
       problem.line = 0;
     return tl::unexpected(config::to_text(config.error()));
   }

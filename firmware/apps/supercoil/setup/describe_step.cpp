@@ -61,7 +61,7 @@ Or<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) 
 }
 
 /// That the board does not allow. As a person is told where it is asked.
-config::Problem beyond(const Question& q, double value, const std::string& script, int line) {
+Error beyond(const Question& q, double value, const std::string& script, int line) {
   return {script, line, "muscle." + std::string(q.key),
           "must be " + range_text(q.allowed) + " here: " + std::string(q.text),
           number_text(value, range_digits)};

@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -31,6 +32,9 @@ struct Error {
     return where.empty() ? message : where + ": " + message;
   }
 };
+
+/// Everything that is wrong with an input, so that it can be corrected at once.
+using Errors = std::vector<Error>;
 
 /// A value, or why there is none.
 template <class Value>

@@ -53,7 +53,7 @@ TEST(WrongBoard, ABoardOf0_1_0IsRefusedByItsRenamedKeysAlone) {
   const auto config = supercoil::config::read_board_config(SUPERCOIL_BOARD_OF_0_1_0);
   CHECK_FALSE(config.has_value());
   UNSIGNED_LONGS_EQUAL(8, config.error().size());
-  for (const supercoil::config::Problem& problem : config.error())
+  for (const supercoil::Error& problem : config.error())
     STRCMP_CONTAINS("was renamed in 0.2.0: write ", problem.message.c_str());
 }
 

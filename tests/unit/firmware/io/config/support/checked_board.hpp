@@ -22,7 +22,7 @@ inline void check_replaced(const std::string& old, const std::string& replacemen
 
 inline config::BoardConfig read_board(const std::string& text) {
   const auto config = config::parse_board_config(text, "b.toml");
-  CHECK_TEXT(config.has_value(), config ? "" : to_text(config.error()).c_str());
+  CHECK_TEXT(config.has_value(), config ? "" : config::to_text(config.error()).c_str());
   return config.value();
 }
 

@@ -31,23 +31,21 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
-                                           const std::string& head, const TakeLine& take) {
+Result<bool> read_lines(const std::filesystem::path& path, const std::string& head,
+                        const TakeLine& take) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) return false;
-  if (!std::filesystem::is_regular_file(status))
-    return tl::unexpected(path.string() + ": is not a file");
+  if (!std::filesystem::is_regular_file(status)) return failure(path.string() + ": is not a file");
   std::ifstream in(path, std::ios::binary);
   std::string begin(head.size(), '\0');
   in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(in.gcount()));
   if (begin.size() < head.size() && head.starts_with(begin) && !in.bad()) return !begin.empty();
   if (begin != head) {
-    return tl::unexpected(path.string() + ":1: is not of this version: it begins \"" +
-                          begin.substr(0, std::min(begin.find('\n'), std::size_t{80})) +
-                          "\"; must be \"" + head.substr(0, head.find('\n')) +
-                          "\". Choose another --out, or delete it");
+    return failure(path.string() + ":1: is not of this version: it begins \"" +
+                   begin.substr(0, std::min(begin.find('\n'), std::size_t{80})) + "\"; must be \"" +
+                   head.substr(0, head.find('\n')) + "\". Choose another --out, or delete it");
   }
   // Line by line: a file may be larger than the memory.
   auto number = 1 + std::ranges::count(head, '\n');
@@ -56,24 +54,23 @@ tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
     const auto taken = take(line, path.string() + ":" + std::to_string(number) + ": ");
     if (!taken) return tl::unexpected(taken.error());
   }
-  if (in.bad()) return tl::unexpected(path.string() + ": cannot be read");
+  if (in.bad()) return failure(path.string() + ": cannot be read");
   return false;
 }
 
-tl::expected<void, std::string> add_parts(const std::vector<std::string>& parts,
-                                          const std::filesystem::path& own, const AddPart& add) {
+Result<void> add_parts(const std::vector<std::string>& parts, const std::filesystem::path& own,
+                       const AddPart& add) {
   std::vector<std::filesystem::path> files(parts.begin(), parts.end());
   for (const std::filesystem::path& file : files) {
-    if (!std::filesystem::exists(file))
-      return tl::unexpected(file.string() + ": there is no such file");
+    if (!std::filesystem::exists(file)) return failure(file.string() + ": there is no such file");
   }
   files.push_back(own);
   for (const std::filesystem::path& file : files) {
     const auto torn = add(file);
     if (!torn) return tl::unexpected(torn.error());
     if (*torn) {
-      return tl::unexpected(
-          file.string() + ": its last line is torn: the run was interrupted; go on with it first");
+      return failure(file.string() +
+                     ": its last line is torn: the run was interrupted; go on with it first");
     }
   }
   return {};

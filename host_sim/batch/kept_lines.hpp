@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::host_sim::batch {
 
@@ -34,20 +34,19 @@ bool read_number(std::string_view text, double& value);
 std::vector<std::string_view> fields_of(std::string_view line);
 
 /// Takes one line; where: "FILE:LINE: ", for errors.
-using TakeLine =
-    std::function<tl::expected<void, std::string>(std::string_view line, const std::string& where)>;
+using TakeLine = std::function<Result<void>(std::string_view line, const std::string& where)>;
 
 /// Reads what follows the head. True: the last line was torn, and is left out. A file with another
 /// head, and what take refuses, are errors. An absent file has no lines.
-tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
-                                           const std::string& head, const TakeLine& take);
+Result<bool> read_lines(const std::filesystem::path& path, const std::string& head,
+                        const TakeLine& take);
 
 /// Adds what a file has. True: its last line is torn. The error names the file.
-using AddPart = std::function<tl::expected<bool, std::string>(const std::filesystem::path& part)>;
+using AddPart = std::function<Result<bool>(const std::filesystem::path& part)>;
 
 /// Adds each part of a whole, which must be there and not torn, and what the whole's own file had
 /// before, if it is there: merging loses nothing.
-tl::expected<void, std::string> add_parts(const std::vector<std::string>& parts,
-                                          const std::filesystem::path& own, const AddPart& add);
+Result<void> add_parts(const std::vector<std::string>& parts, const std::filesystem::path& own,
+                       const AddPart& add);
 
 }  // namespace supercoil::host_sim::batch

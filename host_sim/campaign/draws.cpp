@@ -91,15 +91,15 @@ class Known {
 };
 
 /// The error is what is not known.
-tl::expected<double, std::string> final_value(const Draw& draw, double drawn, const Known& known) {
+Result<double> final_value(const Draw& draw, double drawn, const Known& known) {
   for (const std::string& name : draw.times) {
     const auto factor = known.find(name);
-    if (!factor) return tl::unexpected(name);
+    if (!factor) return failure(name);
     drawn *= *factor;
   }
   for (const std::string& name : draw.over) {
     const auto divisor = known.find(name);
-    if (!divisor) return tl::unexpected(name);
+    if (!divisor) return failure(name);
     drawn /= *divisor;
   }
   return drawn;
@@ -153,9 +153,8 @@ std::vector<double> Draws::medians() const {
   return at(std::vector<double>(dimensions(), 0.5));
 }
 
-tl::expected<toml::table, std::string> Draws::document(const std::vector<double>& drawn,
-                                                       std::size_t contender,
-                                                       std::size_t run) const {
+Result<toml::table> Draws::document(const std::vector<double>& drawn, std::size_t contender,
+                                    std::size_t run) const {
   toml::table document = study_->scenario;
   use_contender(document, study_->contenders[contender]);
   // Each run has noise of its own; contenders of a run have the same.
@@ -171,16 +170,16 @@ tl::expected<toml::table, std::string> Draws::document(const std::vector<double>
     } else {
       const auto value = final_value(draw, drawn[i], known);
       if (!value) {
-        return tl::unexpected("draw " + draw.name + ": times or over names " + value.error() +
-                              ", which is neither drawn before nor a number of the scenario");
+        return failure("draw " + draw.name + ": times or over names " + value.error().text() +
+                       ", which is neither drawn before nor a number of the scenario");
       }
       known.add(draw.name, *value);
       right = set_all(document, draw, toml::value<double>(*value));
     }
     if (!right) {
-      return tl::unexpected("draw " + draw.name +
-                            ": one of its keys is inside a value that is not a table, or beyond "
-                            "the end of a list");
+      return failure("draw " + draw.name +
+                     ": one of its keys is inside a value that is not a table, or beyond "
+                     "the end of a list");
     }
   }
   return document;
@@ -189,7 +188,7 @@ tl::expected<toml::table, std::string> Draws::document(const std::vector<double>
 ScenarioOrProblems Draws::scenario(const std::vector<double>& drawn, std::size_t contender,
                                    std::size_t run) const {
   auto made = document(drawn, contender, run);
-  if (!made) return tl::unexpected(std::vector{Error{study_->name, 0, "", made.error()}});
+  if (!made) return tl::unexpected(std::vector{Error{study_->name, 0, "", made.error().text()}});
   return scenario_from(std::move(*made), study_->name);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "campaign/sampler.hpp"
 #include "campaign/study.hpp"
@@ -28,8 +28,8 @@ class Draws {
   std::vector<double> at(const std::vector<double>& point) const;
 
   /// The scenario, written out. The error says which draw refers to what is not there.
-  tl::expected<toml::table, std::string> document(const std::vector<double>& drawn,
-                                                  std::size_t contender, std::size_t run) const;
+  Result<toml::table> document(const std::vector<double>& drawn, std::size_t contender,
+                               std::size_t run) const;
   ScenarioOrProblems scenario(const std::vector<double>& drawn, std::size_t contender,
                               std::size_t run) const;
 

@@ -196,7 +196,8 @@ std::vector<compare::Document> read_contenders(Section& study,
   }
   auto found = compare::find_controllers(names);
   if (found) return *found;
-  study.wrong("controllers", found.error().substr(0, found.error().find_last_not_of('\n') + 1));
+  const std::string why = found.error().text();
+  study.wrong("controllers", why.substr(0, why.find_last_not_of('\n') + 1));
   return {};
 }
 

@@ -99,14 +99,12 @@ void Lines::write(std::ostream& out, const Outcomes& outcomes) const {
     out << line(key, outcome);
 }
 
-tl::expected<bool, std::string> Lines::read(const std::filesystem::path& path,
-                                            Outcomes& into) const {
+Result<bool> Lines::read(const std::filesystem::path& path, Outcomes& into) const {
   const std::size_t before = 2 + study_->draws.size();
   const std::size_t columns = before + 2 + quantity_count;
-  const auto take = [&](std::string_view text,
-                        const std::string& where) -> tl::expected<void, std::string> {
+  const auto take = [&](std::string_view text, const std::string& where) -> Result<void> {
     const auto damaged = [&](const std::string& why) {
-      return tl::unexpected(where + "is damaged: " + why + ": " + std::string(text));
+      return failure(where + "is damaged: " + why + ": " + std::string(text));
     };
     const auto fields = batch::fields_of(text);
     if (fields.size() != columns) return damaged("must be " + std::to_string(columns) + " fields");
@@ -120,8 +118,8 @@ tl::expected<bool, std::string> Lines::read(const std::filesystem::path& path,
     }
     const auto [there, is_new] = into.try_emplace(*key, outcome);
     if (!is_new && !same(there->second, outcome)) {
-      return tl::unexpected(where + "run " + std::to_string(key->run + 1) +
-                            " came to something else before");
+      return failure(where + "run " + std::to_string(key->run + 1) +
+                     " came to something else before");
     }
     return {};
   };

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "campaign/draws.hpp"
 #include "campaign/outcome.hpp"
@@ -45,7 +45,7 @@ class Lines {
   /// Adds what a file has. True: the last line was not whole, and is left out. A file of another
   /// version or study, a damaged line and two outcomes of one run are errors, which name the file
   /// and the line. An absent file has no outcomes.
-  tl::expected<bool, std::string> read(const std::filesystem::path& path, Outcomes& into) const;
+  Result<bool> read(const std::filesystem::path& path, Outcomes& into) const;
 
  private:
   std::string head() const;

@@ -139,11 +139,11 @@ int campaign_command(const CampaignOptions& given) {
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   const campaign::Lines lines(*study, draws);
   campaign::Outcomes outcomes;
   const auto torn = lines.read(folder->path() / runs_name, outcomes);
-  if (!torn) return refuse(options.json, exit_wrong_input, torn.error());
+  if (!torn) return refuse(options.json, exit_wrong_input, torn.error().text());
   const auto all = missing(*study, shard, {}, 0, study->runs).size();
   const auto todo = missing(*study, shard, outcomes, 0, study->runs).size();
   KeptRuns kept("campaign", {outcomes.size(), all, todo, *torn}, *folder, options.quiet);

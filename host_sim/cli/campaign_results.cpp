@@ -36,7 +36,7 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
   }
   const campaign::Lines lines(study, draws);
   const auto kept = folder.write(runs_name, [&](std::ostream& out) { lines.write(out, outcomes); });
-  if (!kept) return fail(exit_failed, kept.error());
+  if (!kept) return fail(exit_failed, kept.error().text());
   const std::string csv = to_csv(table);
   Tables tables{{{"campaign.csv", csv},
                  {"campaign.md", markdown},
@@ -61,14 +61,14 @@ int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
   const auto added = batch::add_parts(
       options.merge, std::filesystem::path(options.out) / runs_name,
       [&](const std::filesystem::path& part) { return lines.read(part, outcomes); });
-  if (!added) return refuse(options.json, exit_wrong_input, added.error());
+  if (!added) return refuse(options.json, exit_wrong_input, added.error().text());
   const auto all = static_cast<std::size_t>(study.runs) * study.contenders.size();
   if (outcomes.size() < all) {
     std::fprintf(stderr, "supercoil-sim: the parts have %zu of the study's %zu runs\n",
                  outcomes.size(), all);
   }
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   return conclude_campaign(study, draws, outcomes, *folder, options);
 }
 

@@ -47,7 +47,7 @@ nlohmann::ordered_json rows_of(const campaign::Study& study,
 int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
                     const CampaignOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   catch_interrupts();
   Progress progress("searching", options.quiet);
   std::atomic<std::int64_t> runs = 0;

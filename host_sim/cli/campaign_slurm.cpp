@@ -75,14 +75,14 @@ int submit_campaign(const campaign::Study& study, const CampaignOptions& options
                   builtin ? options.study : fs::absolute(options.study).string(), study.runs,
                   options.slurm};
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return fail(exit_wrong_input, folder.error());
+  if (!folder) return fail(exit_wrong_input, folder.error().text());
   for (const auto& [name, text] : {std::pair{"part.sbatch", part_script(jobs)},
                                    {"merge.sbatch", merge_script(jobs)},
                                    {submit_name, submit_script(jobs)}}) {
     if (const auto written = folder->write(name, text); !written)
-      return fail(exit_failed, written.error());
+      return fail(exit_failed, written.error().text());
   }
-  if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error());
+  if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error().text());
   const fs::path script = folder->path() / submit_name;
   if (!options.submit) {
     std::printf("written; to submit it: sh %s\n", script.c_str());

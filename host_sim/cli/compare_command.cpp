@@ -21,9 +21,8 @@ compare::Key key_of(const compare::Plan& plan, const compare::Run& run) {
 }
 
 /// What of the plan is not among the results; an error where it is, made of something else.
-tl::expected<std::vector<compare::Run>, std::string> missing(const compare::Plan& plan,
-                                                             const Results& results,
-                                                             const std::string& file) {
+Result<std::vector<compare::Run>> missing(const compare::Plan& plan, const Results& results,
+                                          const std::string& file) {
   std::vector<compare::Run> runs;
   for (const compare::Run& run : plan.runs) {
     const auto there = results.find(key_of(plan, run));
@@ -31,8 +30,8 @@ tl::expected<std::vector<compare::Run>, std::string> missing(const compare::Plan
     if (there == results.end()) {
       runs.push_back(run);
     } else if (there->second.definition != of.definition) {
-      return tl::unexpected(file + ": its " + of.controller + " with " + of.disturbance +
-                            " was made by another definition; choose another --out, or delete it");
+      return failure(file + ": its " + of.controller + " with " + of.disturbance +
+                     " was made by another definition; choose another --out, or delete it");
     }
   }
   return runs;
@@ -44,18 +43,18 @@ int compare_command(const CompareOptions& options) {
   if (options.list) return list_compared(options.json);
   if (!options.merge.empty()) return merge_comparisons(options);
   const auto plan = compare::make_plan(options.selection);
-  if (!plan) return refuse_lines(options.json, plan.error());
+  if (!plan) return refuse_lines(options.json, plan.error().text());
   for (const std::string& reason : plan->left_out)
     std::fprintf(stderr, "supercoil-sim: left out: %s", reason.c_str());
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
 
   const std::filesystem::path path = folder->path() / runs_name;
   auto before = compare::read_results(path);
-  if (!before) return refuse(options.json, exit_wrong_input, before.error());
+  if (!before) return refuse(options.json, exit_wrong_input, before.error().text());
   Results results = std::move(before->results);
   const auto todo = missing(*plan, results, path.string());
-  if (!todo) return refuse(options.json, exit_wrong_input, todo.error());
+  if (!todo) return refuse(options.json, exit_wrong_input, todo.error().text());
   KeptRuns kept("comparing", {results.size(), plan->runs.size(), todo->size(), before->torn},
                 *folder, options.quiet);
   if (const int failed = kept.begin(compare::to_file(results)); failed != exit_done) return failed;

@@ -33,16 +33,16 @@ int merge_comparisons(const CompareOptions& options) {
   Results results;
   const auto added =
       batch::add_parts(options.merge, std::filesystem::path(options.out) / runs_name,
-                       [&](const std::filesystem::path& part) -> tl::expected<bool, std::string> {
+                       [&](const std::filesystem::path& part) -> Result<bool> {
                          const auto read = compare::read_results(part);
                          if (!read) return tl::unexpected(read.error());
                          return compare::merge(results, read->results, part.string()).map([&] {
                            return read->torn;
                          });
                        });
-  if (!added) return refuse(options.json, exit_wrong_input, added.error());
+  if (!added) return refuse(options.json, exit_wrong_input, added.error().text());
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   return conclude_comparison(results, *folder, options);
 }
 

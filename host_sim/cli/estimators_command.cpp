@@ -61,9 +61,9 @@ estimators::AllBounds all_bounds() {
 
 int estimators_command(const EstimatorsOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   auto before = estimators::read_outcomes(folder->path() / runs_name);
-  if (!before) return refuse(options.json, exit_wrong_input, before.error());
+  if (!before) return refuse(options.json, exit_wrong_input, before.error().text());
   Outcomes outcomes = std::move(before->outcomes);
   const auto all = runs_of(options.seeds);
   std::vector<Key> todo;

@@ -27,8 +27,8 @@ int KeptRuns::begin(const std::function<void(std::ostream&)>& content) {
                  count_.all - count_.todo, count_.all, path_.c_str());
   }
   if (const auto kept = folder_->write(runs_name, content); !kept)
-    return fail(exit_failed, kept.error());
-  if (const auto kept = folder_->commit(); !kept) return fail(exit_failed, kept.error());
+    return fail(exit_failed, kept.error().text());
+  if (const auto kept = folder_->commit(); !kept) return fail(exit_failed, kept.error().text());
   file_.open(path_, std::ios::binary | std::ios::app);
   catch_interrupts();
   return exit_done;

@@ -4,7 +4,7 @@
 
 namespace supercoil::host_sim {
 
-tl::expected<LearnedMuscles, std::string> LearnedFolder::load() {
+Result<LearnedMuscles> LearnedFolder::load() {
   LearnedMuscles learned;
   if (!kept_) return learned;
   for (std::size_t i = 0; i < stores_.size(); ++i) {
@@ -24,7 +24,7 @@ void LearnedFolder::store(std::size_t channel, const board::LearnedUpdate& updat
   if (stored) return;
   complete_ = false;
   std::fprintf(stderr, "supercoil-sim: channel %zu learned, but it is not stored: %s\n",
-               channel + 1, stored.error().c_str());
+               channel + 1, stored.error().text().c_str());
 }
 
 }  // namespace supercoil::host_sim

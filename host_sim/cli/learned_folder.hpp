@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "scenario/scenario.hpp"
 #include "storage/posix_files.hpp"
@@ -24,7 +24,7 @@ class LearnedFolder {
 
   /// What is wrong with what was stored, beside that, is printed. The error says why nothing can be
   /// read.
-  tl::expected<LearnedMuscles, std::string> load();
+  Result<LearnedMuscles> load();
   /// As a board stores it, at once: a run that is killed has it. Empty: forgets the muscle. What
   /// cannot be stored is printed.
   void store(std::size_t channel, const board::LearnedUpdate& update);

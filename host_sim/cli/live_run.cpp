@@ -24,10 +24,8 @@ hal::Time since_1970() {
 }
 
 /// Puts the boards on a bus that others can join.
-tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
-                                                                   const std::string& interface,
-                                                                   std::uint16_t port,
-                                                                   std::FILE* out) {
+Result<std::unique_ptr<SocketcandServer>> serve(Nodes& nodes, const std::string& interface,
+                                                std::uint16_t port, std::FILE* out) {
   auto server = SocketcandServer::listen(port, interface,
                                          [&](const hal::CanFrame& frame) { nodes.deliver(frame); });
   if (!server) return server;
@@ -59,13 +57,13 @@ int live_run(const RunOptions& options, const std::vector<Scenario>& boards, con
   catch_interrupts();  // before the first line tells others that it runs
   const pid_t parent = getppid();
   auto nodes = Nodes::start(options, boards, window, folder);
-  if (!nodes) return fail(exit_wrong_input, nodes.error());
+  if (!nodes) return fail(exit_wrong_input, nodes.error().text());
   nodes->store_in(learned);
   std::unique_ptr<SocketcandServer> server;
   if (options.socketcand_port) {
     auto served = serve(*nodes, scenario.can.interface, *options.socketcand_port,
                         options.json ? stderr : stdout);
-    if (!served) return fail(exit_wrong_input, served.error());
+    if (!served) return fail(exit_wrong_input, served.error().text());
     server = std::move(*served);
   }
   if (!options.quiet) std::printf("%s in real time; Ctrl-C ends it\n", name.c_str());

@@ -35,7 +35,7 @@ int lockstep_run(const RunOptions& options, const std::vector<Scenario>& boards,
   const std::string name = name_of(boards);
   Progress progress(name, options.quiet);
   auto nodes = Nodes::start(options, boards, window, folder);
-  if (!nodes) return fail(exit_wrong_input, nodes.error());
+  if (!nodes) return fail(exit_wrong_input, nodes.error().text());
   nodes->store_in(learned);
   std::optional<CanLog> can_log;
   if (options.can) {
@@ -54,7 +54,7 @@ int lockstep_run(const RunOptions& options, const std::vector<Scenario>& boards,
   }
   if (can_log) {
     if (const auto finished = can_log->finish(); !finished)
-      return fail(exit_failed, (folder.path() / finished.error()).string());
+      return fail(exit_failed, (folder.path() / finished.error().text()).string());
   }
   return nodes->conclude(progress.elapsed_s(), learned);
 }

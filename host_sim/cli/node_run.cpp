@@ -62,12 +62,12 @@ int NodeRun::conclude(double wall_s, const LearnedFolder& learned) {
   finish(recorder_, *options_);
   if (trace_) {
     if (const auto finished = trace_->finish(); !finished)
-      return fail(exit_failed, (folder_->path() / finished.error()).string());
+      return fail(exit_failed, (folder_->path() / finished.error().text()).string());
   }
   if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
   auto concluded =
       host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
-  if (!concluded) return fail(exit_failed, concluded.error());
+  if (!concluded) return fail(exit_failed, concluded.error().text());
   summary_json_ = std::move(*concluded);
   if (!learned.complete()) return exit_failed;  // what is lost was told
   if (options_->real_time && !asks(scenario_)) return exit_done;

@@ -8,9 +8,8 @@
 
 namespace supercoil::host_sim {
 
-tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options,
-                                              const std::vector<Scenario>& boards,
-                                              const Window& window, OutputFolder& folder) {
+Result<Nodes> Nodes::start(const RunOptions& options, const std::vector<Scenario>& boards,
+                           const Window& window, OutputFolder& folder) {
   Nodes all(options, folder);
   for (const Scenario& board : boards) {
     Scenario its = board;
@@ -66,7 +65,7 @@ int Nodes::conclude(double wall_s, const LearnedFolder& learned) {
     status = std::max(status, node->conclude(wall_s, learned));
   if (options_->json) print_json();
   if (folders_.empty()) return status;
-  if (const auto done = folder_->commit(); !done) return fail(exit_failed, done.error());
+  if (const auto done = folder_->commit(); !done) return fail(exit_failed, done.error().text());
   return status;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "cli/node_run.hpp"
 #include "runner/shared_bus.hpp"
@@ -17,9 +17,8 @@ class Nodes {
   /// boards: as on_one_bus() has them. Results of a single one go to the folder itself, those of
   /// several to one below it for each. The error says which folder cannot be written to. Options
   /// and folder outlive it.
-  static tl::expected<Nodes, std::string> start(const RunOptions& options,
-                                                const std::vector<Scenario>& boards,
-                                                const Window& window, OutputFolder& folder);
+  static Result<Nodes> start(const RunOptions& options, const std::vector<Scenario>& boards,
+                             const Window& window, OutputFolder& folder);
 
   /// What boards learn from now on; learned outlives the steps.
   void store_in(LearnedFolder& learned);

@@ -43,7 +43,7 @@ nlohmann::ordered_json rows_of(const std::vector<paper::Part>& parts) {
 
 int reproduce_command(const ReproduceOptions& options) {
   auto folder = OutputFolder::open(options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   Progress progress("reproducing the paper", options.quiet);
   const auto parts = paper::reproduce([&](double done) { progress.show(done, ""); });
 
@@ -51,13 +51,13 @@ int reproduce_command(const ReproduceOptions& options) {
   if (options.plots) {
     pictures = draw_all(parts, *folder);
     if (auto page = folder->write("report.html", to_html(parts, pictures)); !page) {
-      return fail(exit_failed, page.error());
+      return fail(exit_failed, page.error().text());
     }
   }
   if (auto csv = folder->write("reproduction.csv", to_csv(parts)); !csv) {
-    return fail(exit_failed, csv.error());
+    return fail(exit_failed, csv.error().text());
   }
-  if (auto done = folder->commit(); !done) return fail(exit_failed, done.error());
+  if (auto done = folder->commit(); !done) return fail(exit_failed, done.error().text());
   if (options.json) {
     print_results({{"folder", options.out}, {"rows", rows_of(parts)}});
   } else if (!options.quiet) {

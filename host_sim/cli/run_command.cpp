@@ -82,7 +82,8 @@ OrErrors use_own_board(const RunOptions& options, std::size_t place, const Learn
   }
   const auto used = use_board(scenario, *config, static_cast<std::size_t>(channel) - 1, learned);
   if (used) return {};
-  return tl::unexpected(Errors{{options.scenarios[place] + " on " + board, 0, "", used.error()}});
+  return tl::unexpected(
+      Errors{{options.scenarios[place] + " on " + board, 0, "", used.error().text()}});
 }
 
 /// What of the options goes together, before any file is read.
@@ -118,7 +119,7 @@ tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options
   if (auto together = check_together(options); !together)
     return tl::unexpected(std::move(together.error()));
   const auto learned = folder_of_learned.load();
-  if (!learned) return tl::unexpected(wrong_option("--learned", "", learned.error()));
+  if (!learned) return tl::unexpected(wrong_option("--learned", "", learned.error().text()));
   std::vector<Scenario> scenarios;
   for (std::size_t i = 0; i < options.scenarios.size(); ++i) {
     auto scenario = read_scenario(options.scenarios[i], *learned);
@@ -179,7 +180,7 @@ int run_command(const RunOptions& given) {
   }
   auto folder =
       OutputFolder::open(options.out.empty() ? "supercoil-out/" + name_of(*boards) : options.out);
-  if (!folder) return refuse(options.json, exit_wrong_input, folder.error());
+  if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
 
   if (options.real_time) return live_run(options, *boards, *window, *folder, folder_of_learned);
   for (std::size_t i = 0; !options.quiet && i < options.scenarios.size(); ++i) {

@@ -180,9 +180,9 @@ void finish(recorder::FlightRecorder& recorder, const RunOptions& options) {
   }
 }
 
-tl::expected<std::string, std::string> conclude(const Summary& summary, const Scenario& scenario,
-                                                const Simulation& simulation, double wall_s,
-                                                OutputFolder& folder, bool quiet) {
+Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
+                             const Simulation& simulation, double wall_s, OutputFolder& folder,
+                             bool quiet) {
   const auto json = summary.to_json(scenario, simulation, wall_s);
   const std::string text =
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -230,7 +230,7 @@ std::string draw_into(OutputFolder& folder, const Figure& figure, const std::str
   if (const auto drawn = draw(figure, path); !drawn) {
     folder.drop(name);
     std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
-                 drawn.error().c_str());
+                 drawn.error().text().c_str());
     return {};
   }
   std::ifstream in(path, std::ios::binary);

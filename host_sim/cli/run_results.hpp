@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/learned_folder.hpp"
@@ -29,9 +29,9 @@ void finish(recorder::FlightRecorder& recorder, const RunOptions& options);
 
 /// summary.json in the folder, which is then committed; prints its figures unless quiet. Returns
 /// what it holds.
-tl::expected<std::string, std::string> conclude(const Summary& summary, const Scenario& scenario,
-                                                const Simulation& simulation, double wall_s,
-                                                OutputFolder& folder, bool quiet);
+Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
+                             const Simulation& simulation, double wall_s, OutputFolder& folder,
+                             bool quiet);
 
 /// The operator arms the muscle at some time: there is something to judge.
 bool asks(const Scenario& scenario);

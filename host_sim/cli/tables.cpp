@@ -9,9 +9,9 @@ namespace supercoil::host_sim {
 int conclude_tables(const Tables& tables, OutputFolder& folder, Telling telling) {
   for (const auto& [name, content] : tables.files) {
     if (const auto written = folder.write(name, content); !written)
-      return fail(exit_failed, written.error());
+      return fail(exit_failed, written.error().text());
   }
-  if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error());
+  if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error().text());
   if (telling.json) {
     print_results(
         {{"folder", folder.path().string()}, {"runs", tables.runs}, {"rows", tables.rows}});

@@ -14,28 +14,28 @@ namespace supercoil::host_sim::compare {
 
 namespace {
 
-tl::expected<Document, std::string> find(const std::string& name, const char* what,
-                                         const std::vector<BuiltinScenario>& entries) {
+supercoil::Result<Document> find(const std::string& name, const char* what,
+                                 const std::vector<BuiltinScenario>& entries) {
   if (name.find_first_of("./") != std::string::npos) {
     config::Diagnostics diagnostics(name);
     std::string text = config::read_text(name, diagnostics);
-    if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+    if (!diagnostics.empty()) return failure(config::to_text(diagnostics.problems()));
     const std::string stem = std::filesystem::path(name).stem().string();
     if (stem.find_first_of(",\"\n|") == std::string::npos) return Document{stem, std::move(text)};
-    return tl::unexpected(name + ": its name must have no comma, quote, bar or line break\n");
+    return failure(name + ": its name must have no comma, quote, bar or line break\n");
   }
   std::string known;
   for (const BuiltinScenario& entry : entries) {
     if (entry.name == name) return Document{name, std::string(entry.text)};
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  return tl::unexpected(std::string(what) + " " + name +
-                        ": must be a .toml file or one of: " + known + "\n");
+  return failure(std::string(what) + " " + name + ": must be a .toml file or one of: " + known +
+                 "\n");
 }
 
 /// A controller's file may not also choose the muscle or what is asked of it: it would replace the
 /// disturbance's, and the table would still name the disturbance.
-tl::expected<Document, std::string> find_controller(const std::string& name) {
+supercoil::Result<Document> find_controller(const std::string& name) {
   constexpr std::array<std::string_view, 3> allowed{"controller", "estimator", "reference_model"};
   auto document = find(name, "--controllers", controllers());
   if (!document) return document;
@@ -47,11 +47,11 @@ tl::expected<Document, std::string> find_controller(const std::string& name) {
                     "[reference_model]; this belongs in a file for --disturbances");
   }
   if (diagnostics.empty()) return document;
-  return tl::unexpected(config::to_text(diagnostics.problems()));
+  return failure(config::to_text(diagnostics.problems()));
 }
 
 /// NAME or NAME:steps.
-tl::expected<Document, std::string> find_disturbance_now(const std::string& name) {
+supercoil::Result<Document> find_disturbance_now(const std::string& name) {
   constexpr std::string_view suffix = ":steps";
   const bool steps = name.ends_with(suffix);
   auto document = find(steps ? name.substr(0, name.size() - suffix.size()) : name, "--disturbances",
@@ -64,7 +64,7 @@ tl::expected<Document, std::string> find_disturbance_now(const std::string& name
 }
 
 /// NAME+SECONDS; in a file's name there may be a + too.
-tl::expected<Document, std::string> find_disturbance(const std::string& name) {
+supercoil::Result<Document> find_disturbance(const std::string& name) {
   const std::size_t plus = name.rfind('+');
   if (plus == std::string::npos || name.ends_with(".toml")) return find_disturbance_now(name);
   double later_s = 0.0;
@@ -72,8 +72,7 @@ tl::expected<Document, std::string> find_disturbance(const std::string& name) {
   const auto read = std::from_chars(name.data() + plus + 1, end, later_s);
   constexpr double latest_s = 1e5;
   if (read.ec != std::errc{} || read.ptr != end || !(later_s >= 0.0 && later_s <= latest_s)) {
-    return tl::unexpected("--disturbances " + name +
-                          ": after + must come seconds, from 0 to 100000\n");
+    return failure("--disturbances " + name + ": after + must come seconds, from 0 to 100000\n");
   }
   auto document = find_disturbance_now(name.substr(0, plus));
   if (document) {
@@ -90,7 +89,7 @@ Documents find_all(const std::vector<std::string>& names, Find find_one) {
   for (const std::string& name : names) {
     auto document = find_one(name);
     if (!document) {
-      problems += document.error();
+      problems += document.error().text();
       continue;
     }
     const bool twice = std::any_of(documents.begin(), documents.end(), [&](const Document& other) {
@@ -99,7 +98,7 @@ Documents find_all(const std::vector<std::string>& names, Find find_one) {
     if (twice) problems += name + ": " + document->name + " is there twice\n";
     documents.push_back(std::move(*document));
   }
-  if (!problems.empty()) return tl::unexpected(problems);
+  if (!problems.empty()) return failure(problems);
   return documents;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::host_sim::compare {
 
@@ -16,7 +16,7 @@ struct Document {
 };
 
 /// Each by its name, or all that is wrong with them, a line each.
-using Documents = tl::expected<std::vector<Document>, std::string>;
+using Documents = supercoil::Result<std::vector<Document>>;
 
 /// Built-in names, or files: what has a dot or a slash.
 Documents find_controllers(const std::vector<std::string>& names);

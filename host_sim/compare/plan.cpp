@@ -59,8 +59,8 @@ void tune(toml::table& chosen, toml::table& disturbance, const std::string& cont
   disturbance.erase("tuned");
 }
 
-tl::expected<Case, std::string> combine(const Document& controller, const Document& disturbance,
-                                        const std::string& arithmetic) {
+supercoil::Result<Case> combine(const Document& controller, const Document& disturbance,
+                                const std::string& arithmetic) {
   const std::string name = controller.name + " with " + disturbance.name + " in " + arithmetic;
   const auto parse = [](const Document& document, config::Diagnostics& diagnostics) {
     return config::parse(document.text, diagnostics);
@@ -70,8 +70,8 @@ tl::expected<Case, std::string> combine(const Document& controller, const Docume
   toml::table document = parse(disturbance, of_disturbance);
   toml::table chosen = parse(controller, of_controller);
   if (!of_controller.empty() || !of_disturbance.empty()) {
-    return tl::unexpected(config::to_text(of_controller.problems()) +
-                          config::to_text(of_disturbance.problems()));
+    return failure(config::to_text(of_controller.problems()) +
+                   config::to_text(of_disturbance.problems()));
   }
   // Whatever the disturbance was written for: all controllers meet the same.
   for (const char* table : {"controller", "estimator", "reference_model"})
@@ -81,7 +81,7 @@ tl::expected<Case, std::string> combine(const Document& controller, const Docume
   apply_changes(document, std::move(chosen));
   set_arithmetic(document, arithmetic);
   auto scenario = scenario_from(std::move(document), name);
-  if (!scenario) return tl::unexpected(config::to_text(scenario.error()));
+  if (!scenario) return failure(config::to_text(scenario.error()));
   scenario->duration_s += disturbance.later_s;
   for (Event& event : scenario->events)
     event.at_s += disturbance.later_s;
@@ -90,9 +90,9 @@ tl::expected<Case, std::string> combine(const Document& controller, const Docume
 }
 
 /// What fixed point cannot hold is left out; all else must be in order.
-tl::expected<void, std::string> add_cases(Plan& plan, const std::vector<Document>& controllers,
-                                          const std::vector<Document>& disturbances,
-                                          const std::vector<std::string>& arithmetics) {
+supercoil::Result<void> add_cases(Plan& plan, const std::vector<Document>& controllers,
+                                  const std::vector<Document>& disturbances,
+                                  const std::vector<std::string>& arithmetics) {
   for (const Document& controller : controllers) {
     for (const Document& disturbance : disturbances) {
       for (const std::string& arithmetic : arithmetics) {
@@ -100,7 +100,7 @@ tl::expected<void, std::string> add_cases(Plan& plan, const std::vector<Document
         if (made) {
           plan.cases.push_back(std::move(*made));
         } else if (arithmetic == "q8.24" && combine(controller, disturbance, "double")) {
-          plan.left_out.push_back(made.error());
+          plan.left_out.push_back(made.error().text());
         } else {
           return tl::unexpected(made.error());
         }
@@ -144,7 +144,7 @@ std::vector<std::string> default_disturbances() {
   return names;
 }
 
-tl::expected<Plan, std::string> make_plan(const Selection& selection) {
+supercoil::Result<Plan> make_plan(const Selection& selection) {
   std::string problems = check(selection);
   const auto or_all = [](const std::vector<std::string>& chosen,
                          const std::vector<std::string>& all) {
@@ -152,9 +152,9 @@ tl::expected<Plan, std::string> make_plan(const Selection& selection) {
   };
   const auto chosen = find_controllers(or_all(selection.controllers, default_controllers()));
   const auto met = find_disturbances(or_all(selection.disturbances, default_disturbances()));
-  if (!chosen) problems += chosen.error();
-  if (!met) problems += met.error();
-  if (!problems.empty()) return tl::unexpected(problems);
+  if (!chosen) problems += chosen.error().text();
+  if (!met) problems += met.error().text();
+  if (!problems.empty()) return failure(problems);
 
   Plan plan;
   const auto added = add_cases(plan, *chosen, *met, or_all(selection.arithmetics, {"double"}));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "batch/kept_lines.hpp"
 #include "scenario/scenario.hpp"
@@ -47,6 +47,6 @@ struct Plan {
 };
 
 /// The error says all that is wrong with the selection, a line each.
-tl::expected<Plan, std::string> make_plan(const Selection& selection);
+supercoil::Result<Plan> make_plan(const Selection& selection);
 
 }  // namespace supercoil::host_sim::compare

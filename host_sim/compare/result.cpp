@@ -79,15 +79,15 @@ std::string to_file(const Results& results) {
   return text;
 }
 
-tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path) {
+supercoil::Result<ReadResults> read_results(const std::filesystem::path& path) {
   ReadResults read;
   const auto torn = batch::read_lines(
       path, head(),
-      [&](std::string_view line, const std::string& where) -> tl::expected<void, std::string> {
+      [&](std::string_view line, const std::string& where) -> supercoil::Result<void> {
         auto one = read_line(line);
         if (!one) {
-          return tl::unexpected(where + "is damaged: must be " + std::to_string(columns) +
-                                " fields, seed and measures numbers: " + std::string(line));
+          return failure(where + "is damaged: must be " + std::to_string(columns) +
+                         " fields, seed and measures numbers: " + std::string(line));
         }
         return merge(read.results, {std::move(*one)}, where);
       });
@@ -96,19 +96,18 @@ tl::expected<ReadResults, std::string> read_results(const std::filesystem::path&
   return read;
 }
 
-tl::expected<void, std::string> merge(Results& into, const Results& from, const std::string& name) {
+supercoil::Result<void> merge(Results& into, const Results& from, const std::string& name) {
   for (const auto& [key, result] : from) {
     const auto [there, is_new] = into.try_emplace(key, result);
     if (!is_new && !there->second.same_as(result)) {
-      return tl::unexpected(name + ": " + described(key) + " gave something else before");
+      return failure(name + ": " + described(key) + " gave something else before");
     }
     Key first = key;
     first.seed = 0;
     const auto other = into.lower_bound(first);
     if (other->second.definition != result.definition) {
-      return tl::unexpected(name + ": " + described(key) +
-                            " was made by another definition than seed " +
-                            std::to_string(other->first.seed));
+      return failure(name + ": " + described(key) + " was made by another definition than seed " +
+                     std::to_string(other->first.seed));
     }
   }
   return {};

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "compare/measure.hpp"
 
@@ -46,10 +46,10 @@ struct ReadResults {
 };
 /// A file of another version, a damaged line and two results for one run are errors, which name the
 /// file and the line. An absent file has no results.
-tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path);
+supercoil::Result<ReadResults> read_results(const std::filesystem::path& path);
 
 /// Adds what was read from a file to the results. The error names a run for which both say
 /// something else, or which was made by another definition.
-tl::expected<void, std::string> merge(Results& into, const Results& from, const std::string& name);
+supercoil::Result<void> merge(Results& into, const Results& from, const std::string& name);
 
 }  // namespace supercoil::host_sim::compare

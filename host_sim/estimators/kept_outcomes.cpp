@@ -92,15 +92,14 @@ std::string to_file(const Outcomes& outcomes) {
   return file;
 }
 
-tl::expected<ReadOutcomes, std::string> read_outcomes(const std::filesystem::path& path) {
+Result<ReadOutcomes> read_outcomes(const std::filesystem::path& path) {
   ReadOutcomes read;
   const auto torn = batch::read_lines(
-      path, head(),
-      [&](std::string_view line, const std::string& where) -> tl::expected<void, std::string> {
+      path, head(), [&](std::string_view line, const std::string& where) -> Result<void> {
         auto one = read_line(line);
         if (!one) {
-          return tl::unexpected(where + "is damaged: must be a trial, an estimator, and " +
-                                std::to_string(columns() - 2) + " numbers");
+          return failure(where + "is damaged: must be a trial, an estimator, and " +
+                         std::to_string(columns() - 2) + " numbers");
         }
         read.outcomes.insert(std::move(*one));
         return {};

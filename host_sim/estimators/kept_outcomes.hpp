@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "estimators/results.hpp"
 
@@ -21,6 +21,6 @@ struct ReadOutcomes {
 };
 /// A file of another version and a damaged line are errors, which name the file and the line. An
 /// absent file has no outcomes.
-tl::expected<ReadOutcomes, std::string> read_outcomes(const std::filesystem::path& path);
+Result<ReadOutcomes> read_outcomes(const std::filesystem::path& path);
 
 }  // namespace supercoil::host_sim::estimators

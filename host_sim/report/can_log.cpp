@@ -1,7 +1,6 @@
 #include "report/can_log.hpp"
 
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "can_client/candump.hpp"
@@ -15,10 +14,10 @@ void CanLog::add(const hal::CanFrame& frame, hal::Time since_start) {
   out_ << can_client::candump_line(frame, can_client::simulation_epoch + since_start, interface_);
 }
 
-tl::expected<void, std::string> CanLog::finish() {
+Result<void> CanLog::finish() {
   out_.close();
   if (out_) return {};
-  return tl::unexpected("can.log: cannot be written: " + std::generic_category().message(errno));
+  return failed_call("can.log: cannot be written", errno);
 }
 
 }  // namespace supercoil::host_sim

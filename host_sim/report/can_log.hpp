@@ -5,9 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::host_sim {
 
@@ -17,7 +16,7 @@ class CanLog {
 
   void add(const hal::CanFrame& frame, hal::Time since_start);
   /// The error says why the file is not complete.
-  tl::expected<void, std::string> finish();
+  Result<void> finish();
 
  private:
   std::ofstream out_;

@@ -22,10 +22,8 @@ std::string reason() {
 
 }  // namespace
 
-tl::expected<OutputFolder, std::string> OutputFolder::open(const fs::path& folder) {
-  const auto refuse = [&](const std::string& why) {
-    return tl::unexpected(folder.string() + ": " + why);
-  };
+Result<OutputFolder> OutputFolder::open(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) { return failure(folder.string() + ": " + why); };
   OutputFolder result(folder);
   std::error_code error;
   for (fs::path missing = fs::absolute(folder); !fs::exists(missing, error) && !error;
@@ -71,18 +69,17 @@ fs::path OutputFolder::temporary(const std::string& name) {
   return folder_ / (name + ".part");
 }
 
-tl::expected<void, std::string> OutputFolder::write(const std::string& name,
-                                                    const std::string& content) {
+Result<void> OutputFolder::write(const std::string& name, const std::string& content) {
   return write(name, [&](std::ostream& out) { out << content; });
 }
 
-tl::expected<void, std::string> OutputFolder::write(
-    const std::string& name, const std::function<void(std::ostream&)>& content) {
+Result<void> OutputFolder::write(const std::string& name,
+                                 const std::function<void(std::ostream&)>& content) {
   const fs::path path = temporary(name);
   std::ofstream out(path, std::ios::binary);
   content(out);
   out.close();
-  if (!out) return tl::unexpected((folder_ / name).string() + ": cannot be written: " + reason());
+  if (!out) return failed_call((folder_ / name).string() + ": cannot be written", errno);
   return {};
 }
 
@@ -92,18 +89,18 @@ void OutputFolder::drop(const std::string& name) {
   std::erase(names_, name);
 }
 
-tl::expected<void, std::string> OutputFolder::commit() {
+Result<void> OutputFolder::commit() {
   // What would fail is looked for before the first file has its name.
   for (const std::string& name : names_) {
     if (fs::is_directory(folder_ / name)) {
-      return tl::unexpected((folder_ / name).string() + ": cannot be written: is a folder");
+      return failure((folder_ / name).string() + ": cannot be written: is a folder");
     }
   }
   for (const std::string& name : names_) {
     std::error_code error;
     fs::rename(folder_ / (name + ".part"), folder_ / name, error);
     if (error) {
-      return tl::unexpected((folder_ / name).string() + ": cannot be written: " + error.message());
+      return failed_call((folder_ / name).string() + ": cannot be written", error.value());
     }
   }
   std::error_code ignored;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::host_sim {
 
@@ -17,7 +17,7 @@ namespace supercoil::host_sim {
 class OutputFolder {
  public:
   /// Makes the folder where it is missing. The error says why it cannot be written to.
-  static tl::expected<OutputFolder, std::string> open(const std::filesystem::path& folder);
+  static Result<OutputFolder> open(const std::filesystem::path& folder);
 
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
@@ -28,16 +28,15 @@ class OutputFolder {
   /// Where to write the file that will be called name.
   std::filesystem::path temporary(const std::string& name);
   /// Writes a whole file; the error says why it failed (a full disk, for one).
-  tl::expected<void, std::string> write(const std::string& name, const std::string& content);
+  Result<void> write(const std::string& name, const std::string& content);
   /// The same of one that is better not in memory as a whole.
-  tl::expected<void, std::string> write(const std::string& name,
-                                        const std::function<void(std::ostream&)>& content);
+  Result<void> write(const std::string& name, const std::function<void(std::ostream&)>& content);
   /// Gives up a file that temporary() announced; the others are kept.
   void drop(const std::string& name);
   /// With commit() a file of an earlier run goes that this one has no successor of.
   void supersede(const std::string& name) { superseded_.push_back(name); }
   /// Gives every file its name.
-  tl::expected<void, std::string> commit();
+  Result<void> commit();
 
   const std::filesystem::path& path() const { return folder_; }
 

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <system_error>
 
 namespace supercoil::host_sim {
 
@@ -125,7 +124,7 @@ void TraceWriter::flush() {
   buffer_.clear();
 }
 
-tl::expected<void, std::string> TraceWriter::finish() {
+Result<void> TraceWriter::finish() {
   flush();
   if (const std::string header = header_of_all(); !header.empty()) {
     out_.seekp(0);
@@ -133,8 +132,7 @@ tl::expected<void, std::string> TraceWriter::finish() {
   }
   out_.close();
   if (out_) return {};
-  return tl::unexpected(std::string(trace_file(format_)) +
-                        ": cannot be written: " + std::generic_category().message(errno));
+  return failed_call(std::string(trace_file(format_)) + ": cannot be written", errno);
 }
 
 std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,

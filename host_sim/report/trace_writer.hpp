@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "report/trace_columns.hpp"
 
@@ -30,7 +30,7 @@ class TraceWriter {
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
   bool wants(std::int64_t tick) const { return tick % every_ == 0; }
   /// The error says why the file is not complete.
-  tl::expected<void, std::string> finish();
+  Result<void> finish();
 
  protected:
   TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,

@@ -12,10 +12,10 @@ namespace supercoil::host_sim {
 
 namespace {
 
-using OrRefused = tl::expected<void, std::string>;
+using OrRefused = Result<void>;
 
-tl::expected<void, std::string> refuse(const std::ostringstream& why) {
-  return tl::unexpected(why.str());
+Result<void> refuse(const std::ostringstream& why) {
+  return failure(why.str());
 }
 
 OrRefused check_supply(const Conditions& c, const BoardSettings& board) {
@@ -94,9 +94,8 @@ std::string other_lever(const control::Lever& scenarios, const control::Lever& b
 }
 
 /// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
-tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditions& c,
-                                                                   const BoardSettings& board,
-                                                                   std::size_t channel) {
+Result<std::optional<JointSettings>> find_joint(const Conditions& c, const BoardSettings& board,
+                                                std::size_t channel) {
   const JointSettings* found = board.joint_of(channel);
   std::ostringstream why;
   const control::Lever* const turned = found == nullptr && board.channels[channel].joint.turns()
@@ -104,37 +103,36 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
                                            : nullptr;
   if (c.antagonist() == nullptr && found == nullptr) {
     if (turned == nullptr || (c.joint && c.joint->plant.lever == *turned)) return std::nullopt;
-    if (c.joint) return tl::unexpected(other_lever(c.joint->plant.lever, *turned));
+    if (c.joint) return failure(other_lever(c.joint->plant.lever, *turned));
     const char* opposed_by = board.channels[channel].joint.weighs() ? "gravity" : "spring";
     why << "channel " << channel + 1 << " of the board's file turns a joint by itself: the "
         << "scenario needs a [joint] that is opposed_by \"" << opposed_by << "\"";
-    return tl::unexpected(why.str());
+    return failure(why.str());
   }
   if (c.antagonist() == nullptr) {
     why << "channel " << channel + 1 << " of the board's file turns a joint: the scenario needs a "
         << "[joint] that is opposed_by \"muscle\"";
-    return tl::unexpected(why.str());
+    return failure(why.str());
   }
   if (found == nullptr) {
     why << "the scenario has a [joint] of two muscles, and channel " << channel + 1
         << " of the board's file is in none";
-    return tl::unexpected(why.str());
+    return failure(why.str());
   }
   const control::Lever& lever = c.joint->plant.lever;
-  if (found->lever != lever) return tl::unexpected(other_lever(lever, found->lever));
+  if (found->lever != lever) return failure(other_lever(lever, found->lever));
   if (c.joint->plant.antagonist_lever_ratio != found->antagonist_lever_ratio) {
     why << "the scenario's joint.antagonist_lever_m = "
         << c.joint->plant.antagonist_lever_ratio * lever.zero_radius_m() << " is not the board's, "
         << found->antagonist_lever().zero_radius_m();
-    return tl::unexpected(why.str());
+    return failure(why.str());
   }
   return *found;
 }
 
 /// The bundle of the file that pulls what the scenario's [bundle] does; empty: neither has one.
-tl::expected<std::optional<BundleSettings>, std::string> find_bundle(const Conditions& c,
-                                                                     const BoardSettings& board,
-                                                                     std::size_t channel) {
+Result<std::optional<BundleSettings>> find_bundle(const Conditions& c, const BoardSettings& board,
+                                                  std::size_t channel) {
   const BundleSettings* found = board.bundle_of(channel);
   const std::size_t wanted = c.companions.size() + 1;
   const std::size_t there = found == nullptr ? 1 : found->channels.size();
@@ -145,7 +143,7 @@ tl::expected<std::optional<BundleSettings>, std::string> find_bundle(const Condi
   if (found != nullptr) why << " of " << there << " muscles";
   why << ", and the scenario has " << (wanted == 1 ? "no [bundle]" : "a [bundle]");
   if (wanted > 1) why << " of " << wanted;
-  return tl::unexpected(why.str());
+  return failure(why.str());
 }
 
 /// The file's board with the channels that the scenario has: an agonist first, a bundle's leader.

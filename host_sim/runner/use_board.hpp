@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "config/board_config.hpp"
 #include "scenario/scenario.hpp"
@@ -17,7 +17,7 @@ namespace supercoil::host_sim {
 /// supply and what is asked for stay the scenario's. channel: from 0, of a joint either one; on the
 /// bus its antagonist's node follows the agonist's. The error says which of the two must change,
 /// and how.
-tl::expected<void, std::string> use_board(Scenario& scenario, const config::BoardConfig& config,
-                                          std::size_t channel, const LearnedMuscles& learned = {});
+Result<void> use_board(Scenario& scenario, const config::BoardConfig& config, std::size_t channel,
+                       const LearnedMuscles& learned = {});
 
 }  // namespace supercoil::host_sim

@@ -15,14 +15,15 @@ constexpr auto retry_after = std::chrono::milliseconds(100);
 
 }  // namespace
 
-tl::expected<std::unique_ptr<SocketcandServer>, std::string> SocketcandServer::listen(
-    std::uint16_t port, std::string interface, Deliver deliver) {
+Result<std::unique_ptr<SocketcandServer>> SocketcandServer::listen(std::uint16_t port,
+                                                                   std::string interface,
+                                                                   Deliver deliver) {
   const tcp::endpoint endpoint(boost::asio::ip::address_v4::loopback(), port);
   try {
     return std::make_unique<SocketcandServer>(endpoint, std::move(interface), std::move(deliver));
   } catch (const boost::system::system_error& error) {
-    return tl::unexpected("socketcand: port " + std::to_string(port) +
-                          " of loopback: " + error.code().message());
+    return failure("socketcand: port " + std::to_string(port) +
+                   " of loopback: " + error.code().message());
   }
 }
 

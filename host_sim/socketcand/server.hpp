@@ -10,9 +10,9 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <tl/expected.hpp>
 
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::host_sim {
 
@@ -27,9 +27,8 @@ class SocketcandServer {
   using Deliver = std::function<void(const hal::CanFrame&)>;
 
   /// port: 0 takes a free one. interface: the one that clients may open. The error names the port.
-  static tl::expected<std::unique_ptr<SocketcandServer>, std::string> listen(std::uint16_t port,
-                                                                             std::string interface,
-                                                                             Deliver deliver);
+  static Result<std::unique_ptr<SocketcandServer>> listen(std::uint16_t port, std::string interface,
+                                                          Deliver deliver);
   SocketcandServer(const boost::asio::ip::tcp::endpoint& endpoint, std::string interface,
                    Deliver deliver);
   SocketcandServer(const SocketcandServer&) = delete;

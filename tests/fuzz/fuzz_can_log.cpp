@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const auto line = parse_candump_line(rest.substr(0, end));
     if (!line) {
-      fuzz::require(!line.error().empty(), "what is refused is refused with a reason");
+      fuzz::require(!line.error().text().empty(), "what is refused is refused with a reason");
     } else if (line->ours) {
       check(*line);
     }

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto of_trajectory = parse_trajectory_command(text, channels);
   const auto command = of_trajectory ? *of_trajectory : parse_command(text, channels);
   if (!command) {
-    fuzz::require(!command.error().empty(), "what is refused is refused with a reason");
+    fuzz::require(!command.error().text().empty(), "what is refused is refused with a reason");
     return 0;
   }
   fuzz::require(command->channel < channels, "a command is for a channel of the board");

@@ -83,9 +83,9 @@ class Page {
     return -1;
   }
   ManualControl::OpenBus bus() {
-    return [this]() -> tl::expected<std::unique_ptr<hal::CanBus>, std::string> {
+    return [this]() -> Result<std::unique_ptr<hal::CanBus>> {
       asked_ = true;
-      return tl::unexpected(std::string("there is none"));
+      return failure("there is none");
     };
   }
 

@@ -16,18 +16,17 @@ void read(std::string_view file) {
   auto any = recorder::decode(file, Damaged::read);
   fuzz::require(!whole || (any && any->damage.empty() && any->header == whole->header),
                 "a whole recording is read the same way when damage is allowed");
-  fuzz::require(whole || !whole.error().empty(), "what is refused is refused with a reason");
+  fuzz::require(whole || !whole.error().text().empty(), "what is refused is refused with a reason");
   if (!any) return;
   fuzz::require(whole.has_value() || !any->damage.empty(), "damage is said");
   fuzz::require(!any->rows.empty() && any->rows.size() <= file.size() / sizeof(Row),
                 "there are as many rows as the file can hold");
   fuzz::require(any->header.channels >= 1 && any->header.channels <= 16, "channels are 1 to 16");
   std::size_t lines = 0;
-  const auto written =
-      recorder::to_csv(*any, [&](std::string_view part) -> tl::expected<void, std::string> {
-        lines += static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));
-        return {};
-      });
+  const auto written = recorder::to_csv(*any, [&](std::string_view part) -> Result<void> {
+    lines += static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));
+    return {};
+  });
   fuzz::require(written && lines == any->rows.size() + 1, "CSV has a line for each row");
   recorder::select(*any, -1.0, 1.0, 0);
 }

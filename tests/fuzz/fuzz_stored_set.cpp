@@ -12,7 +12,7 @@ namespace {
 void read(std::string_view file) {
   const auto learned = storage::decode(file);
   if (!learned) {
-    fuzz::require(!learned.error().empty(), "what is refused is refused with a reason");
+    fuzz::require(!learned.error().text().empty(), "what is refused is refused with a reason");
     return;
   }
   fuzz::require(!board::check(*learned), "what is accepted is in range");

@@ -24,14 +24,14 @@ namespace {
 config::BoardConfig described_board(const HeldOut& muscle, const std::string& controller) {
   using operating::Asked;
   auto described = operating::describe_muscle(muscle.answers);
-  if (!described) throw std::runtime_error(described.error());
+  if (!described) throw std::runtime_error(described.error().text());
   std::vector<operating::Entry>& entries = described->entries;
   entries.insert(entries.end(), muscle.board.begin(), muscle.board.end());
   std::string text = held_out_board(muscle.answers.of(Asked::cold_resistance_Ohm),
                                     muscle.answers.of(Asked::max_W));
   for (const operating::Entry& entry : entries) {
     auto changed = config::with_value(text, "channel", 0, entry.path, entry.literal);
-    if (!changed) throw std::runtime_error(changed.error());
+    if (!changed) throw std::runtime_error(changed.error().text());
     text = std::move(*changed);
   }
   text = config::with_value(text, "channel", 0, "controller.kind", '"' + controller + '"').value();
@@ -48,7 +48,7 @@ host_sim::Scenario scenario_of(const HeldOut& muscle, const config::BoardConfig&
   compared.has_muscle = false;
   compared.senses = {1.0, 1.0, sense_error_ratio, 1.0};
   if (const auto used = host_sim::use_board(*scenario, config, 0, {compared}); !used)
-    throw std::runtime_error(used.error());
+    throw std::runtime_error(used.error().text());
   return std::move(*scenario);
 }
 
@@ -76,7 +76,7 @@ class MeterReader final : public operating::Operator {
   bool interrupted() const override { return false; }
   OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
     if (question.key == "supply_V") return supply_V;
-    if (question.key != "current_A") return tl::unexpected<std::string>("nobody answers");
+    if (question.key != "current_A") return failure("nobody answers");
     currents_A_.push_back(link_.metered_W() / supply_V);
     return currents_A_.back();
   }
@@ -102,17 +102,17 @@ Commissioned commission(HeldOutBoard& board, operating::Operator& who, Steps ans
     return c;
   };
   if (answered == Steps::all) {
-    if (const auto done = steps.compare_senses(); !done) return conclude(done.error());
+    if (const auto done = steps.compare_senses(); !done) return conclude(done.error().text());
   }
-  if (const auto done = steps.calibrate(); !done) return conclude(done.error());
+  if (const auto done = steps.calibrate(); !done) return conclude(done.error().text());
   c.calibrated_s = link.time_s();
-  if (const auto done = steps.identify(); !done) return conclude(done.error());
+  if (const auto done = steps.identify(); !done) return conclude(done.error().text());
   c.identified_s = link.time_s();
   if (answered != Steps::without_answers) {
-    if (const auto done = steps.gains(); !done) return conclude(done.error());
+    if (const auto done = steps.gains(); !done) return conclude(done.error().text());
   }
   const auto moved = steps.move();
-  if (!moved) return conclude(moved.error());
+  if (!moved) return conclude(moved.error().text());
   c.promised_m = moved->value("promised_m", NAN);
   c.probe_m = moved->value("probe_m", NAN);
   c.pwm_m = moved->value("pwm_m", NAN);

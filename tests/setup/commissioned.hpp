@@ -20,7 +20,7 @@ class Nobody final : public operating::Operator {
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
   OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
-    return tl::unexpected("asked: " + std::string(question.key));
+    return failure("asked: " + std::string(question.key));
   }
 };
 

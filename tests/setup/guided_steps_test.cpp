@@ -40,11 +40,11 @@ class Person final : public operating::Operator {
       link_.wait(look_every);
     }
     if (question.key == "take_gains") {
-      if (tired) return tl::unexpected<std::string>("interrupted");
+      if (tired) return failure("interrupted");
       return gains;
     }
     if (question.key == "reset_fault")
-      return std::isnan(resets) ? OrWhy(tl::unexpected<std::string>("nobody answers")) : resets;
+      return std::isnan(resets) ? OrWhy(failure("nobody answers")) : resets;
     if (question.key == "supply_V") return supply_V;
     if (question.key == "place_mm") return place_mm;
     const double slip = currents_read_++ == 1 ? second_reading_ratio : 1.0;
@@ -109,7 +109,7 @@ Person person(board.link());
 change(person);
 const auto found = board.steps(person).compare_senses();
 CHECK_FALSE(found.has_value());
-STRCMP_CONTAINS(why, found.error().c_str());
+STRCMP_CONTAINS(why, found.error().text().c_str());
 CHECK_FALSE(board.link().senses("1")->compared());
 STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
 return board.link().time_s();
@@ -121,7 +121,7 @@ TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   Person person(board.link());
   const auto found = board.steps(person).compare_senses();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
   DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
   CHECK((*found)["error_ratio"].get<double>() < 0.06);
@@ -139,7 +139,7 @@ TEST(GuidedSteps, AScriptTellsWhatTheMeterShowsAtBothPowers) {
       0.8 * operating::plan_comparison("1", board.channel(), board.settings()).power_W;
   Listener who(meter_readings(power_W));
   const auto found = board.steps(who).compare_senses();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(power_W, (*found)["power_W"].get<double>(), 0.0);
   DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
   DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
@@ -153,7 +153,7 @@ TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
     const auto found = board.steps(who).compare_senses();
     CHECK_FALSE(found.has_value());
     STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
-    return found.error();
+    return found.error().text();
   };
   STRCMP_CONTAINS("answers.toml: senses.power_W = ", refused(meter_readings(1.2 * most_W)).c_str());
   const std::string most = " to " + operating::range_text({0.0, most_W}).substr(5) + " here";
@@ -173,7 +173,7 @@ TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
     STRCMP_CONTAINS(
         "fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil "
         "command 1 reset",
-        found.error().c_str());
+        found.error().text().c_str());
   }
   STRCMP_EQUAL("ok", board.link().ask("1 reset")->c_str());
   CHECK(board.steps(person).calibrate().has_value());
@@ -188,7 +188,7 @@ TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
   person.resets = 0.0;
   const auto left = board.steps(person).calibrate();
   CHECK_FALSE(left.has_value());
-  STRCMP_CONTAINS("cannot be armed: fault command_timeout", left.error().c_str());
+  STRCMP_CONTAINS("cannot be armed: fault command_timeout", left.error().text().c_str());
   STRCMP_EQUAL("command_timeout", board.link().status("1")->fault.c_str());
   person.resets = 1.0;
   CHECK(board.steps(person).calibrate().has_value());
@@ -231,7 +231,7 @@ TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {
   CHECK(shown_m > 1e-4);
   person.place_mm = 1e3 * 1.1 * shown_m;
   const auto found = steps.scale();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
   STRCMP_CONTAINS("scale of the position: ", person.told().c_str());
 }
@@ -244,12 +244,12 @@ TEST(GuidedSteps, AScriptTellsWhereTheEndIsHeld) {
   CHECK(board.steps(who).calibrate().has_value());
   board.link().wait(std::chrono::seconds(120));
   STRCMP_CONTAINS("answers.toml: scale.place_mm = 1000000: must be ",
-                  board.steps(who).scale().error().c_str());
+                  board.steps(who).scale().error().text().c_str());
   const double shown_m = board.simulation().loop().channel(0).snapshot().position_m;
   script.add("scale", "place_mm", {1e3 * 1.1 * shown_m});
   Listener again(script);
   const auto found = board.steps(again).scale();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
 }
 
@@ -259,7 +259,8 @@ TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
   person.place_mm = 5.0;  // the muscle rests at its zero
   const auto found = board.steps(person).scale();
   CHECK(!found);
-  STRCMP_CONTAINS("scale 0.005: refused: out_of_range; the sensor shows ", found.error().c_str());
+  STRCMP_CONTAINS("scale 0.005: refused: out_of_range; the sensor shows ",
+                  found.error().text().c_str());
 }
 
 TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
@@ -270,7 +271,7 @@ TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
   CHECK(steps.calibrate().has_value());
   CHECK(steps.identify().has_value());
   const auto found = steps.gains();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   CHECK((*found)["taken"].get<bool>());
   CHECK((*found)["in_use_promised_m"].is_null());
   const double bandwidth = (*found)["recommended_bandwidth_rad_per_s"];
@@ -292,7 +293,7 @@ TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
   STRCMP_CONTAINS("no parameter is off by more than", person.told().c_str());
   const double begin_s = board.link().time_s();
   const auto moved = steps.move();
-  STRCMP_EQUAL("", moved ? "" : moved.error().c_str());
+  STRCMP_EQUAL("", moved ? "" : moved.error().text().c_str());
   DOUBLES_EQUAL((*found)["recommended_promised_m"].get<double>(), moved->value("promised_m", NAN),
                 1e-12);
   CHECK(moved->value("kept", false));
@@ -307,11 +308,11 @@ TEST(GuidedSteps, AControllerThatIsKeptStaysAsItIs) {
   Person person(board.link());
   person.gains = 0.0;
   const auto found = board.steps(person).gains();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   CHECK_FALSE((*found)["taken"].get<bool>());
   STRCMP_CONTAINS("kept as it is", person.told().c_str());
   person.tired = true;
-  STRCMP_EQUAL("interrupted", board.steps(person).gains().error().c_str());
+  STRCMP_EQUAL("interrupted", board.steps(person).gains().error().text().c_str());
   for (const TuningSet set : {TuningSet::in_use, TuningSet::stored})
     DOUBLES_EQUAL(adaptive_ff, tuned(board, "kind", set), 0.0);
 }
@@ -320,7 +321,7 @@ TEST(GuidedSteps, NobodyIsAskedAboutAControllerThatSuitsAlready) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   Person person(board.link());
   const auto found = board.steps(person).gains();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   CHECK_FALSE((*found)["taken"].get<bool>());
   LONGS_EQUAL(0, person.asked);
   STRCMP_CONTAINS("it is in use already", person.told().c_str());

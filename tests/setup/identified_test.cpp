@@ -143,7 +143,7 @@ TEST(Identified, ABoardThatIdentifiedTellsItOfItself) {
   operating::Commission steps = board.steps(listener);
   CHECK(steps.calibrate().has_value());
   const auto found = steps.identify();
-  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   STRCMP_CONTAINS(" ± ", listener.take().c_str());
   for (const char* name : {"time_constant", "gain"}) {
     const double ratio = (*found)[std::string(name) + "_deviation_ratio"];

@@ -46,7 +46,7 @@ host_sim::Scenario scenario_on(const config::BoardConfig& config) {
       "joint.toml");
   if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
   const auto used = host_sim::use_board(*scenario, config, 0);
-  if (!used) FAIL(used.error().c_str());
+  if (!used) FAIL(used.error().text().c_str());
   return std::move(*scenario);
 }
 
@@ -92,7 +92,7 @@ TEST(JointSteps, WhoeverIsArmedWaitsForTheSlowerMuscle) {
     const std::string quick = slow == 0 ? "2" : "1";
     operating::Commission of_quick{slow_link, quick, *slow_scenario.board, 1 - slow, listener};
     const auto calibrated = of_quick.calibrate();
-    CHECK_TEXT(calibrated.has_value(), calibrated ? "" : calibrated.error().c_str());
+    CHECK_TEXT(calibrated.has_value(), calibrated ? "" : calibrated.error().text().c_str());
     CHECK_COMPARE(slow_link.time_s(), >, 60.0);
   }
 }

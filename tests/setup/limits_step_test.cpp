@@ -82,7 +82,7 @@ TEST_GROUP(LimitsStep) {
 
 TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.002);
-  STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+  STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
   CHECK(limit_m(limits) < board->channel().supervision.max_travel_m);
   STRCMP_CONTAINS("pulls with a power that rises to ", watcher->told.c_str());
@@ -98,7 +98,7 @@ TEST(LimitsStep, AScriptLetsGoWhereItSays) {
   script.add("limits", "stop_mm", {2.0});
   Listener who(script);
   const auto limits = board->steps(who).limits();
-  STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+  STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
   const std::string told = who.take();
   STRCMP_CONTAINS("lets go where the script says, when its end rises no more, at ", told.c_str());
@@ -114,8 +114,8 @@ TEST(LimitsStep, AScriptedPlaceThatIsNoneIsRefusedBeforeItPulls) {
     Listener who(script);
     const auto limits = board->steps(who).limits();
     CHECK_FALSE(limits.has_value());
-    STRCMP_CONTAINS("answers.toml: limits.stop_mm = ", limits.error().c_str());
-    STRCMP_CONTAINS(": must be 1.51 to ", limits.error().c_str());
+    STRCMP_CONTAINS("answers.toml: limits.stop_mm = ", limits.error().text().c_str());
+    STRCMP_CONTAINS(": must be 1.51 to ", limits.error().text().c_str());
   }
   CHECK(board->simulation().plant().temperature_rise_K() < 0.5);
 }
@@ -132,7 +132,7 @@ TEST(LimitsStep, ABoardThatWasNeverCalibratedIsSaid) {
 TEST(LimitsStep, AMuscleThatTouchesSomethingIsLetGoByItself) {
   for (const unsigned seed : {24U, 37U, 66U, 45U, 73U}) {
     const auto limits = found(muscle_with(seed, "ceiling_m = 0.002"), INFINITY);
-    STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+    STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
     STRCMP_CONTAINS("it seems to touch something at ", watcher->told.c_str());
     DOUBLES_EQUAL(0.0015, limit_m(limits), 1e-4);
   }
@@ -143,7 +143,7 @@ TEST(LimitsStep, NothingIsTouchedByAMuscleThatSlowsDownOnItsWay) {
   for (const HeldOut& muscle : {cooled_better_when_hot, held_out_muscle(37, 0.3),
                                 held_out_muscle(45, 0.3), held_out_muscle(73, 0.3)}) {
     const auto limits = found(muscle, INFINITY);
-    STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+    STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
     CHECK_FALSE(limits->contains(travel_key));
     STRCMP_CONTAINS("touched nothing: the limit stays", watcher->told.c_str());
   }
@@ -152,7 +152,8 @@ TEST(LimitsStep, NothingIsTouchedByAMuscleThatSlowsDownOnItsWay) {
 TEST(LimitsStep, APlaceThatLeavesNoTravelIsRefused) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.0012);
   CHECK_FALSE(limits.has_value());
-  STRCMP_CONTAINS("leaves no travel, less than 1 mm; nothing changed", limits.error().c_str());
+  STRCMP_CONTAINS("leaves no travel, less than 1 mm; nothing changed",
+                  limits.error().text().c_str());
 }
 
 TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
@@ -165,7 +166,7 @@ TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
 class DeafLink final : public SimulatedLink {
  public:
   using SimulatedLink::SimulatedLink;
-  tl::expected<double, std::string> position_m(const std::string&) override { return NAN; }
+  Result<double> position_m(const std::string&) override { return NAN; }
 };
 
 TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
@@ -177,7 +178,7 @@ TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
   const auto limits = steps.limits();
   CHECK_FALSE(limits.has_value());
   STRCMP_EQUAL("answered before the board told a position; nothing changed",
-               limits.error().c_str());
+               limits.error().text().c_str());
   watcher->answer = 0.0;
   const auto left = steps.limits();
   CHECK(left.has_value() && left->at("position_m").is_null() && !left->contains(travel_key));
@@ -191,7 +192,7 @@ TEST(LimitsStep, AnInterruptionEndsTheHeating) {
   watcher->tired_at_m = 0.002;
   const auto limits = ended();
   CHECK_FALSE(limits.has_value());
-  STRCMP_CONTAINS("interrupted", limits.error().c_str());
+  STRCMP_CONTAINS("interrupted", limits.error().text().c_str());
   board->link().wait(std::chrono::seconds(1));
   CHECK(watcher->truth_m() < 0.0019);
 }

@@ -35,7 +35,7 @@ host_sim::Scenario scenario_of(const config::BoardConfig& config, const std::str
       "simulation.duration_s = 1e5\noperator.action = 'none'\n" + plant, "scenario.toml");
   if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
   const auto used = host_sim::use_board(*scenario, config, 0);
-  if (!used) FAIL(used.error().c_str());
+  if (!used) FAIL(used.error().text().c_str());
   return std::move(*scenario);
 }
 

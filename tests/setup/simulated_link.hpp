@@ -19,7 +19,7 @@ class SimulatedLink : public operating::BoardLink {
 
   Answer ask(const std::string& line) override {
     const auto command = parse_command(line, simulation_.loop().channels());
-    if (!command) return "wrong: " + command.error();
+    if (!command) return "wrong: " + command.error().text();
     const supercoil::Answer answer =
         simulation_.command(command->verb, command->value, command->channel);
     watch();
@@ -27,27 +27,27 @@ class SimulatedLink : public operating::BoardLink {
   }
   Answer state() override { return std::string(); }
   Answer state_json() override { return std::string(); }
-  tl::expected<Status, std::string> status(const std::string& channel) override {
+  Result<Status> status(const std::string& channel) override {
     const Snapshot& s = at(channel).snapshot();
     return Status{std::string(name(s.state)),
                   std::string(s.fault == Fault::none ? "none" : name(s.fault)), s.probing};
   }
-  tl::expected<Ending, std::string> ending(const std::string& channel) override {
+  Result<Ending> ending(const std::string& channel) override {
     const Snapshot& s = at(channel).snapshot();
     return Ending{std::string(mode_result_names.at(static_cast<std::size_t>(s.result))),
                   describe_notes(s.identify_notes, ",")};
   }
-  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override {
+  Result<board::SenseComparison> senses(const std::string& channel) override {
     return at(channel).senses();
   }
-  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override {
+  Result<KnownMuscle> muscle(const std::string& channel) override {
     KnownMuscle known;
     for (std::size_t i = 0; i < known.size(); ++i)
       known[i] = at(channel).known(i);
     return known;
   }
-  tl::expected<double, std::string> tuning(const std::string& channel, int place,
-                                           std::size_t tunable, TuningSet set) override {
+  Result<double> tuning(const std::string& channel, int place, std::size_t tunable,
+                        TuningSet set) override {
     return at(channel).tuner().value(set, static_cast<std::size_t>(place), tunable);
   }
   Answer prepare(const std::string& channel, int place, const std::string& name,
@@ -61,13 +61,13 @@ class SimulatedLink : public operating::BoardLink {
     const Reply reply = tuner.prepare(at, control::tunable_named(name), std::stod(value));
     return answer_text(reply.refusal, reply.nearest);
   }
-  tl::expected<double, std::string> progress(const std::string& channel) override {
+  Result<double> progress(const std::string& channel) override {
     return static_cast<double>(at(channel).snapshot().progress);
   }
-  tl::expected<double, std::string> position_m(const std::string& channel) override {
+  Result<double> position_m(const std::string& channel) override {
     return static_cast<double>(at(channel).snapshot().position_m);
   }
-  tl::expected<double, std::string> error_m(const std::string& channel) override {
+  Result<double> error_m(const std::string& channel) override {
     const Snapshot& s = at(channel).snapshot();
     return s.mode == Mode::position ? s.position_m - s.model_m : NAN;
   }

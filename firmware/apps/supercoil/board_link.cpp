@@ -7,7 +7,7 @@ namespace supercoil::operating {
 namespace {
 
 /// As in a line; empty: the channel is no agonist of a joint.
-tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
+Result<std::string> antagonist_of(BoardLink& board, const std::string& channel) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
   const PlaceInJoint joint = told_joint(*known);
@@ -33,7 +33,7 @@ BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
     if (now->state == name(State::armed) && !now->probing) return answer;
     board.wait(std::chrono::milliseconds(50));
   }
-  return tl::unexpected<std::string>("its heater is still being measured after 2 s");
+  return failure("its heater is still being measured after 2 s");
 }
 
 std::string present_fault(BoardLink& board, const std::string& channel) {
@@ -56,8 +56,7 @@ BoardLink::Answer interruption(BoardLink& board, const std::string& channel) {
   });
 }
 
-tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,
-                                                              const std::string& channel) {
+Result<std::vector<ChannelEnding>> endings(BoardLink& board, const std::string& channel) {
   auto ending = board.ending(channel);
   // What is known of the board's state may be a moment older than its refusal.
   for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
@@ -76,8 +75,7 @@ tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,
   return told;
 }
 
-tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
-                                                                const std::string& socket) {
+Result<std::unique_ptr<BoardLink>> open_link(const std::string& can, const std::string& socket) {
   if (!can.empty()) return std::make_unique<CanBoardLink>(can);
   auto opened = BoardSocket::open(socket);
   if (!opened) return tl::unexpected(opened.error());

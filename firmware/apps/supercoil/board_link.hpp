@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_socket.hpp"
 #include "apps/supercoil/bus/commander.hpp"
@@ -23,7 +23,7 @@ namespace supercoil::operating {
 
 class BoardLink {
  public:
-  using Answer = tl::expected<std::string, std::string>;
+  using Answer = Result<std::string>;
 
   BoardLink() = default;
   BoardLink(const BoardLink&) = delete;
@@ -44,30 +44,30 @@ class BoardLink {
     std::string fault;     ///< "none", or its first cause
     bool probing = false;  ///< its heater is being measured
   };
-  virtual tl::expected<Status, std::string> status(const std::string& channel) = 0;
+  virtual Result<Status> status(const std::string& channel) = 0;
   /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
   struct Ending {
     std::string result;
     std::string notes;  ///< "theta2_uncertain,poor_fit"; empty: none
   };
   /// channel: as in a line.
-  virtual tl::expected<Ending, std::string> ending(const std::string& channel) = 0;
+  virtual Result<Ending> ending(const std::string& channel) = 0;
   /// What a comparison with a meter found; without its date. channel: as in a line.
-  virtual tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) = 0;
+  virtual Result<board::SenseComparison> senses(const std::string& channel) = 0;
   /// What the board goes by, in the order of known_quantities. channel: as in a line.
-  virtual tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) = 0;
+  virtual Result<KnownMuscle> muscle(const std::string& channel) = 0;
   /// One value of a controller; NaN: it has none. channel: as in a line.
-  virtual tl::expected<double, std::string> tuning(const std::string& channel, int place,
-                                                   std::size_t tunable, TuningSet set) = 0;
+  virtual Result<double> tuning(const std::string& channel, int place, std::size_t tunable,
+                                TuningSet set) = 0;
   /// Prepares one value, or all of a set: then name is "all" and value the set's. As ask().
   virtual Answer prepare(const std::string& channel, int place, const std::string& name,
                          const std::string& value) = 0;
   /// Position less reference model, the newest; NaN while no position is followed.
-  virtual tl::expected<double, std::string> error_m(const std::string& channel) = 0;
+  virtual Result<double> error_m(const std::string& channel) = 0;
   /// From rest, the newest; NaN: the sensor tells nothing.
-  virtual tl::expected<double, std::string> position_m(const std::string& channel) = 0;
+  virtual Result<double> position_m(const std::string& channel) = 0;
   /// Of identify or calibrate, 0 to 1, the newest; NaN while it is not known.
-  virtual tl::expected<double, std::string> progress(const std::string& channel) = 0;
+  virtual Result<double> progress(const std::string& channel) = 0;
   /// Lets the board go on.
   virtual void wait(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
   /// From whenever; grows as the board's time does.
@@ -85,17 +85,17 @@ class LocalBoardLink final : public BoardLink {
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
   Answer state_json() override;
-  tl::expected<Status, std::string> status(const std::string& channel) override;
-  tl::expected<Ending, std::string> ending(const std::string& channel) override;
-  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
-  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
-  tl::expected<double, std::string> tuning(const std::string& channel, int place,
-                                           std::size_t tunable, TuningSet set) override;
+  Result<Status> status(const std::string& channel) override;
+  Result<Ending> ending(const std::string& channel) override;
+  Result<board::SenseComparison> senses(const std::string& channel) override;
+  Result<KnownMuscle> muscle(const std::string& channel) override;
+  Result<double> tuning(const std::string& channel, int place, std::size_t tunable,
+                        TuningSet set) override;
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
-  tl::expected<double, std::string> error_m(const std::string& channel) override;
-  tl::expected<double, std::string> position_m(const std::string& channel) override;
-  tl::expected<double, std::string> progress(const std::string& channel) override;
+  Result<double> error_m(const std::string& channel) override;
+  Result<double> position_m(const std::string& channel) override;
+  Result<double> progress(const std::string& channel) override;
 
  private:
   /// The line of a channel in the answer for all.
@@ -116,18 +116,18 @@ class CanBoardLink final : public BoardLink {
   Answer state() override;
   Answer state_json() override;
   /// From the next heartbeat.
-  tl::expected<Status, std::string> status(const std::string& channel) override;
+  Result<Status> status(const std::string& channel) override;
   /// From the next heartbeat; notes from the next estimates, if the board sends any.
-  tl::expected<Ending, std::string> ending(const std::string& channel) override;
-  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
-  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
-  tl::expected<double, std::string> tuning(const std::string& channel, int place,
-                                           std::size_t tunable, TuningSet set) override;
+  Result<Ending> ending(const std::string& channel) override;
+  Result<board::SenseComparison> senses(const std::string& channel) override;
+  Result<KnownMuscle> muscle(const std::string& channel) override;
+  Result<double> tuning(const std::string& channel, int place, std::size_t tunable,
+                        TuningSet set) override;
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
-  tl::expected<double, std::string> error_m(const std::string& channel) override;
-  tl::expected<double, std::string> position_m(const std::string& channel) override;
-  tl::expected<double, std::string> progress(const std::string& channel) override;
+  Result<double> error_m(const std::string& channel) override;
+  Result<double> position_m(const std::string& channel) override;
+  Result<double> progress(const std::string& channel) override;
 
  private:
   /// What a node tells by itself, the newest.
@@ -137,8 +137,8 @@ class CanBoardLink final : public BoardLink {
     double position_m = NAN;
     double progress = NAN;
   };
-  tl::expected<Told*, std::string> listen(const std::string& channel);
-  tl::expected<Commander*, std::string> commander(std::uint8_t node);
+  Result<Told*> listen(const std::string& channel);
+  Result<Commander*> commander(std::uint8_t node);
   /// The kinds of the controllers that are at work, by their nodes; without those that do not tell.
   std::map<int, std::string> laws(const FrameHistory& frame_history);
   /// What is told of what is heard meanwhile.
@@ -170,11 +170,9 @@ struct ChannelEnding {
 };
 /// How identify or calibrate of a channel ended, once the board tells it. Both go on with the
 /// antagonist where the channel is the agonist of a joint: that is then the second one.
-tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,
-                                                              const std::string& channel);
+Result<std::vector<ChannelEnding>> endings(BoardLink& board, const std::string& channel);
 
 /// can: a bus by its name; empty: the supercoild that listens at this socket.
-tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
-                                                                const std::string& socket);
+Result<std::unique_ptr<BoardLink>> open_link(const std::string& can, const std::string& socket);
 
 }  // namespace supercoil::operating

@@ -32,20 +32,20 @@ std::string reason() {
 
 }  // namespace
 
-tl::expected<BoardSocket, std::string> BoardSocket::open(const std::string& path) {
+Result<BoardSocket> BoardSocket::open(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof(address.sun_path)) {
-    return tl::unexpected(path + ": the name of a socket is shorter");
+    return failure(path + ": the name of a socket is shorter");
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   BoardSocket socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (socket.file_ < 0) return tl::unexpected("no socket: " + reason());
+  if (socket.file_ < 0) return failure("no socket: " + reason());
   const timeval patience{max_answer_s, 0};
   ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const bool nobody = errno == ENOENT || errno == ECONNREFUSED;
-    return tl::unexpected(path + ": " + reason() + (nobody ? "; does supercoild run?" : ""));
+    return failure(path + ": " + reason() + (nobody ? "; does supercoild run?" : ""));
   }
   return socket;
 }
@@ -54,19 +54,19 @@ BoardSocket::~BoardSocket() {
   if (file_ >= 0) ::close(file_);
 }
 
-tl::expected<std::string, std::string> BoardSocket::ask(const std::string& line) const {
+Result<std::string> BoardSocket::ask(const std::string& line) const {
   const auto sent =
       uninterrupted([&] { return ::send(file_, line.data(), line.size(), MSG_NOSIGNAL); });
   // Who was turned away is told why before the connection ends: that end shows first.
-  if (sent < 0 && errno != EPIPE) return tl::unexpected("supercoild does not listen: " + reason());
+  if (sent < 0 && errno != EPIPE) return failure("supercoild does not listen: " + reason());
   std::array<char, max_answer> answer{};
   const auto receive = [&] {
     return uninterrupted([&] { return ::recv(file_, answer.data(), answer.size(), 0); });
   };
   ssize_t size = receive();
   if (size < 0 && errno == ECONNRESET) size = receive();
-  if (size == 0) return tl::unexpected(std::string("supercoild has ended"));
-  if (size < 0) return tl::unexpected("supercoild does not answer: " + reason());
+  if (size == 0) return failure("supercoild has ended");
+  if (size < 0) return failure("supercoild does not answer: " + reason());
   return std::string(answer.data(), static_cast<std::size_t>(size));
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::operating {
 
@@ -19,7 +19,7 @@ inline std::string socket_words(const std::string& path) {
 /// The socket for local commands (docs/running.md). Move-only.
 class BoardSocket {
  public:
-  static tl::expected<BoardSocket, std::string> open(const std::string& path);
+  static Result<BoardSocket> open(const std::string& path);
   BoardSocket(BoardSocket&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   BoardSocket& operator=(BoardSocket&&) = delete;
   BoardSocket(const BoardSocket&) = delete;
@@ -27,7 +27,7 @@ class BoardSocket {
   ~BoardSocket();
 
   /// One line there, one answer back, within 2 s.
-  tl::expected<std::string, std::string> ask(const std::string& line) const;
+  Result<std::string> ask(const std::string& line) const;
 
  private:
   explicit BoardSocket(int file) : file_(file) {}

@@ -27,7 +27,7 @@ CanBoardLink::~CanBoardLink() {
 
 BoardLink::Answer CanBoardLink::ask(const std::string& line) {
   const auto command = parse_command(line, can::max_nodes);
-  if (!command) return command.error();
+  if (!command) return command.error().text();
   const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
   if (!node) return tl::unexpected(node.error());
   const auto answer = (*node)->ask(command->verb, command->value);
@@ -35,7 +35,7 @@ BoardLink::Answer CanBoardLink::ask(const std::string& line) {
   return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
 }
 
-tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
+Result<Commander*> CanBoardLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
     auto bus = open_bus(bus_, can_client::answer_ids(node));
     if (!bus) return tl::unexpected(bus.error());
@@ -44,7 +44,7 @@ tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node)
   return nodes_.at(node).get();
 }
 
-tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std::string& channel) {
+Result<board::SenseComparison> CanBoardLink::senses(const std::string& channel) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
   board::SenseComparison senses;
@@ -59,14 +59,14 @@ tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std
   return senses;
 }
 
-tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& channel) {
+Result<KnownMuscle> CanBoardLink::muscle(const std::string& channel) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
   return (*node)->muscle();
 }
 
-tl::expected<double, std::string> CanBoardLink::tuning(const std::string& channel, int place,
-                                                       std::size_t tunable, TuningSet set) {
+Result<double> CanBoardLink::tuning(const std::string& channel, int place, std::size_t tunable,
+                                    TuningSet set) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
   const auto heard = (*node)->read_tuning(
@@ -93,7 +93,7 @@ BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
 }
 
 /// Without waiting.
-tl::expected<CanBoardLink::Told*, std::string> CanBoardLink::listen(const std::string& channel) {
+Result<CanBoardLink::Told*> CanBoardLink::listen(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   Told& told = told_[node];
   if (!told.bus) {
@@ -111,15 +111,15 @@ tl::expected<CanBoardLink::Told*, std::string> CanBoardLink::listen(const std::s
   return &told;
 }
 
-tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
+Result<double> CanBoardLink::error_m(const std::string& channel) {
   return listen(channel).map([](const Told* told) { return told->error_m; });
 }
 
-tl::expected<double, std::string> CanBoardLink::position_m(const std::string& channel) {
+Result<double> CanBoardLink::position_m(const std::string& channel) {
   return listen(channel).map([](const Told* told) { return told->position_m; });
 }
 
-tl::expected<double, std::string> CanBoardLink::progress(const std::string& channel) {
+Result<double> CanBoardLink::progress(const std::string& channel) {
   return listen(channel).map([](const Told* told) { return told->progress; });
 }
 
@@ -164,7 +164,7 @@ BoardLink::Answer CanBoardLink::state_json() {
   });
 }
 
-tl::expected<BoardLink::Status, std::string> CanBoardLink::status(const std::string& channel) {
+Result<BoardLink::Status> CanBoardLink::status(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   auto bus = open_bus(bus_, {can_client::status_id(node)});
   if (!bus) return tl::unexpected(bus.error());
@@ -182,10 +182,10 @@ tl::expected<BoardLink::Status, std::string> CanBoardLink::status(const std::str
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return tl::unexpected("no heartbeat of node " + channel + " within 1.5 s");
+  return failure("no heartbeat of node " + channel + " within 1.5 s");
 }
 
-tl::expected<BoardLink::Ending, std::string> CanBoardLink::ending(const std::string& channel) {
+Result<BoardLink::Ending> CanBoardLink::ending(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
   if (!bus) return tl::unexpected(bus.error());
@@ -210,7 +210,7 @@ tl::expected<BoardLink::Ending, std::string> CanBoardLink::ending(const std::str
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (!result) return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+  if (!result) return failure("no heartbeat of node " + channel + " within 1 s");
   return Ending{*result, notes.value_or("")};
 }
 

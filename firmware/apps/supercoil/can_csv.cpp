@@ -70,9 +70,8 @@ bool is_wanted(const CanSelection& selection, const Decoded& decoded, double tim
          (selection.message.empty() || selection.message == decoded.message->name);
 }
 
-tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFrame>& frames,
-                                                  const CanSelection& selection,
-                                                  const recorder::Sink& write) {
+Result<std::size_t> can_to_csv(const std::vector<hal::CanFrame>& frames,
+                               const CanSelection& selection, const recorder::Sink& write) {
   const auto add = selection.message.empty() ? add_values : add_row;
   std::string csv = header(selection);
   std::size_t rows = 0;

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 #include "can/codec.hpp"
 #include "recorder/recording.hpp"
@@ -27,8 +26,7 @@ bool is_wanted(const CanSelection& selection, const can::Decoded& decoded, doubl
 /// available has none. Of one message: a row a frame, a column a signal; what is not available is
 /// empty. Values with names are written by name. The message must be one of the protocol's. Returns
 /// how many rows it wrote; the error is the writer's.
-tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFrame>& frames,
-                                                  const CanSelection& selection,
-                                                  const recorder::Sink& write);
+Result<std::size_t> can_to_csv(const std::vector<hal::CanFrame>& frames,
+                               const CanSelection& selection, const recorder::Sink& write);
 
 }  // namespace supercoil::operating

@@ -41,7 +41,7 @@ int can_log_command(const LogOptions& options) {
   if (!(options.from_s <= options.to_s))
     return fail(exit_wrong_input, "--from must not be later than --to");
   const auto log = read_can_log(options.file);
-  if (!log) return fail(exit_wrong_input, log.error());
+  if (!log) return fail(exit_wrong_input, log.error().text());
   if (log->damaged_lines > 0) {
     std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
                  log->damaged_lines);

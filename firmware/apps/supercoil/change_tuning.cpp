@@ -17,7 +17,7 @@ constexpr int all_digits = 17;
 TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer) {
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  return tl::unexpected(what + ": " + told_answer(what, *answer));
+  return failure(what + ": " + told_answer(what, *answer));
 }
 
 /// Of a value that was refused without a nearest one: a kind that does not have it, as far as the
@@ -47,7 +47,7 @@ TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int plac
     const auto answer = board.prepare(channel, place, name, value);
     if (answer && *answer == answer_text(Refusal::out_of_range, NAN)) {
       if (const std::string why = why_not(board, channel, place, one); !why.empty())
-        return tl::unexpected(why);
+        return failure(why);
     }
     if (auto done = done_or_why(std::string(name).append(" = ").append(value), answer); !done)
       return done;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_link.hpp"
 
@@ -17,7 +17,7 @@ struct TuningChange {
 };
 
 /// The error: what was refused, and why.
-using TuningDone = tl::expected<void, std::string>;
+using TuningDone = Result<void>;
 
 /// from: the set that is changed, of tuning_set_names. changes: in the order of
 /// control::tunables().

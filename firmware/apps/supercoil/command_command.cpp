@@ -94,12 +94,13 @@ int concluded(const CommandOptions& options, const std::string& line,
               const BoardLink::Answer& answer, const std::string& range = "") {
   if (options.json) {
     nlohmann::ordered_json told{{"command", line}};
-    told[answer && is_answer(*answer) ? "answer" : "error"] = answer ? *answer : answer.error();
+    told[answer && is_answer(*answer) ? "answer" : "error"] =
+        answer ? *answer : answer.error().text();
     if (!range.empty()) told["range"] = range.substr(range.find_first_not_of("; "));
     std::printf("%s\n", told.dump().c_str());
   }
   return answer ? judged(line, with_degrees(options, *answer) + range)
-                : fail(exit_failed, answer.error());
+                : fail(exit_failed, answer.error().text());
 }
 
 /// A command that is held is refused, as its channel may not heat, or not any more: by which fault.
@@ -222,7 +223,7 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
 int ended(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
   if (!has_result(options)) return exit_done;
   const auto all = endings(board, options.words[0]);
-  if (!all) return refused(options, exit_failed, all.error());
+  if (!all) return refused(options, exit_failed, all.error().text());
   int status = exit_done;
   for (const ChannelEnding& each : *all)
     status = std::max(status, tell_ending(board, options, each, own));
@@ -272,7 +273,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
 
 int tell_state(BoardLink& board, const CommandOptions& options) {
   const auto answer = options.json ? board.state_json() : board.state();
-  if (!answer) return refused(options, exit_failed, answer.error());
+  if (!answer) return refused(options, exit_failed, answer.error().text());
   std::fputs(answer->c_str(), stdout);
   return exit_done;
 }
@@ -282,7 +283,7 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
 int take_joint(BoardLink& board, CommandOptions& options) {
   if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
-  if (!muscle) return refused(options, exit_failed, muscle.error());
+  if (!muscle) return refused(options, exit_failed, muscle.error().text());
   options.joint = told_joint(*muscle);
   if (options.joint.direction == 0) {
     return refused(options, exit_wrong_input,
@@ -325,8 +326,7 @@ int take_place(BoardLink& board, CommandOptions& options) {
   const Tuned what = chooses_controller ? Tuned::controller : Tuned::estimator;
   const auto place = tunes ? find_any_place(words[2], ask) : find_place(what, words[2], ask);
   if (!place) {
-    const auto& [why, no_answer] = place.error();
-    return refused(options, no_answer ? exit_failed : exit_wrong_input, joined(words) + ": " + why);
+    return refused(options, exit_for(place.error()), joined(words) + ": " + place.error().text());
   }
   words[2] = std::to_string(*place);
   return exit_done;
@@ -345,7 +345,7 @@ int command_command(CommandOptions options) {
       return refused(options, exit_wrong_input, problem);
   }
   const auto board = open_link(options.can, options.socket);
-  if (!board) return refused(options, exit_failed, board.error());
+  if (!board) return refused(options, exit_failed, board.error().text());
   if (const int status = take_joint(**board, options); status != exit_done) return status;
   if (const int status = take_place(**board, options); status != exit_done) return status;
   options.hold_s = held_s(options);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/common/exit_status.hpp"
 #include "apps/supercoil/board_socket.hpp"
@@ -43,7 +43,7 @@ int log_command(const LogOptions& options);
 bool is_can_log(const std::string& path);
 int can_log_command(const LogOptions& options);
 /// Writes it all to the sink, and says how much there was of whatever it counts.
-using Produce = std::function<tl::expected<std::size_t, std::string>(const recorder::Sink&)>;
+using Produce = std::function<Result<std::size_t>(const recorder::Sink&)>;
 /// Into a file, or with an empty path to standard output. Where there was nothing no file is left,
 /// and that is said.
 int write_output(const std::string& path, const std::string& nothing, const Produce& produce);

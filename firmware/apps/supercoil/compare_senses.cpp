@@ -33,14 +33,14 @@ std::string other_board(BoardLink& board, const DoctorOptions& options,
                         const config::BoardConfig& config, std::size_t place) {
   const auto others =
       differences_of_board(board, first_address(options, config), config.settings, place - 1);
-  if (!others) return others.error();
+  if (!others) return others.error().text();
   if (others->empty()) return {};
   return options.config + ": the board does not run with this file: " + *others +
          "; start the board with it, or name the file that it runs with: --config";
 }
 
-int concluded(const tl::expected<board::SenseComparison, std::string>& found,
-              const ComparisonPlan& plan, bool json, const std::string& bounds) {
+int concluded(const Result<board::SenseComparison>& found, const ComparisonPlan& plan, bool json,
+              const std::string& bounds) {
   if (json) {
     nlohmann::ordered_json told{{"channel", std::stoi(plan.channel)}, {"power_W", plan.power_W}};
     if (found) {
@@ -49,11 +49,11 @@ int concluded(const tl::expected<board::SenseComparison, std::string>& found,
       told["error_ratio"] = found->error_ratio;
       told["bounds"] = bounds;
     } else {
-      told["error"] = found.error();
+      told["error"] = found.error().text();
     }
     std::printf("%s\n", told.dump(2).c_str());
   }
-  if (!found) return fail(exit_failed, found.error());
+  if (!found) return fail(exit_failed, found.error().text());
   if (!json) {
     std::printf("%s\n%s\n", describe_comparison(*found).c_str(), bounds.c_str());
   }
@@ -83,7 +83,7 @@ int compare_senses(const DoctorOptions& options) {
   if (options.power_W > 0.0) plan.power_W = options.power_W;
   watch_for_interrupts();
   const auto board = open_link(options.can, options.socket);
-  if (!board) return refuse(options.json, exit_failed, board.error());
+  if (!board) return refuse(options.json, exit_failed, board.error().text());
   if (config) {
     if (const std::string why = other_board(**board, options, *config, place); !why.empty())
       return refuse(options.json, exit_failed, why);

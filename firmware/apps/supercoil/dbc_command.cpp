@@ -23,10 +23,10 @@ int dbc_command(const DbcOptions& options) {
   }
   storage::PosixFiles files;
   auto file = OutputFile::open(options.out, files);
-  if (!file) return fail(exit_wrong_input, file.error());
+  if (!file) return fail(exit_wrong_input, file.error().text());
   auto written = file->write(text);
   if (written) written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error());
+  return written ? exit_done : fail(exit_failed, written.error().text());
 }
 
 }  // namespace supercoil::operating

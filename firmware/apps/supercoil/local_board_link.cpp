@@ -16,11 +16,11 @@ namespace {
 
 using StateWords = std::array<std::string, state_words.size()>;
 
-tl::expected<StateWords, std::string> words_of(const std::string& line) {
+Result<StateWords> words_of(const std::string& line) {
   StateWords words;
   std::istringstream text(line);
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (!(text >> words[i]) && i < state_controller) return tl::unexpected("state: " + line);
+    if (!(text >> words[i]) && i < state_controller) return failure("state: " + line);
   }
   return words;
 }
@@ -34,7 +34,7 @@ BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std:
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with(channel + " ")) return line;
   }
-  return tl::unexpected("nothing is known of channel " + channel);
+  return failure("nothing is known of channel " + channel);
 }
 
 BoardLink::Answer LocalBoardLink::state_json() {
@@ -69,35 +69,34 @@ BoardLink::Answer LocalBoardLink::state_json() {
   return Json{{"channels", channels}}.dump() + "\n";
 }
 
-tl::expected<BoardLink::Status, std::string> LocalBoardLink::status(const std::string& channel) {
+Result<BoardLink::Status> LocalBoardLink::status(const std::string& channel) {
   const auto line = line_of("status", channel);
   if (!line) return tl::unexpected(line.error());
   Status status;
   std::string number, probing;
   if (!(std::istringstream(*line) >> number >> status.state >> status.fault >> probing))
-    return tl::unexpected("status: " + *line);
+    return failure("status: " + *line);
   status.probing = probing == "probing";
   return status;
 }
 
-tl::expected<BoardLink::Ending, std::string> LocalBoardLink::ending(const std::string& channel) {
+Result<BoardLink::Ending> LocalBoardLink::ending(const std::string& channel) {
   const auto words = line_of("state", channel).and_then(words_of);
   if (!words) return tl::unexpected(words.error());
   const std::string& notes = (*words)[state_notes];
   return Ending{(*words)[state_result], notes == "-" ? "" : notes};
 }
 
-tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
-    const std::string& channel) {
+Result<board::SenseComparison> LocalBoardLink::senses(const std::string& channel) {
   const auto line = line_of("senses", channel);
   if (!line) return tl::unexpected(line.error());
   board::SenseComparison senses;
   std::istringstream text(line->substr(channel.size()));
   if (text >> senses.supply_gain >> senses.current_gain >> senses.error_ratio) return senses;
-  return tl::unexpected("senses: " + *line);
+  return failure("senses: " + *line);
 }
 
-tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string& channel) {
+Result<KnownMuscle> LocalBoardLink::muscle(const std::string& channel) {
   const auto line = line_of("muscle", channel);
   if (!line) return tl::unexpected(line.error());
   KnownMuscle known;
@@ -106,19 +105,19 @@ tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string&
   std::size_t told = 0;
   for (std::string word; told < known.size() && words >> word; ++told)
     known[told] = std::strtod(word.c_str(), nullptr);  // streams do not read nan
-  if (told <= known_unexplained_ratio) return tl::unexpected("muscle: " + *line);
+  if (told <= known_unexplained_ratio) return failure("muscle: " + *line);
   return known;
 }
 
-tl::expected<double, std::string> LocalBoardLink::tuning(const std::string& channel, int place,
-                                                         std::size_t tunable, TuningSet set) {
+Result<double> LocalBoardLink::tuning(const std::string& channel, int place, std::size_t tunable,
+                                      TuningSet set) {
   const std::string name(control::tunables()[tunable].name);
   const auto told = socket_.ask("tuning " + channel + " " + std::to_string(place) + " " + name +
                                 " " + std::string(tuning_set_names[static_cast<std::size_t>(set)]));
   if (!told) return tl::unexpected(told.error());
   char* end = nullptr;
   const double value = std::strtod(told->c_str(), &end);
-  if (end == told->c_str()) return tl::unexpected("tuning: " + *told);
+  if (end == told->c_str()) return failure("tuning: " + *told);
   return value;
 }
 
@@ -127,7 +126,7 @@ BoardLink::Answer LocalBoardLink::prepare(const std::string& channel, int place,
   return socket_.ask("prepare " + channel + " " + std::to_string(place) + " " + name + " " + value);
 }
 
-tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
+Result<double> LocalBoardLink::error_m(const std::string& channel) {
   const auto words = line_of("state", channel).and_then(words_of);
   if (!words) return tl::unexpected(words.error());
   if ((*words)[state_mode] != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
@@ -135,13 +134,13 @@ tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& cha
          std::strtod((*words)[state_model].c_str(), nullptr);
 }
 
-tl::expected<double, std::string> LocalBoardLink::position_m(const std::string& channel) {
+Result<double> LocalBoardLink::position_m(const std::string& channel) {
   return line_of("state", channel).and_then(words_of).map([](const StateWords& words) {
     return std::strtod(words[state_position].c_str(), nullptr);
   });
 }
 
-tl::expected<double, std::string> LocalBoardLink::progress(const std::string& channel) {
+Result<double> LocalBoardLink::progress(const std::string& channel) {
   return line_of("state", channel).and_then(words_of).map([](const StateWords& words) {
     return std::strtod(words[state_progress].c_str(), nullptr);
   });

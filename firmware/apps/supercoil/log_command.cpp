@@ -18,19 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tl::expected<std::string, std::string> read(const std::string& path, storage::Files& files) {
+Result<std::string> read(const std::string& path, storage::Files& files) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
-    return tl::unexpected(
-        path + ": " +
-        (error && error.value() != ENOENT ? error.message() : "there is no such file"));
+    return failure(path + ": " +
+                   (error && error.value() != ENOENT ? error.message() : "there is no such file"));
   }
-  if (!fs::is_regular_file(status)) return tl::unexpected(path + ": is not a file");
+  if (!fs::is_regular_file(status)) return failure(path + ": is not a file");
   const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
+  if (error) return failed_call(path + ": cannot be read", error.value());
   auto content = files.read(path, bytes);
-  if (!content) return tl::unexpected(content.error().text());
+  if (!content) return tl::unexpected(content.error());
   return std::move(*content);
 }
 
@@ -41,19 +40,19 @@ int say(const std::string& text, storage::Files& files) {
 
 int into_standard_output(const std::string& nothing, const Produce& produce) {
   storage::PosixFiles files;
-  const auto count = produce([&](std::string_view part) -> tl::expected<void, std::string> {
+  const auto count = produce([&](std::string_view part) -> Result<void> {
     const auto written = files.write({STDOUT_FILENO, "standard output"}, part);
-    if (!written) return tl::unexpected(written.error().text());
+    if (!written) return tl::unexpected(written.error());
     return {};
   });
-  if (!count) return fail(exit_failed, count.error());
+  if (!count) return fail(exit_failed, count.error().text());
   return *count > 0 ? exit_done : fail(exit_wrong_input, nothing);
 }
 
 /// The rows, as CSV or MCAP.
 int write_rows(const recorder::Recording& recording, const LogOptions& options) {
   return write_output(options.out, options.file + ": has no rows of that time and channel",
-                      [&](const recorder::Sink& sink) -> tl::expected<std::size_t, std::string> {
+                      [&](const recorder::Sink& sink) -> Result<std::size_t> {
                         const std::size_t rows = recording.rows.size();
                         if (rows == 0) return 0;
                         const auto written = options.mcap ? mcap::from_recording(recording, sink)
@@ -82,12 +81,12 @@ int write_output(const std::string& path, const std::string& nothing, const Prod
   if (path.empty()) return into_standard_output(nothing, produce);
   storage::PosixFiles files;
   auto file = OutputFile::open(path, files);
-  if (!file) return fail(exit_wrong_input, file.error());
+  if (!file) return fail(exit_wrong_input, file.error().text());
   const auto count = produce([&](std::string_view part) { return file->write(part); });
-  if (!count) return fail(exit_failed, count.error());
+  if (!count) return fail(exit_failed, count.error().text());
   if (*count == 0) return fail(exit_wrong_input, nothing);
   const auto kept = file->commit();
-  return kept ? exit_done : fail(exit_failed, kept.error());
+  return kept ? exit_done : fail(exit_failed, kept.error().text());
 }
 
 int log_command(const LogOptions& options) {
@@ -100,11 +99,11 @@ int log_command(const LogOptions& options) {
   }
   storage::PosixFiles files;
   const auto content = read(options.file, files);
-  if (!content) return refuse(options.json, exit_wrong_input, content.error());
+  if (!content) return refuse(options.json, exit_wrong_input, content.error().text());
   auto recording = recorder::decode(
       *content, options.damaged ? recorder::Damaged::read : recorder::Damaged::refuse);
   if (!recording)
-    return refuse(options.json, exit_wrong_input, options.file + ": " + recording.error());
+    return refuse(options.json, exit_wrong_input, options.file + ": " + recording.error().text());
   if (const std::string wrong = wrong_choice(options, *recording); !wrong.empty())
     return refuse(options.json, exit_wrong_input, wrong);
   if (!recording->damage.empty()) {

@@ -30,7 +30,7 @@ struct Source {
   bool log = false;
 };
 
-tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
+Result<Source> open_source(const MonitorOptions& options) {
   Source source;
   std::error_code ignored;
   source.log =
@@ -51,8 +51,8 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
   if (!bus && !names_socketcand(options.source)) {
     // An interface's name has no slash, and hardly ever a dot.
     const bool file = options.source.find_first_of("./") != std::string::npos;
-    return tl::unexpected(file ? options.source + ": there is no such log"
-                               : bus.error() + "; nor is there a log of that name");
+    return failure(file ? options.source + ": there is no such log"
+                        : bus.error().text() + "; nor is there a log of that name");
   }
   if (!bus) return tl::unexpected(bus.error());
   source.listener = std::make_unique<Listener>(std::move(*bus), *source.frame_history);
@@ -113,7 +113,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
                                        controls.release_hold("stopped");
                                        if (setup) setup->end("STOP");
                                      });
-    if (!started) return fail(exit_failed, started.error());
+    if (!started) return fail(exit_failed, started.error().text());
     stop = std::move(*started);
   }
   Api api(access, *source.frame_history, controls,
@@ -139,7 +139,7 @@ int monitor_command(const MonitorOptions& options) {
       options.setup.empty() ? "" : missing_channel(options.setup, options.channel);
   if (!missing.empty()) return fail(exit_wrong_input, missing);
   auto source = open_source(options);
-  if (!source) return fail(exit_wrong_input, source.error());
+  if (!source) return fail(exit_wrong_input, source.error().text());
   if (!options.setup.empty() && source->log)
     return fail(exit_wrong_input, options.source + " is a log: --setup needs a board on a bus");
   watch_for_interrupts();

@@ -80,7 +80,7 @@ std::string no_setting(const SettingOptions& options) {
 
 int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
-  if (!heard) return refuse(options.json, exit_failed, heard.error());
+  if (!heard) return refuse(options.json, exit_failed, heard.error().text());
   tell(*heard, options.json);
   if (heard->refusal == Refusal::none) return exit_done;
   const bool out = heard->refusal == Refusal::out_of_range;
@@ -94,7 +94,7 @@ int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
 int all(Commander& node, bool json) {
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
     const auto heard = node.read(i);
-    if (!heard) return refuse(json, exit_failed, heard.error());
+    if (!heard) return refuse(json, exit_failed, heard.error().text());
     if (heard->refusal == Refusal::none) tell(*heard, json);
   }
   return exit_done;
@@ -108,7 +108,7 @@ int setting_command(const SettingOptions& options) {
     return refuse(options.json, exit_wrong_input, "'" + options.name + "' " + no_setting(options));
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, can_client::answer_ids(id));
-  if (!bus) return refuse(options.json, exit_failed, bus.error());
+  if (!bus) return refuse(options.json, exit_failed, bus.error().text());
   Commander node(std::move(*bus), id);
   const int status = setting ? one(node, *setting, options) : all(node, options.json);
   node.release();

@@ -31,17 +31,17 @@ std::string not_tunable(const std::string& name, const std::string& value,
   return name + " cannot be tuned; " + meant_or_all(name, known, "there are");
 }
 
-tl::expected<std::vector<TuningChange>, std::string> parse(Tuned what, const TuneOptions& options) {
+Result<std::vector<TuningChange>> parse(Tuned what, const TuneOptions& options) {
   const std::vector<std::string> known = tunable_names(what);
   std::vector<TuningChange> all;
   for (const std::string& word : options.assignments) {
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(0, equals);
     const std::string text = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (name.empty()) return tl::unexpected(word + ": write NAME=VALUE");
+    if (name.empty()) return failure(word + ": write NAME=VALUE");
     if (std::ranges::find(known, name) == known.end())
-      return tl::unexpected(not_tunable(name, text, known, options));
-    if (equals == std::string::npos) return tl::unexpected(word + ": write NAME=VALUE");
+      return failure(not_tunable(name, text, known, options));
+    if (equals == std::string::npos) return failure(word + ": write NAME=VALUE");
     const std::size_t tunable = control::tunable_named(name);
     const auto value = tuning_value(what, control::tunables()[tunable], text);
     if (!value) return tl::unexpected(value.error());
@@ -92,16 +92,13 @@ TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
 int tune_command(const TuneOptions& options) {
   const Tuned what = options.estimator ? Tuned::estimator : Tuned::controller;
   const auto changes = parse(what, options);
-  if (!changes) return refuse(options.json, exit_wrong_input, changes.error());
+  if (!changes) return refuse(options.json, exit_wrong_input, changes.error().text());
   const auto board = open_link(options.can, options.socket);
-  if (!board) return refuse(options.json, exit_failed, board.error());
+  if (!board) return refuse(options.json, exit_failed, board.error().text());
   const std::string channel = std::to_string(options.channel);
   const auto found = find_place(what, options.estimator.value_or(options.controller),
                                 ask_tuning(**board, channel));
-  if (!found) {
-    const auto& [why, no_answer] = found.error();
-    return refuse(options.json, no_answer ? exit_failed : exit_wrong_input, why);
-  }
+  if (!found) return refuse(options.json, exit_for(found.error()), found.error().text());
   const int place = place_of(what, *found);
   TuningDone done;
   if (!changes->empty() || options.from != "in_use") {
@@ -112,7 +109,7 @@ int tune_command(const TuneOptions& options) {
   if (done && options.store) done = ask_for_tuning(**board, channel + " store tuning");
   if (done && options.clear) done = ask_for_tuning(**board, channel + " clear tuning");
   if (done) done = tell(**board, channel, options.json);
-  return done ? exit_done : refuse(options.json, exit_failed, done.error());
+  return done ? exit_done : refuse(options.json, exit_failed, done.error().text());
 }
 
 }  // namespace supercoil::operating

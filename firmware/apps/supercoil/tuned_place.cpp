@@ -36,8 +36,8 @@ AskTuning ask_tuning(BoardLink& board, const std::string& channel) {
   };
 }
 
-tl::expected<std::size_t, std::string> find_place(Tuned what, std::string_view word,
-                                                  const std::vector<std::string>& kinds) {
+Result<std::size_t> find_place(Tuned what, std::string_view word,
+                               const std::vector<std::string>& kinds) {
   const std::string whose(name(what));
   const auto number = number_of(word);
   if (number && *number < kinds.size()) return *number;
@@ -45,26 +45,24 @@ tl::expected<std::size_t, std::string> find_place(Tuned what, std::string_view w
   const auto of_kind = std::ranges::count(kinds, word);
   if (of_kind == 1) return static_cast<std::size_t>(found - kinds.begin());
   if (of_kind > 1) {
-    return tl::unexpected("several " + whose + "s are " + std::string(word) +
-                          ": write the number; there are " + places_text(kinds));
+    return failure("several " + whose + "s are " + std::string(word) +
+                       ": write the number; there are " + places_text(kinds),
+                   std::errc::invalid_argument);
   }
-  return tl::unexpected("there is no " + whose + " " + std::string(word) +
-                        (kinds.empty()       ? ""
-                         : kinds.size() == 1 ? "; there is "
-                                             : "; there are ") +
-                        places_text(kinds));
+  return failure("there is no " + whose + " " + std::string(word) +
+                     (kinds.empty()       ? ""
+                      : kinds.size() == 1 ? "; there is "
+                                          : "; there are ") +
+                     places_text(kinds),
+                 std::errc::invalid_argument);
 }
 
-tl::expected<std::size_t, WrongPlace> find_place(Tuned what, std::string_view word,
-                                                 const AskTuning& ask) {
-  const auto kinds = read_kinds(what, ask);
-  if (!kinds) return tl::unexpected(WrongPlace{kinds.error(), true});
-  return find_place(what, word, *kinds).map_error([](const std::string& why) {
-    return WrongPlace{why};
-  });
+Result<std::size_t> find_place(Tuned what, std::string_view word, const AskTuning& ask) {
+  return read_kinds(what, ask).and_then(
+      [&](const std::vector<std::string>& kinds) { return find_place(what, word, kinds); });
 }
 
-tl::expected<std::size_t, WrongPlace> find_any_place(std::string_view word, const AskTuning& ask) {
+Result<std::size_t> find_any_place(std::string_view word, const AskTuning& ask) {
   const Tuned what = is_estimator(word) ? Tuned::estimator : Tuned::controller;
   const auto number = number_of(word);
   const std::string among_its_like = what == Tuned::estimator && number

@@ -6,8 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
+#include "apps/common/exit_status.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/tuning_table.hpp"
 
@@ -20,19 +21,19 @@ AskTuning ask_tuning(BoardLink& board, const std::string& channel);
 std::string places_text(const std::vector<std::string>& kinds);
 
 /// What a word means among the kinds that are in use, by their places: "1", or "pi" where there is
-/// but one. The error says what there is.
-tl::expected<std::size_t, std::string> find_place(Tuned what, std::string_view word,
-                                                  const std::vector<std::string>& kinds);
+/// but one. The error says what there is, with the code invalid_argument.
+Result<std::size_t> find_place(Tuned what, std::string_view word,
+                               const std::vector<std::string>& kinds);
 
-struct WrongPlace {
-  std::string why;
-  bool no_answer = false;  ///< of the board; else there is no such place
-};
 /// The same of a running board.
-tl::expected<std::size_t, WrongPlace> find_place(Tuned what, std::string_view word,
-                                                 const AskTuning& ask);
+Result<std::size_t> find_place(Tuned what, std::string_view word, const AskTuning& ask);
 
 /// Of the command `tune`, as Tuner counts: its number, or the kind of a controller or an estimator.
-tl::expected<std::size_t, WrongPlace> find_any_place(std::string_view word, const AskTuning& ask);
+Result<std::size_t> find_any_place(std::string_view word, const AskTuning& ask);
+
+/// A place that is not there is a wrong input; a board that does not answer is none.
+inline int exit_for(const Error& wrong_place) {
+  return wrong_place.code == std::errc::invalid_argument ? exit_wrong_input : exit_failed;
+}
 
 }  // namespace supercoil::operating

@@ -45,8 +45,7 @@ bool may_have(Tuned what, const Tunable& tunable) {
 }
 
 /// Empty: there is none at this place.
-tl::expected<TunedValues, std::string> read_place(Tuned what, std::size_t place,
-                                                  const AskTuning& ask) {
+Result<TunedValues> read_place(Tuned what, std::size_t place, const AskTuning& ask) {
   TunedValues told;
   for (std::size_t i = 0; i < control::tunable_count; ++i) {
     if (!may_have(what, control::tunables()[i])) continue;
@@ -63,8 +62,7 @@ tl::expected<TunedValues, std::string> read_place(Tuned what, std::size_t place,
   return told;
 }
 
-tl::expected<std::vector<TunedValues>, std::string> read_places(Tuned what, std::size_t places,
-                                                                const AskTuning& ask) {
+Result<std::vector<TunedValues>> read_places(Tuned what, std::size_t places, const AskTuning& ask) {
   std::vector<TunedValues> all;
   for (std::size_t place = 0; place < places; ++place) {
     auto told = read_place(what, place, ask);
@@ -102,17 +100,17 @@ nlohmann::ordered_json choices_json(Tuned what) {
 
 }  // namespace
 
-tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask) {
+Result<TunedChannel> read_tuning(const AskTuning& ask) {
   const board::StoredTuning tuned;
   auto controllers = read_places(Tuned::controller, tuned.controllers.size(), ask);
   if (!controllers) return tl::unexpected(controllers.error());
-  if (controllers->empty()) return tl::unexpected<std::string>("this board cannot be tuned");
+  if (controllers->empty()) return failure("this board cannot be tuned");
   auto estimators = read_places(Tuned::estimator, tuned.estimators.size(), ask);
   if (!estimators) return tl::unexpected(estimators.error());
   return TunedChannel{std::move(*controllers), std::move(*estimators)};
 }
 
-tl::expected<std::vector<std::string>, std::string> read_kinds(Tuned what, const AskTuning& ask) {
+Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask) {
   constexpr std::size_t kind = 0;
   const board::StoredTuning tuned;
   const std::size_t places =
@@ -127,7 +125,7 @@ tl::expected<std::vector<std::string>, std::string> read_kinds(Tuned what, const
   return kinds;
 }
 
-tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask) {
+Result<nlohmann::ordered_json> read_kinds(const AskTuning& ask) {
   nlohmann::ordered_json told;
   for (const auto& [what, key] :
        {std::pair{Tuned::controller, "controllers"}, std::pair{Tuned::estimator, "estimators"}}) {
@@ -138,7 +136,7 @@ tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& as
   return told;
 }
 
-tl::expected<std::vector<std::string>, std::string> read_names(int place, const AskTuning& ask) {
+Result<std::vector<std::string>> read_names(int place, const AskTuning& ask) {
   std::vector<std::string> names;
   for (const std::string& name : tunable_names(tuned_at(place))) {
     const auto value = ask(place, control::tunable_named(name), TuningSet::prepared);
@@ -166,8 +164,7 @@ std::string tuning_text(Tuned what, const Tunable& tunable, double value) {
   return text.data();
 }
 
-tl::expected<double, std::string> tuning_value(Tuned what, const Tunable& tunable,
-                                               const std::string& text) {
+Result<double> tuning_value(Tuned what, const Tunable& tunable, const std::string& text) {
   const auto names = names_of(what, tunable);
   const auto named = std::ranges::find(names, text);
   if (named != names.end()) return static_cast<double>(named - names.begin());
@@ -177,7 +174,7 @@ tl::expected<double, std::string> tuning_value(Tuned what, const Tunable& tunabl
   if (names.empty() && is_number && tunable.in_range(value)) return value;
   std::array<char, 64> range{};
   std::snprintf(range.data(), range.size(), "must be %g to %g", tunable.lowest, tunable.highest);
-  return tl::unexpected(
+  return failure(
       std::string(tunable.name) + (text.empty() ? ": has no value: " : " = " + text + ": ") +
       (names.empty() ? std::string(range.data()) : meant_or_all(text, names, "there are")));
 }

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 #include "loop/tuner.hpp"
 
@@ -41,26 +42,24 @@ struct TunedChannel {
 };
 
 /// Asks the board for one value; place: as Tuner has it.
-using AskTuning =
-    std::function<tl::expected<double, std::string>(int place, std::size_t tunable, TuningSet set)>;
+using AskTuning = std::function<Result<double>(int place, std::size_t tunable, TuningSet set)>;
 
 /// The error: no answer, or a board that cannot be tuned.
-tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask);
+Result<TunedChannel> read_tuning(const AskTuning& ask);
 /// The kinds in use, by their places. The error: no answer.
-tl::expected<std::vector<std::string>, std::string> read_kinds(Tuned what, const AskTuning& ask);
+Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask);
 /// The names of what the prepared set of a place has. place: as Tuner has it.
-tl::expected<std::vector<std::string>, std::string> read_names(int place, const AskTuning& ask);
+Result<std::vector<std::string>> read_names(int place, const AskTuning& ask);
 /// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: their kinds in use only, by their
 /// places. The error: no answer.
-tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask);
+Result<nlohmann::ordered_json> read_kinds(const AskTuning& ask);
 /// The names of all that it may have.
 std::vector<std::string> tunable_names(Tuned what);
 
 /// By its name where it has one; "-": there is none.
 std::string tuning_text(Tuned what, const control::Tunable& tunable, double value);
 /// A number or a name; the error says what is allowed.
-tl::expected<double, std::string> tuning_value(Tuned what, const control::Tunable& tunable,
-                                               const std::string& text);
+Result<double> tuning_value(Tuned what, const control::Tunable& tunable, const std::string& text);
 
 /// {"controllers": [{"controller": 0, "kind": {"prepared": "pi", …}, …}], "estimators":
 /// [{"estimator": 0, …}], "choices": {"controllers": {"kind": […], …}, "estimators": {…}}}

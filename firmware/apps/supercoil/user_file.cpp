@@ -9,25 +9,15 @@
 
 namespace supercoil::operating {
 
-namespace {
-
-tl::expected<void, std::string> text_of(const Result<void>& result) {
-  if (result) return {};
-  return tl::unexpected(result.error().text());
-}
-
-}  // namespace
-
-tl::expected<OutputFile, std::string> OutputFile::open(const std::string& path,
-                                                       storage::Files& files) {
+Result<OutputFile> OutputFile::open(const std::string& path, storage::Files& files) {
   // A device or a folder must not be replaced by a file.
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    return tl::unexpected(path + ": is not a file");
+    return failure(path + ": is not a file");
   const std::string temporary = path + ".part";
   static_cast<void>(files.unlink(temporary));  // of a run that was killed
   auto file = files.create(temporary);
-  if (!file) return tl::unexpected(file.error().text());
+  if (!file) return tl::unexpected(file.error());
   return OutputFile(path, std::move(*file), files);
 }
 
@@ -44,36 +34,34 @@ OutputFile::~OutputFile() {
   if (!kept_) static_cast<void>(files_->unlink(file_.path));
 }
 
-tl::expected<void, std::string> OutputFile::write(std::string_view part) {
-  return text_of(files_->write(file_, part));
+Result<void> OutputFile::write(std::string_view part) {
+  return files_->write(file_, part);
 }
 
-tl::expected<void, std::string> OutputFile::commit() {
+Result<void> OutputFile::commit() {
   auto result = files_->sync(file_);
   open_ = false;
   const auto closed = files_->close(file_);
   if (result) result = closed;
   if (result) result = files_->rename(file_.path, path_);
   kept_ = result.has_value();
-  return text_of(result);
+  return result;
 }
 
-tl::expected<std::string, std::string> read_whole(const std::string& path) {
+Result<std::string> read_whole(const std::string& path) {
   namespace fs = std::filesystem;
   constexpr std::uintmax_t max_bytes = 1ULL << 30;
   std::error_code error;
-  if (!fs::exists(path, error)) return tl::unexpected(path + ": there is no such file");
-  if (!fs::is_regular_file(path, error)) return tl::unexpected(path + ": is not a file");
+  if (!fs::exists(path, error)) return failure(path + ": there is no such file");
+  if (!fs::is_regular_file(path, error)) return failure(path + ": is not a file");
   const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
-  if (bytes > max_bytes) return tl::unexpected(path + ": is larger than 1 GiB");
+  if (error) return failed_call(path + ": cannot be read", error.value());
+  if (bytes > max_bytes) return failure(path + ": is larger than 1 GiB");
   storage::PosixFiles files;
-  auto content = files.read(path, bytes);
-  if (!content) return tl::unexpected(content.error().text());
-  return std::move(*content);
+  return files.read(path, bytes);
 }
 
-tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text) {
+Result<void> write_whole(const std::string& path, const std::string& text) {
   storage::PosixFiles files;
   auto file = OutputFile::open(path, files);
   if (!file) return tl::unexpected(file.error());

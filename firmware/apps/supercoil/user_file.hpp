@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "storage/files.hpp"
 
@@ -15,16 +15,16 @@ namespace supercoil::operating {
 class OutputFile {
  public:
   /// The error says why it cannot be written there. files must outlive it.
-  static tl::expected<OutputFile, std::string> open(const std::string& path, storage::Files& files);
+  static Result<OutputFile> open(const std::string& path, storage::Files& files);
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  tl::expected<void, std::string> write(std::string_view part);
+  Result<void> write(std::string_view part);
   /// Gives it its name. Once; nothing can be written after it.
-  tl::expected<void, std::string> commit();
+  Result<void> commit();
 
  private:
   OutputFile(std::string path, storage::NewFile file, storage::Files& files)
@@ -38,9 +38,9 @@ class OutputFile {
 };
 
 /// At most 1 GiB. The error names the file, and says why not.
-tl::expected<std::string, std::string> read_whole(const std::string& path);
+Result<std::string> read_whole(const std::string& path);
 
 /// Writes a file whole, in place of one that may be there.
-tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text);
+Result<void> write_whole(const std::string& path, const std::string& text);
 
 }  // namespace supercoil::operating

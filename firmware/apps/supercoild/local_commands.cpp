@@ -6,7 +6,6 @@
 #include <iomanip>
 #include <iterator>
 #include <sstream>
-#include <system_error>
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -87,15 +86,13 @@ std::string playback_text(const Loop& loop, double board_s) {
 
 }  // namespace
 
-tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& path) {
+Result<LocalCommands> LocalCommands::open(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const auto fail = [&](const char* what) {
-    return tl::unexpected(path + ": " + what + ": " + std::generic_category().message(errno));
-  };
+  const auto fail = [&](const char* what) { return failed_call(path + ": " + what, errno); };
   if (path.size() >= sizeof(address.sun_path)) {
-    return tl::unexpected(path + ": the name of a socket has at most " +
-                          std::to_string(sizeof(address.sun_path) - 1) + " bytes");
+    return failure(path + ": the name of a socket has at most " +
+                   std::to_string(sizeof(address.sun_path) - 1) + " bytes");
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   hal_linux::Descriptor listener(
@@ -170,7 +167,7 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
   const auto of_trajectory = parse_trajectory_command(text, loop.channels());
   auto command = of_trajectory ? *of_trajectory : parse_command(text, loop.channels());
   if (!command) {
-    answer(client.number(), "wrong: " + command.error());
+    answer(client.number(), "wrong: " + command.error().text());
     return true;
   }
   command->id = ++last_id_;

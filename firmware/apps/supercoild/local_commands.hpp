@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
 
 #include "apps/supercoild/newest_rows.hpp"
@@ -22,7 +21,7 @@ namespace supercoil::daemon {
 class LocalCommands {
  public:
   /// A file that an earlier life left is replaced: the lock is held already.
-  static tl::expected<LocalCommands, std::string> open(const std::string& path);
+  static Result<LocalCommands> open(const std::string& path);
 
   /// Waits at most max_ms for something to do, and does it.
   void serve(Loop& loop, const NewestRows& rows, int max_ms);

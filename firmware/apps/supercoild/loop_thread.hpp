@@ -5,8 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/thread.hpp"
 
 #include "loop/executive.hpp"
@@ -16,8 +15,8 @@ namespace supercoil::daemon {
 class LoopThread {
  public:
   /// Both outlive it. Starts at once.
-  static tl::expected<std::unique_ptr<LoopThread>, std::string> start(
-      Loop& loop, hal::Clock& clock, double rate_Hz, const hal_linux::ThreadSettings& settings);
+  static Result<std::unique_ptr<LoopThread>> start(Loop& loop, hal::Clock& clock, double rate_Hz,
+                                                   const hal_linux::ThreadSettings& settings);
 
   /// After the tick that is under way; the destructor waits for that.
   void stop() { ending_.store(true, std::memory_order_relaxed); }

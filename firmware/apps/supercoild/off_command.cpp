@@ -19,7 +19,7 @@ int off_command(const std::string& config, const std::string& run_folder) {
   }
   const auto lock = linux_board::LockFile::take(run_folder + "/lock");
   if (!lock) {
-    log(Level::problem, lock.error());
+    log(Level::problem, lock.error().text());
     return exit_failed;
   }
   // To open a device is to bring it to its safe level; to close it leaves it there.

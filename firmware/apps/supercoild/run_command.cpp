@@ -57,11 +57,11 @@ void warn(const std::string& text) {
 }
 
 /// A bus that is down is no error, and may come up later.
-tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig& config) {
+Result<void> join_can(Parts& parts, const config::BoardConfig& config) {
   if (!config.can) return {};
   const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
-  if (!bus) return tl::unexpected("can: " + bus.error().text());
+  if (!bus) return failure("can: " + bus.error().text());
   parts.can_bus = std::move(*bus);
   parts.can = std::make_unique<telemetry::CanEndpoint>(*config.can, config.settings, *parts.loop,
                                                        *parts.can_bus,
@@ -70,14 +70,14 @@ tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig
 }
 
 /// Buses, watchdog, commands, and at last the loop.
-tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& config,
-                                      const RunOptions& options, LocalCommands commands) {
+Result<void> start(Parts& parts, const config::BoardConfig& config, const RunOptions& options,
+                   LocalCommands commands) {
   const double rate_Hz = config.settings.rate_Hz;
   const bool realtime = options.priority > 0;
   if (realtime) log_steps({hal_linux::lock_memory(), parts.wakeful.hold()});
   const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
   auto warning = parts.board->start(rate_Hz, bus_priority);
-  if (!warning) return tl::unexpected(std::move(warning.error()));
+  if (!warning) return tl::unexpected(warning.error());
   warn(*warning);
   const board::Devices devices = parts.board->devices();
   parts.loop = std::make_unique<Loop>(config.settings, devices);
@@ -150,13 +150,13 @@ int run_command(const RunOptions& options) {
 
   Parts parts;
   auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
-  if (!lock) return fail(lock.error());
+  if (!lock) return fail(lock.error().text());
   parts.lock.emplace(std::move(*lock));
   log(Level::info, "version " + std::string(program_version()));
   for (std::size_t i = 0; i < config->settings.channels.size(); ++i)
     parts.stores.emplace_back(config->storage_folder, static_cast<int>(i + 1), parts.files);
   if (const auto known = load_learned(*config, parts.stores); !known) {
-    return fail(options.config + ": board.storage_folder: " + known.error());
+    return fail(options.config + ": board.storage_folder: " + known.error().text());
   }
   auto board = linux_board::LinuxBoard::open(config->wiring);
   if (!board) {
@@ -166,13 +166,13 @@ int run_command(const RunOptions& options) {
   }
   parts.board = std::move(*board);
   auto commands = LocalCommands::open(options.run_folder + "/commands");
-  if (!commands) return fail(commands.error());
+  if (!commands) return fail(commands.error().text());
   parts.storage_worker = std::make_unique<StorageWorker>(*config, parts.stores, parts.files);
 
   if (const auto started = start(parts, *config, options, std::move(*commands)); !started) {
     // No loop runs that would feed it, and nothing was ever on.
     warn(parts.board->release());
-    return fail(started.error());
+    return fail(started.error().text());
   }
   log(Level::info, config->name + ": " + std::to_string(config->settings.channels.size()) +
                        " channels, disarmed");

@@ -42,8 +42,7 @@ void warn_without_proof(const ChannelSettings& channel, std::size_t index) {
 
 }  // namespace
 
-tl::expected<void, std::string> load_learned(config::BoardConfig& config,
-                                             std::vector<storage::LearnedStore>& stores) {
+Result<void> load_learned(config::BoardConfig& config, std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
     warn_without_proof(config.settings.channels[i], i);
     const auto loaded = stores[i].load();
@@ -114,7 +113,7 @@ void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
     if (saved) {
       log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
     } else {
-      log(Level::problem, who + " learned, but it is not stored: " + saved.error());
+      log(Level::problem, who + " learned, but it is not stored: " + saved.error().text());
     }
   }
 }
@@ -139,7 +138,7 @@ void StorageWorker::date(std::size_t channel, const std::string& who,
 
 void StorageWorker::forget(std::size_t channel, const std::string& who) {
   if (const auto forgotten = (*stores_)[channel].forget(); !forgotten) {
-    log(Level::problem, who + " cannot forget its muscle: " + forgotten.error());
+    log(Level::problem, who + " cannot forget its muscle: " + forgotten.error().text());
     return;
   }
   log(Level::info, who + " has forgotten its muscle, from the next start on");

@@ -17,8 +17,7 @@ namespace supercoil::daemon {
 /// What channels learned before, into the settings of a board whose storage worker is made then.
 /// The error says what cannot be read; a board does not start without what it knew, for a lost zero
 /// is a wrong position.
-tl::expected<void, std::string> load_learned(config::BoardConfig& config,
-                                             std::vector<storage::LearnedStore>& stores);
+Result<void> load_learned(config::BoardConfig& config, std::vector<storage::LearnedStore>& stores);
 
 /// The one thread that may wait for the disk. Everything of it is taken when it is made, before
 /// memory is locked.

@@ -11,9 +11,9 @@
 
 namespace supercoil::daemon {
 
-tl::expected<void, std::string> Telemetry::start() {
+Result<void> Telemetry::start() {
   auto thread = hal_linux::Thread::start({"telemetry"}, [this] { run(); });
-  if (!thread) return tl::unexpected(thread.error().text());
+  if (!thread) return tl::unexpected(thread.error());
   thread_ = std::make_unique<hal_linux::Thread>(std::move(*thread));
   return {};
 }

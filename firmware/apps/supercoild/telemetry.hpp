@@ -7,8 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/thread.hpp"
 
 #include "apps/supercoild/local_commands.hpp"
@@ -33,7 +32,7 @@ class Telemetry {
         rows_(loop.channels()) {}
   ~Telemetry() { ending_ = true; }
 
-  tl::expected<void, std::string> start();
+  Result<void> start();
   /// From now on every channel is told to disarm, again and again, and no other command is heard or
   /// spoken to.
   void cool() { cooling_.store(true, std::memory_order_relaxed); }

@@ -35,18 +35,17 @@ std::string candump_line(const hal::CanFrame& frame, hal::Time at, std::string_v
   return line + '\n';
 }
 
-tl::expected<LogLine, std::string> parse_candump_line(std::string_view line) {
+Result<LogLine> parse_candump_line(std::string_view line) {
   std::string_view rest = line;
   const auto time = time_of(next_word(rest));
-  if (!time) return tl::unexpected(std::string("must begin with (SECONDS.MICROSECONDS)"));
+  if (!time) return failure("must begin with (SECONDS.MICROSECONDS)");
   next_word(rest);  // the interface
   const std::string_view frame = next_word(rest);
   const std::size_t mark = frame.find('#');
-  if (mark == std::string_view::npos)
-    return tl::unexpected(std::string("must go on with an interface and ID#DATA"));
+  if (mark == std::string_view::npos) return failure("must go on with an interface and ID#DATA");
   const auto id = number<std::uint32_t>(frame.substr(0, mark), 16);
   if (!id || (mark != digits_of_standard_id && mark != digits_of_extended_id))
-    return tl::unexpected(std::string("an identifier has 3 or 8 hexadecimal digits"));
+    return failure("an identifier has 3 or 8 hexadecimal digits");
   LogLine read;
   read.frame.received = *time;
   const std::string_view data = frame.substr(mark + 1);
@@ -55,7 +54,7 @@ tl::expected<LogLine, std::string> parse_candump_line(std::string_view line) {
   if (!read.ours) return read;
   read.frame.id = static_cast<std::uint16_t>(*id);
   if (!parse_bytes(data, read.frame))
-    return tl::unexpected(std::string("data must be 0 to 8 bytes of two hexadecimal digits"));
+    return failure("data must be 0 to 8 bytes of two hexadecimal digits");
   return read;
 }
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::can_client {
 
@@ -28,6 +27,6 @@ struct LogLine {
 };
 /// Error: what is wrong with the line. A sign of direction behind the frame, as newer candumps
 /// write it, is passed over.
-tl::expected<LogLine, std::string> parse_candump_line(std::string_view line);
+Result<LogLine> parse_candump_line(std::string_view line);
 
 }  // namespace supercoil::can_client

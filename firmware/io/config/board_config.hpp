@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "config/bundle.hpp"
 #include "config/diagnostics.hpp"
 #include "config/wiring.hpp"

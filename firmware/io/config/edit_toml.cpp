@@ -83,11 +83,10 @@ std::string shown(const toml::table& table) {
 
 }  // namespace
 
-tl::expected<std::string, std::string> with_value(const std::string& text, const std::string& kind,
-                                                  std::size_t place, const std::string& path,
-                                                  const std::string& literal) try {
+Result<std::string> with_value(const std::string& text, const std::string& kind, std::size_t place,
+                               const std::string& path, const std::string& literal) try {
   const auto refused = [&](const std::string& why) {
-    return tl::unexpected(path + " = " + literal + ": " + why);
+    return failure(path + " = " + literal + ": " + why);
   };
   toml::table before = toml::parse(text);
   toml::array* tables = before[kind].as_array();
@@ -109,7 +108,7 @@ tl::expected<std::string, std::string> with_value(const std::string& text, const
   if (shown(after) != shown(expected)) return refused("the file's form does not allow it");
   return changed;
 } catch (const toml::parse_error& error) {
-  return tl::unexpected(path + " = " + literal + ": " + std::string(error.description()));
+  return failure(path + " = " + literal + ": " + std::string(error.description()));
 }
 
 }  // namespace supercoil::config

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::config {
 
@@ -13,8 +13,7 @@ namespace supercoil::config {
 /// text: valid TOML. kind: "channel" or "joint". place: of its kind, from 0. path: "limits.max_W"
 /// or "controller", one table deep. literal: a TOML value on one line. The error says what could
 /// not be done.
-tl::expected<std::string, std::string> with_value(const std::string& text, const std::string& kind,
-                                                  std::size_t place, const std::string& path,
-                                                  const std::string& literal);
+Result<std::string> with_value(const std::string& text, const std::string& kind, std::size_t place,
+                               const std::string& path, const std::string& literal);
 
 }  // namespace supercoil::config

@@ -69,19 +69,19 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
   return board;
 }
 
-tl::expected<std::string, std::string> LinuxBoard::start(double rate_Hz, int priority) {
+Result<std::string> LinuxBoard::start(double rate_Hz, int priority) {
   for (const Bus& bus : buses_) {
     std::vector<hal_linux::BusDevice*> devices = bus.duties;
     devices.insert(devices.end(), bus.conversions.begin(), bus.conversions.end());
     auto thread = hal_linux::BusThread::start({"bus " + bus.name, priority},
                                               hal::duration_from(1.0 / rate_Hz), devices);
-    if (!thread) return tl::unexpected(thread.error().text());
+    if (!thread) return tl::unexpected(thread.error());
     threads_.push_back(std::move(*thread));
   }
   if (!watchdog_address_) return {};
   auto watchdog =
       hal_linux::DevWatchdog::open(watchdog_address_->device, watchdog_address_->timeout_s);
-  if (!watchdog) return tl::unexpected("watchdog: " + watchdog.error().text());
+  if (!watchdog) return failure("watchdog: " + watchdog.error().text());
   watchdog_ = std::move(*watchdog);
   if (watchdog_->outlives_program()) return {};
   return "the watchdog " + watchdog_address_->device +

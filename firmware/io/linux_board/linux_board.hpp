@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/bus_thread.hpp"
 #include "supercoil/hal_linux/dev_watchdog.hpp"
 #include "supercoil/hal_linux/gpio_line.hpp"
@@ -37,7 +36,7 @@ class LinuxBoard {
 
   /// Starts a thread for each bus and, last, the watchdog, which bites from now on. Answers a
   /// warning, or nothing.
-  tl::expected<std::string, std::string> start(double rate_Hz, int priority);
+  Result<std::string> start(double rate_Hz, int priority);
   /// Stops the watchdog: the loop stands still, and everything is off. Answers a
   /// warning, or nothing.
   std::string release();

@@ -51,18 +51,17 @@ std::string content(const hal_linux::Descriptor& file) {
 
 }  // namespace
 
-tl::expected<LockFile, std::string> LockFile::take(const std::string& path) {
+Result<LockFile> LockFile::take(const std::string& path) {
   // Without O_NONBLOCK a device in the file's place could hold up the start for ever.
   constexpr int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   hal_linux::Descriptor file(::open(path.c_str(), flags, 0644));
-  if (!file.is_open()) return tl::unexpected(path + ": " + open_failure(errno));
+  if (!file.is_open()) return failure(path + ": " + open_failure(errno));
   if (const std::string wrong = objection(file, path); !wrong.empty())
-    return tl::unexpected(path + ": the lock file " + wrong);
+    return failure(path + ": the lock file " + wrong);
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
-    if (error != EWOULDBLOCK) return tl::unexpected(path + ": cannot be locked: " + reason(error));
-    return tl::unexpected(path + ": another supercoild drives this board, process " +
-                          content(file));
+    if (error != EWOULDBLOCK) return failure(path + ": cannot be locked: " + reason(error));
+    return failure(path + ": another supercoild drives this board, process " + content(file));
   }
   const std::string mine = std::to_string(::getpid()) + "\n";
   // Who it is helps people; the lock itself does not hang on it.

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
 
 namespace supercoil::linux_board {
@@ -15,7 +14,7 @@ class LockFile {
   /// Makes the file, and writes into nothing but a regular file of one name that belongs to root,
   /// to this user or to its folder's owner: no link is followed. The error names who holds it, or
   /// what is wrong with the path.
-  static tl::expected<LockFile, std::string> take(const std::string& path);
+  static Result<LockFile> take(const std::string& path);
 
  private:
   explicit LockFile(hal_linux::Descriptor file) : file_(std::move(file)) {}

@@ -158,20 +158,17 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
   return out.str();
 }
 
-tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg) {
+Result<void> draw(const Figure& figure, const std::filesystem::path& svg) {
   const std::filesystem::path script = svg.string() + ".gnuplot";
   const std::filesystem::path log = svg.string() + ".log";
   std::error_code ignored;
   std::ofstream out(script);
-  if (!out) {
-    return tl::unexpected(script.string() +
-                          ": cannot be written: " + std::generic_category().message(errno));
-  }
+  if (!out) return failed_call(script.string() + ": cannot be written", errno);
   out << gnuplot_script(figure, svg);
   out.close();
   if (!out) {
     std::filesystem::remove(script, ignored);
-    return tl::unexpected(script.string() + ": cannot be written: is the disk full?");
+    return failure(script.string() + ": cannot be written: is the disk full?");
   }
   // The paths go in by the environment: no shell reads them.
   constexpr const char* command = R"(gnuplot "$SUPERCOIL_PLOT" 2>"$SUPERCOIL_PLOT_LOG")";
@@ -187,13 +184,12 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
   std::filesystem::remove(log, ignored);
   if (status == 0 && complete(svg)) return {};
   if (status == 0)
-    return tl::unexpected(svg.string() + ": gnuplot could not write all of it: is the disk full?");
+    return failure(svg.string() + ": gnuplot could not write all of it: is the disk full?");
   constexpr int not_found = 127 << 8;
   if (status == not_found) {
-    return tl::unexpected(
-        std::string("gnuplot is not installed (Debian: apt install gnuplot-nox)"));
+    return failure(std::string("gnuplot is not installed (Debian: apt install gnuplot-nox)"));
   }
-  return tl::unexpected("gnuplot failed: " + complaint);
+  return failure("gnuplot failed: " + complaint);
 }
 
 }  // namespace supercoil

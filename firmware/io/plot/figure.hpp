@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil {
 
@@ -49,6 +49,6 @@ struct Figure {
 std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);
 
 /// Draws the figure as SVG. The error says what gnuplot said, or how to install it.
-tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg);
+Result<void> draw(const Figure& figure, const std::filesystem::path& svg);
 
 }  // namespace supercoil

@@ -46,7 +46,7 @@ void add_row(std::string& line, const Row& row, double time_s) {
 
 }  // namespace
 
-tl::expected<void, std::string> to_csv(const Recording& recording, const Sink& sink) {
+Result<void> to_csv(const Recording& recording, const Sink& sink) {
   std::string part = columns();
   part.reserve(part_bytes + 4096);
   for (const Row& row : recording.rows) {
@@ -55,7 +55,7 @@ tl::expected<void, std::string> to_csv(const Recording& recording, const Sink& s
     if (auto written = sink(part); !written) return written;
     part.clear();
   }
-  return part.empty() ? tl::expected<void, std::string>{} : sink(part);
+  return part.empty() ? Result<void>{} : sink(part);
 }
 
 }  // namespace supercoil::recorder

@@ -113,7 +113,7 @@ bool FlightRecorder::write(const Job& job, bool last_try) {
   const auto written =
       folder_.write(std::array<std::string_view, 3>{start, found.first, found.second});
   if (!written) {
-    note(true, what(job.cause) + " is not recorded: " + written.error() +
+    note(true, what(job.cause) + " is not recorded: " + written.error().text() +
                    (last_try ? "; given up" : "; will be tried once more"));
     return false;
   }

@@ -53,8 +53,8 @@ std::string fault_of_rows(const Header& header, std::string_view bytes) {
 
 }  // namespace
 
-tl::expected<Recording, std::string> decode(std::string_view file, Damaged damaged) {
-  if (auto foreign = not_ours(file); !foreign.empty()) return tl::unexpected(std::move(foreign));
+Result<Recording> decode(std::string_view file, Damaged damaged) {
+  if (auto foreign = not_ours(file); !foreign.empty()) return failure(std::move(foreign));
   const std::string_view bytes = file.substr(header_bytes);
   Recording recording;
   auto header = decode_header(file.substr(0, header_bytes));
@@ -62,15 +62,14 @@ tl::expected<Recording, std::string> decode(std::string_view file, Damaged damag
     recording.header = std::move(*header);
     recording.damage = fault_of_rows(recording.header, bytes);
   } else {
-    if (header.error().code == std::errc::not_supported)
-      return tl::unexpected(header.error().text());
+    if (header.error().code == std::errc::not_supported) return tl::unexpected(header.error());
     recording.damage = header.error().text();
   }
   if (damaged == Damaged::refuse && !recording.damage.empty())
-    return tl::unexpected(std::move(recording.damage));
+    return failure(std::move(recording.damage));
   std::uint64_t rows = bytes.size() / sizeof(Row);
   if (header) rows = std::min(rows, recording.header.rows);
-  if (rows == 0) return tl::unexpected("has no whole row: it " + recording.damage);
+  if (rows == 0) return failure("has no whole row: it " + recording.damage);
   recording.rows.resize(rows);
   std::memcpy(recording.rows.data(), bytes.data(), rows * sizeof(Row));
   if (!header) recording.header = header_from(recording.rows);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "loop/row.hpp"
 
@@ -61,16 +61,16 @@ enum class Damaged { refuse, read };
 /// another size of rows, cut off, with more at its end, changed. Damaged::read gives as many whole
 /// rows as there are, and `damage` says what is wrong; an error remains where no row can be told
 /// from anything else.
-tl::expected<Recording, std::string> decode(std::string_view file, Damaged damaged);
+Result<Recording> decode(std::string_view file, Damaged damaged);
 
 /// Only the rows with from_s <= time_s <= to_s and of this channel (from 0; -1: all).
 void select(Recording& recording, double from_s, double to_s, int channel);
 
 /// Takes a part of a text; the error says why it could not be written.
-using Sink = std::function<tl::expected<void, std::string>(std::string_view)>;
+using Sink = std::function<Result<void>(std::string_view)>;
 
 /// The rows as CSV with a line of column names. Numbers have as many digits as it takes to read the
 /// same float back; NaN is an empty field. Ends with the sink's first error.
-tl::expected<void, std::string> to_csv(const Recording& recording, const Sink& sink);
+Result<void> to_csv(const Recording& recording, const Sink& sink);
 
 }  // namespace supercoil::recorder

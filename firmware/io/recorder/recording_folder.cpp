@@ -42,10 +42,9 @@ std::string RecordingFolder::path_of(std::uint64_t number) const {
   return folder_ + "/" + std::string(prefix) + std::to_string(number) + std::string(suffix);
 }
 
-tl::expected<RecordingFolder::Written, std::string> RecordingFolder::write(
-    std::span<const std::string_view> parts) {
+Result<RecordingFolder::Written> RecordingFolder::write(std::span<const std::string_view> parts) {
   const auto names = list_(folder_);
-  if (!names) return tl::unexpected(names.error().text());
+  if (!names) return tl::unexpected(names.error());
   std::vector<std::uint64_t> numbers;
   for (const std::string& name : *names) {
     if (const std::uint64_t number = number_of(name); number != 0) numbers.push_back(number);
@@ -62,7 +61,7 @@ tl::expected<RecordingFolder::Written, std::string> RecordingFolder::write(
   if (result) result = files_->rename(temporary, written.path);
   if (!result) {
     static_cast<void>(files_->unlink(temporary));  // a full disk needs the room
-    return tl::unexpected(result.error().text());
+    return tl::unexpected(result.error());
   }
   ++last_;
   // It is there, whole; only a power cut could still take its name away.

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "storage/files.hpp"
 
@@ -37,7 +37,7 @@ class RecordingFolder {
   /// there, and than every one given before. Old ones go first: a full disk needs their room. After
   /// an error nothing half-written is left, where it can be removed. Blocks for as long as the disk
   /// takes.
-  tl::expected<Written, std::string> write(std::span<const std::string_view> parts);
+  Result<Written> write(std::span<const std::string_view> parts);
 
  private:
   Result<void> write_file(const std::string& path, std::span<const std::string_view> parts);

@@ -60,13 +60,13 @@ std::optional<std::string> read_version(const toml::node* node, std::uint32_t& v
   return std::nullopt;
 }
 
-tl::expected<board::Learned, std::string> read(const toml::table& file, unsigned format) {
+Result<board::Learned> read(const toml::table& file, unsigned format) {
   if (const auto key = unknown_key(file, format)) {
-    return tl::unexpected("has a key that this firmware does not know: " + *key);
+    return failure("has a key that this firmware does not know: " + *key);
   }
   board::Learned learned;
   if (const auto wrong = read_version(file.get("version"), learned.version)) {
-    return tl::unexpected("version " + *wrong);
+    return failure("version " + *wrong);
   }
   learned.has_muscle = file.contains("muscle") || file.contains("calibration");
   for (const Field& field : fields) {
@@ -75,15 +75,14 @@ tl::expected<board::Learned, std::string> read(const toml::table& file, unsigned
     if (left_out) continue;
     const toml::node* node = table == nullptr ? nullptr : table->get(key_in(field, format));
     if (const auto wrong = read_number(node, field.of(learned))) {
-      return tl::unexpected(path(field, format) + " " + *wrong);
+      return failure(path(field, format) + " " + *wrong);
     }
   }
-  if (auto wrong = read_tuning(file, learned.tuning)) return tl::unexpected(std::move(*wrong));
+  if (auto wrong = read_tuning(file, learned.tuning)) return failure(std::move(*wrong));
   if (const auto violation = check(learned)) {
-    return tl::unexpected(std::string(violation->quantity) + " = " +
-                          shortest_text(violation->value) + " is out of range: must be " +
-                          shortest_text(violation->lowest) + " to " +
-                          shortest_text(violation->highest));
+    return failure(std::string(violation->quantity) + " = " + shortest_text(violation->value) +
+                   " is out of range: must be " + shortest_text(violation->lowest) + " to " +
+                   shortest_text(violation->highest));
   }
   return learned;
 }
@@ -106,13 +105,13 @@ std::string encode(const board::Learned& learned) {
   return seal(body + encode_tuning(learned.tuning));
 }
 
-tl::expected<board::Learned, std::string> decode(std::string_view text) {
+Result<board::Learned> decode(std::string_view text) {
   const auto unsealed = unseal(text);
   if (!unsealed) return tl::unexpected(unsealed.error());
   try {
     return read(toml::parse(unsealed->body), unsealed->format);
   } catch (const toml::parse_error& error) {
-    return tl::unexpected("is not valid TOML: " + std::string(error.description()));
+    return failure("is not valid TOML: " + std::string(error.description()));
   }
 }
 

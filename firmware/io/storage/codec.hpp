@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "board/learned.hpp"
 
@@ -16,6 +16,6 @@ std::string encode(const board::Learned& learned);
 
 /// The set, bit for bit, when the text is whole, of a known format, has every key and no other, and
 /// the set passes check(). The error goes on from the file's name: "is cut off: …".
-tl::expected<board::Learned, std::string> decode(std::string_view text);
+Result<board::Learned> decode(std::string_view text);
 
 }  // namespace supercoil::storage

@@ -73,25 +73,23 @@ std::string seal(std::string_view body, unsigned format) {
   return first_line_of(body, format) + "\n" + std::string(body);
 }
 
-tl::expected<Unsealed, std::string> unseal(std::string_view text) {
-  if (text.empty()) return tl::unexpected<std::string>("is empty");
+Result<Unsealed> unseal(std::string_view text) {
+  if (text.empty()) return failure("is empty");
   if (text.size() > max_file_bytes) {
-    return tl::unexpected<std::string>("is larger than 64 KiB, which no stored set is");
+    return failure("is larger than 64 KiB, which no stored set is");
   }
   // A file whose data never reached the disk is often zeros of the right length.
   if (const std::size_t at = first_binary(text); at < text.size()) {
-    return tl::unexpected("is not text: byte 0x" +
-                          hexadecimal(static_cast<unsigned char>(text[at]), 2) + " at offset " +
-                          std::to_string(at));
+    return failure("is not text: byte 0x" + hexadecimal(static_cast<unsigned char>(text[at]), 2) +
+                   " at offset " + std::to_string(at));
   }
   if (!text.starts_with(magic)) {
-    if (magic.starts_with(text)) return tl::unexpected<std::string>("is cut off in its first line");
-    return tl::unexpected("is not a stored set: it does not start with '" + std::string(magic) +
-                          "'");
+    if (magic.starts_with(text)) return failure("is cut off in its first line");
+    return failure("is not a stored set: it does not start with '" + std::string(magic) + "'");
   }
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) {
-    return tl::unexpected<std::string>("is cut off in its first line");
+    return failure("is cut off in its first line");
   }
   const std::string_view line = text.substr(0, end);
   const std::string_view body = text.substr(end + 1);
@@ -99,7 +97,7 @@ tl::expected<Unsealed, std::string> unseal(std::string_view text) {
   for (unsigned format = 1; format <= file_format; ++format) {
     if (line == first_line_of(body, format)) return Unsealed{body, format};
   }
-  return tl::unexpected(difference(line, body));
+  return failure(difference(line, body));
 }
 
 }  // namespace supercoil::storage

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::storage {
 
@@ -27,6 +27,6 @@ struct Unsealed {
 
 /// The body of a sealed text, a view into it. The error says in which way it is not whole: empty,
 /// too large, not text, not ours, of a newer format, cut off, with more at its end, or changed.
-tl::expected<Unsealed, std::string> unseal(std::string_view text);
+Result<Unsealed> unseal(std::string_view text);
 
 }  // namespace supercoil::storage

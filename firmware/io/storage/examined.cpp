@@ -14,7 +14,7 @@ Examined examine(Files& files, const std::string& path) {
     return {true, std::nullopt, text.error().text()};
   }
   const auto learned = decode(*text);
-  if (!learned) return {true, std::nullopt, path + ": " + learned.error()};
+  if (!learned) return {true, std::nullopt, path + ": " + learned.error().text()};
   return {true, *learned, ""};
 }
 

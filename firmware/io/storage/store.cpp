@@ -36,7 +36,7 @@ LearnedStore::LearnedStore(std::string folder, int channel, Files& files, Clock 
   assert(channel >= 1 && channel <= 16);
 }
 
-tl::expected<Loaded, std::string> LearnedStore::load() {
+Result<Loaded> LearnedStore::load() {
   const Examined current = examine(*files_, path_);
   const Examined previous = examine(*files_, previous_path_);
   if (current.learned) {
@@ -46,10 +46,10 @@ tl::expected<Loaded, std::string> LearnedStore::load() {
   }
   if (previous.learned) return Loaded{Source::previous, previous.learned, {current.problem}};
   if (current.exists || previous.exists) {
-    return tl::unexpected(current.problem + "; " + previous.problem);
+    return failure(current.problem + "; " + previous.problem);
   }
   if (const auto folder = files_->check_folder(folder_); !folder) {
-    return tl::unexpected(folder.error().text());
+    return tl::unexpected(folder.error());
   }
   return Loaded{};
 }
@@ -70,7 +70,7 @@ void LearnedStore::date(board::Learned& learned, const Examined& current,
   if (identification.identified_s == 0.0) identification.identified_s = clock_();
 }
 
-tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned& learned) {
+Result<std::uint32_t> LearnedStore::save(const board::Learned& learned) {
   const Examined current = examine(*files_, path_);
   const Examined previous = examine(*files_, previous_path_);
   board::Learned next = learned;
@@ -78,7 +78,7 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
   if (current.learned && board::same_content(*current.learned, next)) {
     // An earlier save may have failed, or a process ended, just before this.
     if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
-      return tl::unexpected(synced.error().text());
+      return tl::unexpected(synced.error());
     }
     synced_ = true;
     return current.learned->version;
@@ -87,21 +87,21 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
   const std::string content = encode(next);
   // What could not be read back must not replace what can be.
   if (const auto readable = decode(content); !readable) {
-    return tl::unexpected("is not stored: " + readable.error());
+    return failure("is not stored: " + readable.error().text());
   }
   synced_ = false;
   if (const auto replaced = replace(current, previous, content); !replaced) {
     static_cast<void>(remove(new_path_));  // a full disk needs the room; the cause is reported
-    return tl::unexpected(replaced.error().text());
+    return tl::unexpected(replaced.error());
   }
   synced_ = true;
   return next.version;
 }
 
-tl::expected<void, std::string> LearnedStore::forget() {
+Result<void> LearnedStore::forget() {
   const auto before = load();
   if (before && before->learned && !has_muscle()) return {};
-  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text());
+  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error());
   if (!before || !before->learned) return {};
   board::Learned kept;
   kept.senses = before->learned->senses;

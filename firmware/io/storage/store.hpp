@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "board/learned.hpp"
 #include "storage/examined.hpp"
@@ -51,19 +51,19 @@ class LearnedStore {
   /// The best set there is. The error says why there is none though something was stored, or that
   /// the folder is not there: what was learned may be on a disk that is not mounted. Changes
   /// nothing on the disk.
-  tl::expected<Loaded, std::string> load();
+  Result<Loaded> load();
 
   /// Stores a set and returns the version that it got, one more than the last that is whole. What
   /// identify found gets the date of its first save, as the loop has no calendar. The same content
   /// again writes nothing. A set that fails check() is refused. After an error the set
   /// may be stored or not, and load() says which; saving again is always allowed.
-  tl::expected<std::uint32_t, std::string> save(const board::Learned& learned);
+  Result<std::uint32_t> save(const board::Learned& learned);
 
   /// From now on no muscle is stored, and versions count from 1 again; a comparison of the senses
   /// is kept, as it is the board's, and so is the tuning, which has a way back of its own. The
   /// current file stays for examination. When the power fails meanwhile, or a call, the current set
   /// is still there, or nothing is.
-  tl::expected<void, std::string> forget();
+  Result<void> forget();
 
  private:
   static double system_clock();

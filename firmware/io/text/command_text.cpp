@@ -65,22 +65,20 @@ std::string no_command(std::string_view word) {
 }
 
 /// From 0.
-tl::expected<std::uint8_t, std::string> channel_in(std::string_view word, std::size_t channels) {
+Result<std::uint8_t> channel_in(std::string_view word, std::size_t channels) {
   const auto channel = number<std::size_t>(word);
   if (channel && *channel >= 1 && *channel <= channels)
     return static_cast<std::uint8_t>(*channel - 1);
   const bool no_number = !word.empty() && !number<double>(word);
-  return tl::unexpected("channel '" + std::string(word) + "': must be 1 to " +
-                        std::to_string(channels) +
-                        (no_number ? "; it comes first, as in '1 arm'" : ""));
+  return failure("channel '" + std::string(word) + "': must be 1 to " + std::to_string(channels) +
+                 (no_number ? "; it comes first, as in '1 arm'" : ""));
 }
 
-tl::expected<double, std::string> finite_number(std::string_view word, Verb verb,
-                                                std::string_view needs) {
+Result<double> finite_number(std::string_view word, Verb verb, std::string_view needs) {
   const auto value = number<double>(word);
   if (value && std::isfinite(*value)) return *value;
   const std::string what = std::string(name(verb)) + " needs " + std::string(needs);
-  return tl::unexpected(word.empty() ? what : what + "; '" + std::string(word) + "' is none");
+  return failure(word.empty() ? what : what + "; '" + std::string(word) + "' is none");
 }
 
 std::string unexpected_word(Verb verb, std::string_view rest) {
@@ -92,7 +90,7 @@ std::string unexpected_word(Verb verb, std::string_view rest) {
 
 }  // namespace
 
-tl::expected<Command, std::string> parse_command(std::string_view text, std::size_t channels) {
+Result<Command> parse_command(std::string_view text, std::size_t channels) {
   const auto channel = channel_in(next_word(text), channels);
   if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
@@ -103,7 +101,7 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
   const Verb verb = found == plain_verb_names.end()
                         ? Verb::none
                         : static_cast<Verb>(std::distance(plain_verb_names.begin(), found));
-  if (verb == Verb::none) return tl::unexpected(no_command(verb_word));
+  if (verb == Verb::none) return failure(no_command(verb_word));
   const bool stores = verb == Verb::store && !clears;
   Command command{*channel, verb, stores ? 1.0 : 0.0};
   std::string_view value_word = next_word(text);
@@ -118,12 +116,12 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
     command.value = *value;
   }
   const std::string_view rest = needs.empty() ? value_word : next_word(text);
-  if (!rest.empty()) return tl::unexpected(unexpected_word(verb, rest));
+  if (!rest.empty()) return failure(unexpected_word(verb, rest));
   return command;
 }
 
-std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::string_view text,
-                                                                           std::size_t channels) {
+std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
+                                                        std::size_t channels) {
   const std::string_view channel_word = next_word(text);
   const std::string_view verb_word = next_word(text);
   const bool is_knot = verb_word == name(Verb::knot);
@@ -145,17 +143,17 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
   constexpr double min_after_s = 1e-3;
   constexpr double max_float = std::numeric_limits<float>::max();
   if (is_knot && after_s != 0.0 && !(after_s >= min_after_s && after_s <= max_float)) {
-    return tl::unexpected(shortest_text(after_s) +
-                          " s after the one before: must be 0.001 or more, or 0 of the first");
+    return failure(shortest_text(after_s) +
+                   " s after the one before: must be 0.001 or more, or 0 of the first");
   }
   if (std::abs(velocity_m_per_s) > max_float)
-    return tl::unexpected(shortest_text(velocity_m_per_s) + " m/s is no velocity");
+    return failure(shortest_text(velocity_m_per_s) + " m/s is no velocity");
   command.after_s = static_cast<float>(after_s);
   command.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
   const std::string_view rest = next_word(text);
   if (!rest.empty()) {
-    return tl::unexpected(std::string(name(command.verb)) + " takes no more: leave out '" +
-                          std::string(rest) + "'");
+    return failure(std::string(name(command.verb)) + " takes no more: leave out '" +
+                   std::string(rest) + "'");
   }
   return command;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "loop/command.hpp"
 
@@ -13,12 +13,12 @@ namespace supercoil {
 
 /// "1 position 0.01": a channel from 1, a verb, and a value where the verb has one, in SI units.
 /// channels: how many the board has. The error says what is wrong and what is allowed.
-tl::expected<Command, std::string> parse_command(std::string_view text, std::size_t channels);
+Result<Command> parse_command(std::string_view text, std::size_t channels);
 
 /// "1 knot 0.02 0.01 0.001": how long after the knot before in s, m, m/s; "1 start 12.345": from
 /// that time of the board's clock on, in s. Empty: the text is neither.
-std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::string_view text,
-                                                                           std::size_t channels);
+std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
+                                                        std::size_t channels);
 
 /// "ok", "refused: wrong_state", or "refused: out_of_range; 0.025 would be obeyed". nearest: as in
 /// Answer.

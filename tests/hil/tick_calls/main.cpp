@@ -75,7 +75,7 @@ int main(int count, char** arguments) {
   if (!board) return fail(board.error().front());
   const double rate_Hz = config->settings.rate_Hz;
   if (const auto started = (*board)->start(rate_Hz, bus_priority); !started) {
-    return fail(started.error());
+    return fail(started.error().text());
   }
   hal_linux::CpuLatencyRequest cpus;
   for (const auto& step :

@@ -17,10 +17,10 @@ bool names_socketcand(const std::string& name) {
   return name.starts_with(protocol);
 }
 
-tl::expected<SocketcandAddress, std::string> parse_socketcand(const std::string& name) {
+Result<SocketcandAddress> parse_socketcand(const std::string& name) {
   const auto wrong = [&] {
-    return tl::unexpected("'" + name +
-                          "': must be socketcand:[HOST:]PORT[/INTERFACE], a port from 1 to 65535");
+    return failure("'" + name +
+                   "': must be socketcand:[HOST:]PORT[/INTERFACE], a port from 1 to 65535");
   };
   SocketcandAddress address;
   std::string rest = name.substr(std::min(protocol.size(), name.size()));
@@ -41,17 +41,17 @@ tl::expected<SocketcandAddress, std::string> parse_socketcand(const std::string&
   return address;
 }
 
-tl::expected<std::unique_ptr<hal::CanBus>, std::string> open_bus(
-    const std::string& name, const std::vector<std::uint16_t>& listen) {
+Result<std::unique_ptr<hal::CanBus>> open_bus(const std::string& name,
+                                              const std::vector<std::uint16_t>& listen) {
   if (names_socketcand(name)) {
     const auto address = parse_socketcand(name);
     if (!address) return tl::unexpected(address.error());
     auto bus = SocketcandBus::open(*address);
-    if (!bus) return tl::unexpected(name + ": " + bus.error());
+    if (!bus) return failure(name + ": " + bus.error().text());
     return std::move(*bus);
   }
   auto bus = hal_linux::SocketCan::open({name, listen, "/sys/class/net", listen.empty()});
-  if (!bus) return tl::unexpected(bus.error().text() + "; a simulated board's is socketcand:PORT");
+  if (!bus) return failure(bus.error().text() + "; a simulated board's is socketcand:PORT");
   return std::move(*bus);
 }
 

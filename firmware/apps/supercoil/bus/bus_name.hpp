@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::operating {
 
@@ -19,12 +18,12 @@ struct SocketcandAddress {
 };
 
 /// "socketcand:[HOST:]PORT[/INTERFACE]". The error says what is wrong with the name.
-tl::expected<SocketcandAddress, std::string> parse_socketcand(const std::string& name);
+Result<SocketcandAddress> parse_socketcand(const std::string& name);
 bool names_socketcand(const std::string& name);
 
 /// listen: identifiers that are wanted; none: all. Others may come too. The error names the bus,
 /// and says what there is instead.
-tl::expected<std::unique_ptr<hal::CanBus>, std::string> open_bus(
-    const std::string& name, const std::vector<std::uint16_t>& listen = {});
+Result<std::unique_ptr<hal::CanBus>> open_bus(const std::string& name,
+                                              const std::vector<std::uint16_t>& listen = {});
 
 }  // namespace supercoil::operating

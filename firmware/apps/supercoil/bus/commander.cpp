@@ -45,7 +45,7 @@ void Commander::drain() {
 }
 
 template <class Heard>
-tl::expected<Heard, std::string> Commander::exchange(
+Result<Heard> Commander::exchange(
     const hal::CanFrame& frame,
     const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
     std::chrono::milliseconds within) {
@@ -56,14 +56,15 @@ tl::expected<Heard, std::string> Commander::exchange(
     sent = bus_->send(frame);
   }
   if (sent != hal::Status::ok)
-    return tl::unexpected(std::string("the bus does not take the command: ") + text(sent));
+    return failure(std::string("the bus does not take the command: ") + text(sent));
   do {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
       if (const auto answer = hear(heard)) return *answer;
     }
     std::this_thread::sleep_for(nap);
   } while (Clock::now() < deadline);
-  return tl::unexpected("no answer from node " + std::to_string(master_.node()) + " within 0.5 s");
+  return failure("no answer from node " + std::to_string(master_.node()) + " within 0.5 s",
+                 std::errc::timed_out);
 }
 
 Commander::Answer Commander::exchange(const hal::CanFrame& frame,
@@ -113,7 +114,7 @@ auto Commander::insist(const Once& once) {
   return answer;
 }
 
-tl::expected<Refusal, std::string> Commander::ask(Verb verb, double value) {
+Result<Refusal> Commander::ask(Verb verb, double value) {
   return insist([&] { return command(verb, value); });
 }
 
@@ -129,7 +130,7 @@ double Commander::nearest() {
 }
 
 template <class Heard>
-tl::expected<Heard, std::string> Commander::read_value(
+Result<Heard> Commander::read_value(
     const hal::CanFrame& frame,
     const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
   auto heard = exchange(frame, hear, answer_within);
@@ -210,7 +211,7 @@ hal::Status Commander::send_sync(std::uint8_t number, double master_time_s) {
   return bus_->send(can_client::sync(number, master_time_s));
 }
 
-tl::expected<KnownMuscle, std::string> Commander::muscle() {
+Result<KnownMuscle> Commander::muscle() {
   drain();
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i) {

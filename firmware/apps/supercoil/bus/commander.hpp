@@ -5,9 +5,8 @@
 #include <functional>
 #include <memory>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 #include "can_client/master.hpp"
 #include "loop/known_muscle.hpp"
@@ -21,20 +20,20 @@ class Commander {
 
   /// Waits at most half a second for the answer, and meanwhile sends again what renews. Claims the
   /// lease when it has run out. The error says that there was no answer, or that the bus is gone.
-  tl::expected<Refusal, std::string> ask(Verb verb, double value);
+  Result<Refusal> ask(Verb verb, double value);
   /// After an answer out_of_range: the nearest value that would have been obeyed. NaN: there is
   /// none, or the board does not say.
   double nearest();
-  using Setting = tl::expected<can_client::Master::Setting, std::string>;
+  using Setting = Result<can_client::Master::Setting>;
   /// Likewise; reading needs no lease.
   Setting read(std::uint8_t setting);
   Setting write(std::uint8_t setting, double value);
   /// Likewise, of a controller's values.
-  using Tuned = tl::expected<can_client::TunedValue, std::string>;
+  using Tuned = Result<can_client::TunedValue>;
   Tuned read_tuning(const can_client::TunedPlace& place);
   Tuned prepare(const can_client::TunedPlace& place, double value);
   /// Likewise, of its trajectory.
-  using Played = tl::expected<can_client::Played, std::string>;
+  using Played = Result<can_client::Played>;
   Played add_knot(double after_s, const control::Knot& knot);
   Played start_at_once(double after_s);
   Played start_at_sync(std::uint8_t sync, double after_s);
@@ -42,7 +41,7 @@ class Commander {
   /// To all nodes of the bus.
   hal::Status send_sync(std::uint8_t number, double master_time_s);
   /// Whatever the node goes by. Needs no lease.
-  tl::expected<KnownMuscle, std::string> muscle();
+  Result<KnownMuscle> muscle();
   /// Gives the lease back, if there is one.
   void release();
   /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.
@@ -50,22 +49,20 @@ class Commander {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Answer = tl::expected<Refusal, std::string>;
+  using Answer = Result<Refusal>;
 
   /// Until hear(frame) gives what an answer says.
   template <class Heard>
-  tl::expected<Heard, std::string> exchange(
-      const hal::CanFrame& frame,
-      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
-      std::chrono::milliseconds within);
+  Result<Heard> exchange(const hal::CanFrame& frame,
+                         const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
+                         std::chrono::milliseconds within);
   Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds within);
   /// frame(): made anew for each try.
   Played play(const std::function<hal::CanFrame()>& frame);
   /// A question that changes nothing is asked once more when it, or its answer, was lost.
   template <class Heard>
-  tl::expected<Heard, std::string> read_value(
-      const hal::CanFrame& frame,
-      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
+  Result<Heard> read_value(const hal::CanFrame& frame,
+                           const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   /// Refusal::none: the lease is held.
   Answer claim();
   Answer command(Verb verb, double value);

@@ -9,13 +9,12 @@
 
 namespace supercoil::operating {
 
-tl::expected<CanLogFile, std::string> read_can_log(const std::string& path) {
+Result<CanLogFile> read_can_log(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    return tl::unexpected(path + ": is a folder, not a log");
+    return failure(path + ": is a folder, not a log");
   std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return tl::unexpected(path + ": cannot be read: " + std::generic_category().message(errno));
+  if (!in) return failed_call(path + ": cannot be read", errno);
   CanLogFile log;
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -24,7 +23,7 @@ tl::expected<CanLogFile, std::string> read_can_log(const std::string& path) {
     const auto read = can_client::parse_candump_line(line);
     if (!read) {
       if (log.damaged_lines++ == 0)
-        log.damage = path + ":" + std::to_string(number) + ": " + read.error();
+        log.damage = path + ":" + std::to_string(number) + ": " + read.error().text();
     } else if (read->ours) {
       log.frames.push_back(read->frame);
       log.frames.back().received = can_client::time_of_run(read->frame.received);
@@ -32,10 +31,9 @@ tl::expected<CanLogFile, std::string> read_can_log(const std::string& path) {
       ++log.foreign_lines;
     }
   }
-  if (in.bad()) return tl::unexpected(path + ": cannot be read to its end");
+  if (in.bad()) return failure(path + ": cannot be read to its end");
   if (log.frames.empty() && log.foreign_lines == 0) {
-    return tl::unexpected(log.damage.empty() ? path + ": is empty"
-                                             : log.damage + ": no candump -L log");
+    return failure(log.damage.empty() ? path + ": is empty" : log.damage + ": no candump -L log");
   }
   return log;
 }

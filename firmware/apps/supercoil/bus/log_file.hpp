@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::operating {
 
@@ -19,6 +18,6 @@ struct CanLogFile {
 
 /// Reads what can be read: a log whose last line was cut off is still worth all others. The error
 /// names the file: it cannot be read, or has no line of a log.
-tl::expected<CanLogFile, std::string> read_can_log(const std::string& path);
+Result<CanLogFile> read_can_log(const std::string& path);
 
 }  // namespace supercoil::operating

@@ -25,15 +25,14 @@ std::string silence(const std::string& request, bool is_open) {
 
 }  // namespace
 
-tl::expected<std::unique_ptr<SocketcandBus>, std::string> SocketcandBus::open(
-    const SocketcandAddress& address) {
+Result<std::unique_ptr<SocketcandBus>> SocketcandBus::open(const SocketcandAddress& address) {
   auto bus = std::make_unique<SocketcandBus>(address);
   if (auto connected = bus->connect(first_try); !connected)
     return tl::unexpected(connected.error());
   return bus;
 }
 
-tl::expected<void, std::string> SocketcandBus::connect(Clock::duration within) {
+Result<void> SocketcandBus::connect(Clock::duration within) {
   const auto deadline = Clock::now() + within;
   next_try_ = deadline;
   reader_ = {};
@@ -41,14 +40,14 @@ tl::expected<void, std::string> SocketcandBus::connect(Clock::duration within) {
   tcp::resolver resolver(io_);
   boost::system::error_code unknown;
   const auto places = resolver.resolve(address_.host, std::to_string(address_.port), unknown);
-  if (unknown) return tl::unexpected(address_.host + ": " + unknown.message());
+  if (unknown) return failure(address_.host + ": " + unknown.message());
   boost::asio::async_connect(socket_, places,
                              [&](boost::system::error_code e, const tcp::endpoint&) { error = e; });
   io_.restart();
   io_.run_until(deadline);
-  const auto fail = [&](const std::string& why) -> tl::expected<void, std::string> {
+  const auto fail = [&](const std::string& why) -> Result<void> {
     lose();
-    return tl::unexpected(why);
+    return failure(why);
   };
   if (!io_.stopped()) {
     lose();

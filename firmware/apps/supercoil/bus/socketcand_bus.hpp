@@ -8,9 +8,9 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <tl/expected.hpp>
 
 #include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/bus/bus_name.hpp"
 #include "can_client/socketcand.hpp"
@@ -22,8 +22,7 @@ namespace supercoil::operating {
 class SocketcandBus final : public hal::CanBus {
  public:
   /// Waits at most 2 s. The error has the server's answer, or says that there was none.
-  static tl::expected<std::unique_ptr<SocketcandBus>, std::string> open(
-      const SocketcandAddress& address);
+  static Result<std::unique_ptr<SocketcandBus>> open(const SocketcandAddress& address);
   explicit SocketcandBus(SocketcandAddress address) : address_(std::move(address)) {}
 
   hal::Status send(const hal::CanFrame& frame) override;
@@ -36,7 +35,7 @@ class SocketcandBus final : public hal::CanBus {
  private:
   using Clock = std::chrono::steady_clock;
 
-  tl::expected<void, std::string> connect(Clock::duration within);
+  Result<void> connect(Clock::duration within);
   /// The next element that the server sends; empty: none came in time.
   std::optional<std::string> element_until(Clock::time_point deadline);
   bool write(const std::string& text);

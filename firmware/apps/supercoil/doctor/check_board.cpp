@@ -102,7 +102,7 @@ void check_board(const config::BoardConfig& config, const CheckOptions& options,
   if (lock) {
     measured = check_devices(config, options.machine, options.loop.priority, sink);
   } else {
-    sink({"devices", Severity::warning, "not looked at: " + lock.error(),
+    sink({"devices", Severity::warning, "not looked at: " + lock.error().text(),
           "stop supercoild, or make its folder, and run this again"});
   }
   check_buses(config, measured, sink);

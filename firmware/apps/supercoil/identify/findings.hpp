@@ -29,7 +29,7 @@ std::string report(const Findings& findings);
 std::string json_report(const Findings& findings);
 /// [muscle] as a scenario and a board's configuration read it, with what is assumed in comments.
 /// The error says which value no muscle has.
-tl::expected<std::string, std::string> muscle_table(const Findings& findings);
+Result<std::string> muscle_table(const Findings& findings);
 /// Measured and predicted position, what is left, and power.
 Figure identify_figure(const Findings& findings);
 

@@ -30,8 +30,7 @@ std::optional<double> seconds_in(std::string_view text, double absent) {
 }
 
 /// "FROM:TO", where either may be left out, with enough of the recording in it.
-tl::expected<Span, std::string> span_in(const char* option, const std::string& text,
-                                        const Samples& samples) {
+Result<Span> span_in(const char* option, const std::string& text, const Samples& samples) {
   constexpr std::size_t min_samples = 50;
   const std::size_t colon = text.find(':');
   const std::string_view whole(text);
@@ -42,12 +41,12 @@ tl::expected<Span, std::string> span_in(const char* option, const std::string& t
   for (std::size_t k = 0; from && to && k < samples.size(); ++k)
     if (Span{*from, *to}.holds(samples.time_s(k)) && samples.measured(k)) ++measured;
   if (measured >= min_samples) return Span{*from, *to};
-  return tl::unexpected(std::string(option) + " " + text +
-                        ": must be FROM:TO in seconds, 50 samples or more within " +
-                        std::to_string(samples.start_s) + " to " + std::to_string(samples.end_s()));
+  return failure(std::string(option) + " " + text +
+                 ": must be FROM:TO in seconds, 50 samples or more within " +
+                 std::to_string(samples.start_s) + " to " + std::to_string(samples.end_s()));
 }
 
-tl::expected<Parts, std::string> parts_in(const IdentifyOptions& o, const Samples& samples) {
+Result<Parts> parts_in(const IdentifyOptions& o, const Samples& samples) {
   Parts parts = identification::default_parts(samples);
   if (!o.fit.empty()) {
     const auto fitted = span_in("--fit", o.fit, samples);
@@ -68,7 +67,7 @@ tl::expected<Parts, std::string> parts_in(const IdentifyOptions& o, const Sample
   }
   const bool apart =
       parts.fitted.to_s <= parts.unseen.from_s || parts.unseen.to_s <= parts.fitted.from_s;
-  if (!apart) return tl::unexpected(std::string("--fit and --judge must not overlap"));
+  if (!apart) return failure("--fit and --judge must not overlap");
   return parts;
 }
 
@@ -107,31 +106,30 @@ int identify_command(const IdentifyOptions& options) {
       return refuse(options.json, exit_wrong_input, path + ": is the recording itself");
   }
   const auto recording = read_input(options);
-  if (!recording) return refuse(options.json, exit_wrong_input, recording.error());
+  if (!recording) return refuse(options.json, exit_wrong_input, recording.error().text());
   for (const identification::Problem& warning : recording->warnings)
     std::fprintf(stderr, "supercoil: %s\n", to_text(options.file, warning).c_str());
   Samples samples = identification::resample(*recording);
   const auto parts = parts_in(options, samples);
-  if (!parts) return refuse(options.json, exit_wrong_input, parts.error());
+  if (!parts) return refuse(options.json, exit_wrong_input, parts.error().text());
   const Findings found = find(options, recording->size(), std::move(samples), *parts);
 
   const bool muscle = found.comparison.not_a_muscle.empty();
   std::string text = options.json ? json_report(found) : report(found);
   if (!options.plot.empty()) {
     if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
-      return refuse(options.json, exit_failed, drawn.error());
+      return refuse(options.json, exit_failed, drawn.error().text());
   }
-  tl::expected<std::string, std::string> table =
-      tl::unexpected(std::string("no [muscle] table is written: this is not such a muscle"));
+  Result<std::string> table = failure("no [muscle] table is written: this is not such a muscle");
   if (muscle) table = muscle_table(found);
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;
   if (const auto said = files.write({STDOUT_FILENO, "standard output"}, text); !said)
     return refuse(options.json, exit_failed, said.error().text());
-  if (!table) return fail(exit_failed, table.error());
+  if (!table) return fail(exit_failed, table.error().text());
   if (options.muscle.empty()) return exit_done;
   const auto written = write_whole(options.muscle, *table);
-  return written ? exit_done : fail(exit_failed, written.error());
+  return written ? exit_done : fail(exit_failed, written.error().text());
 }
 
 }  // namespace supercoil::operating

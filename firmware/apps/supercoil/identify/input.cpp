@@ -15,7 +15,7 @@ using identification::Recording;
 /// The rows of one channel. Lines are counted as supercoil log would write them.
 tl::expected<Recording, Problem> from_flight_recording(std::string_view content, int channel) {
   const auto flight = recorder::decode(content, recorder::Damaged::refuse);
-  if (!flight) return tl::unexpected(Problem{0, flight.error()});
+  if (!flight) return tl::unexpected(Problem{0, flight.error().text()});
   if (channel == 0 && flight->header.channels > 1) {
     return tl::unexpected(Problem{
         0, "has " + std::to_string(flight->header.channels) + " channels: say which by --channel"});
@@ -39,12 +39,10 @@ std::string to_text(const std::string& file, const Problem& problem) {
          problem.text;
 }
 
-tl::expected<Recording, std::string> read_input(const IdentifyOptions& o) {
+Result<Recording> read_input(const IdentifyOptions& o) {
   const auto content = read_whole(o.file);
   if (!content) return tl::unexpected(content.error());
-  const auto text_of = [&](const Problem& problem) {
-    return tl::unexpected(to_text(o.file, problem));
-  };
+  const auto text_of = [&](const Problem& problem) { return failure(to_text(o.file, problem)); };
   const bool flight = content->starts_with("supercoil flight recording");
   auto recording = flight ? from_flight_recording(*content, o.columns.channel)
                           : identification::read_csv(*content, o.columns);

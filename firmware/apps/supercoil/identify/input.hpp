@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include <tl/expected.hpp>
-
+#include "supercoil/hal/error.hpp"
 #include "supercoil/identification/recording.hpp"
 
 #include "apps/supercoil/identify/options.hpp"
@@ -13,7 +12,7 @@ namespace supercoil::operating {
 
 /// CSV or a flight recording, checked and cut as the options say. The error has the file's name,
 /// and the line where there is one.
-tl::expected<identification::Recording, std::string> read_input(const IdentifyOptions& options);
+Result<identification::Recording> read_input(const IdentifyOptions& options);
 
 /// "FILE:LINE: what is wrong"
 std::string to_text(const std::string& file, const identification::Problem& problem);

@@ -22,7 +22,7 @@ bool reported_of(const identification::Fit& fit, double identification::Muscle::
 
 }  // namespace
 
-tl::expected<std::string, std::string> muscle_table(const Findings& f) {
+Result<std::string> muscle_table(const Findings& f) {
   using identification::Muscle;
   const auto p = identification::physical_from(f.linear.muscle, f.assumed);
   if (const auto wrong = control::check(p)) {
@@ -31,7 +31,7 @@ tl::expected<std::string, std::string> muscle_table(const Findings& f) {
                   "%s would be %.4g, which is not between %.4g and %.4g: no muscle of thread, or "
                   "another --thermal-mass, --stiffness or --moving-mass is needed",
                   wrong->quantity, wrong->value, wrong->lowest, wrong->highest);
-    return tl::unexpected(std::string(text.data()));
+    return failure(std::string(text.data()));
   }
   const bool by_mass = f.assumed.moving_mass_kg.has_value();
   const bool frequency = reported_of(f.linear, &Muscle::natural_frequency_rad_per_s);

@@ -31,9 +31,8 @@ ordered_json value_json(const SignalInfo& signal, double value) {
 
 }  // namespace
 
-tl::expected<std::size_t, std::string> from_can_log(const std::vector<hal::CanFrame>& frames,
-                                                    const CanSelection& selection,
-                                                    const recorder::Sink& write) {
+Result<std::size_t> from_can_log(const std::vector<hal::CanFrame>& frames,
+                                 const CanSelection& selection, const recorder::Sink& write) {
   Writer writer(write);
   std::map<std::string, std::uint16_t> channels;
   std::size_t messages = 0;

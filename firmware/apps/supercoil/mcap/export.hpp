@@ -17,8 +17,7 @@ Written from_recording(const recorder::Recording& recording, const recorder::Sin
 
 /// Topic /node_1/Status and so on for each message of each node; times are the log's. Returns how
 /// many messages it wrote.
-tl::expected<std::size_t, std::string> from_can_log(const std::vector<hal::CanFrame>& frames,
-                                                    const CanSelection& selection,
-                                                    const recorder::Sink& write);
+Result<std::size_t> from_can_log(const std::vector<hal::CanFrame>& frames,
+                                 const CanSelection& selection, const recorder::Sink& write);
 
 }  // namespace supercoil::operating::mcap

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 #include "recorder/recording.hpp"
 
 namespace supercoil::operating::mcap {
 
-using Written = tl::expected<void, std::string>;
+using Written = Result<void>;
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 /// Adds the unit to a property of a JSON schema; an empty one adds nothing.

@@ -127,11 +127,11 @@ ManualControl& ManualControls::of(std::uint8_t node) {
   return *control;
 }
 
-tl::expected<AskTuning, std::string> ManualControls::ask_tuning(std::uint8_t node) {
+Result<AskTuning> ManualControls::ask_tuning(std::uint8_t node) {
   auto bus = bus_of_(node)();
   if (!bus) return tl::unexpected(bus.error());
   return [reader = std::make_shared<Commander>(std::move(*bus), node)](
-             int place, std::size_t tunable, TuningSet set) -> tl::expected<double, std::string> {
+             int place, std::size_t tunable, TuningSet set) -> Result<double> {
     const auto heard = reader->read_tuning(
         {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
     if (!heard) return tl::unexpected(heard.error());
@@ -139,19 +139,19 @@ tl::expected<AskTuning, std::string> ManualControls::ask_tuning(std::uint8_t nod
   };
 }
 
-tl::expected<TunedChannel, std::string> ManualControls::read_tuning(std::uint8_t node) {
+Result<TunedChannel> ManualControls::read_tuning(std::uint8_t node) {
   const auto ask = ask_tuning(node);
   if (!ask) return tl::unexpected(ask.error());
   return operating::read_tuning(*ask);
 }
 
-tl::expected<nlohmann::ordered_json, std::string> ManualControls::read_kinds(std::uint8_t node) {
+Result<nlohmann::ordered_json> ManualControls::read_kinds(std::uint8_t node) {
   const auto ask = ask_tuning(node);
   if (!ask) return tl::unexpected(ask.error());
   return operating::read_kinds(*ask);
 }
 
-tl::expected<KnownMuscle, std::string> ManualControls::read_muscle(std::uint8_t node) {
+Result<KnownMuscle> ManualControls::read_muscle(std::uint8_t node) {
   auto bus = bus_of_(node)();
   if (!bus) return tl::unexpected(bus.error());
   return Commander(std::move(*bus), node).muscle();
@@ -173,9 +173,9 @@ template <class Read>
 void Api::tell_of_node(const Request& request, Response& response, Read read) {
   if (about_.log) return refuse(response, 404, "a log has no board to ask");
   const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
-  if (!node) return refuse(response, 400, node.error());
+  if (!node) return refuse(response, 400, node.error().text());
   const auto told = read(*node);
-  if (!told) return refuse(response, 504, told.error());
+  if (!told) return refuse(response, 504, told.error().text());
   answer_json(response, told->dump());
 }
 
@@ -300,31 +300,31 @@ void Api::stream(const Request& request, Response& response) {
 
 void Api::command(const Request& request, Response& response) {
   const auto order = parse_command_request(request.body);
-  if (!order) return refuse(response, 400, order.error());
+  if (!order) return refuse(response, 400, order.error().text());
   const auto answer = controls_->of(order->node).ask(order->verb, order->value);
-  if (!answer) return refuse(response, 504, answer.error());
+  if (!answer) return refuse(response, 504, answer.error().text());
   answer_json(response, json{{"refusal", name(*answer)}}.dump());
 }
 
 void Api::tune(const Request& request, Response& response) {
   const auto asked = parse_tuning_request(request.body);
-  if (!asked) return refuse(response, 400, asked.error());
+  if (!asked) return refuse(response, 400, asked.error().text());
   const auto answer = operating::tune(controls_->of(asked->node), *asked);
-  if (!answer) return refuse(response, 504, answer.error());
+  if (!answer) return refuse(response, 504, answer.error().text());
   answer_json(response, json{{"refusal", name(*answer)}}.dump());
 }
 
 void Api::play(const Request& request, Response& response) {
   const auto asked = parse_trajectory_request(request.body);
-  if (!asked) return refuse(response, 400, asked.error());
+  if (!asked) return refuse(response, 400, asked.error().text());
   const auto sent = controls_->of(asked->node).play(asked->knots, asked->start);
-  if (!sent) return refuse(response, 504, sent.error());
+  if (!sent) return refuse(response, 504, sent.error().text());
   answer_json(response, sent_json(*sent));
 }
 
 void Api::alive(const Request& request, Response& response) {
   const auto node = parse_node(request.body);
-  if (!node) return refuse(response, 400, node.error());
+  if (!node) return refuse(response, 400, node.error().text());
   const ManualControl::Holding holding = controls_->of(*node).alive();
   json told{{"holding", holding.holding}};
   if (!holding.holding) told["reason"] = holding.reason;

@@ -25,16 +25,16 @@ class ManualControls {
   ManualControl& of(std::uint8_t node);
   /// All values of a node's controllers and estimators, over a connection of its own: this may take
   /// seconds.
-  tl::expected<TunedChannel, std::string> read_tuning(std::uint8_t node);
+  Result<TunedChannel> read_tuning(std::uint8_t node);
   /// Their kinds only, which is quick.
-  tl::expected<nlohmann::ordered_json, std::string> read_kinds(std::uint8_t node);
+  Result<nlohmann::ordered_json> read_kinds(std::uint8_t node);
   /// What a node goes by, likewise.
-  tl::expected<KnownMuscle, std::string> read_muscle(std::uint8_t node);
+  Result<KnownMuscle> read_muscle(std::uint8_t node);
   void release_hold(const std::string& reason);
 
  private:
   /// For one question after the other.
-  tl::expected<AskTuning, std::string> ask_tuning(std::uint8_t node);
+  Result<AskTuning> ask_tuning(std::uint8_t node);
 
   std::function<ManualControl::OpenBus(std::uint8_t)> bus_of_;
   std::mutex mutex_;

@@ -13,11 +13,11 @@ namespace {
 
 using nlohmann::json;
 
-tl::expected<std::uint8_t, std::string> node_of(const json& read) {
+Result<std::uint8_t> node_of(const json& read) {
   const auto node = read.is_object() ? read.find("node") : read.end();
   if (!read.is_object() || node == read.end() || !node->is_number_integer() || *node < 1 ||
       *node > can::max_nodes) {
-    return tl::unexpected("node must be 1 to " + std::to_string(can::max_nodes));
+    return failure("node must be 1 to " + std::to_string(can::max_nodes));
   }
   return node->get<std::uint8_t>();
 }
@@ -28,11 +28,11 @@ json read_json(const std::string& text) {
 
 }  // namespace
 
-tl::expected<std::uint8_t, std::string> parse_node(const std::string& text) {
+Result<std::uint8_t> parse_node(const std::string& text) {
   return node_of(read_json(text));
 }
 
-tl::expected<CommandRequest, std::string> parse_command_request(const std::string& text) {
+Result<CommandRequest> parse_command_request(const std::string& text) {
   const json read = read_json(text);
   const auto node = node_of(read);
   if (!node) return tl::unexpected(node.error());
@@ -40,11 +40,11 @@ tl::expected<CommandRequest, std::string> parse_command_request(const std::strin
                                  ? read["opcode"].get<std::string>()
                                  : std::string();
   const auto verb = std::find(plain_verb_names.begin() + 1, plain_verb_names.end(), opcode);
-  if (verb == plain_verb_names.end()) return tl::unexpected("'" + opcode + "' is not an opcode");
+  if (verb == plain_verb_names.end()) return failure("'" + opcode + "' is not an opcode");
   double value = 0.0;
   if (const auto given = read.find("value"); given != read.end()) {
     if (!given->is_number() || !std::isfinite(given->get<double>()))
-      return tl::unexpected(std::string("value must be a number"));
+      return failure("value must be a number");
     value = given->get<double>();
   }
   return CommandRequest{*node, static_cast<Verb>(std::distance(plain_verb_names.begin(), verb)),

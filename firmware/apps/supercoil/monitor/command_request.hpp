@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "loop/command.hpp"
 
@@ -18,8 +18,8 @@ struct CommandRequest {
 
 /// {"node":1,"opcode":"position","value":0.002}; value may be absent where the verb has none. The
 /// error says what is wrong, and with what.
-tl::expected<CommandRequest, std::string> parse_command_request(const std::string& text);
+Result<CommandRequest> parse_command_request(const std::string& text);
 /// {"node":1}
-tl::expected<std::uint8_t, std::string> parse_node(const std::string& text);
+Result<std::uint8_t> parse_node(const std::string& text);
 
 }  // namespace supercoil::operating

@@ -51,8 +51,7 @@ ManualControl::Answer ManualControl::prepare(const can_client::TunedPlace& place
   });
 }
 
-tl::expected<ManualControl::Sent, std::string> ManualControl::play(
-    const std::vector<NextKnot>& knots, bool start) {
+Result<ManualControl::Sent> ManualControl::play(const std::vector<NextKnot>& knots, bool start) {
   Sent sent{0, {Refusal::none, PlaybackState::empty, 0, NAN}};
   const Answer answer = wait_for([&] { return send_knots(knots, start, sent); });
   if (!answer) return tl::unexpected(answer.error());
@@ -154,7 +153,7 @@ void ManualControl::renew() {
     return;
   }
   const Answer answer = command(Verb::renew, 0.0);
-  if (!answer) return release_hold("expired: " + answer.error());
+  if (!answer) return release_hold("expired: " + answer.error().text());
   // Identification and calibration end by themselves; what else ended it, the board's state tells.
   if (*answer == Refusal::wrong_state) return release_hold("ended: the board stopped it");
   if (*answer != Refusal::none) release_hold("refused: " + std::string(refusal_words(*answer)));

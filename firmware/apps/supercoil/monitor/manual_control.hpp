@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/bus/commander.hpp"
 
@@ -23,8 +23,8 @@ namespace supercoil::operating {
 /// Safe from any thread; a thread of its own talks to the node.
 class ManualControl {
  public:
-  using Answer = tl::expected<Refusal, std::string>;
-  using OpenBus = std::function<tl::expected<std::unique_ptr<hal::CanBus>, std::string>()>;
+  using Answer = Result<Refusal>;
+  using OpenBus = std::function<Result<std::unique_ptr<hal::CanBus>>()>;
   static constexpr auto page_timeout = std::chrono::milliseconds(1500);
 
   ManualControl(std::uint8_t node, OpenBus open_bus);
@@ -50,7 +50,7 @@ class ManualControl {
   /// Sends knots, up to the first one that is refused, and starts the trajectory if told to.
   /// Without either it asks for the playback. Only what is held is played, and letting go ends it
   /// between two knots. Whoever sends knots is alive.
-  tl::expected<Sent, std::string> play(const std::vector<NextKnot>& knots, bool start);
+  Result<Sent> play(const std::vector<NextKnot>& knots, bool start);
   struct Holding {
     bool holding;
     std::string reason;  ///< why not, since the last command that was held

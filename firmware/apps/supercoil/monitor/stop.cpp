@@ -29,9 +29,10 @@ StopServer::StopServer(Access access, ManualControl::OpenBus open_bus,
       frame_history_(&frame_history),
       release_hold_(std::move(release_hold)) {}
 
-tl::expected<std::unique_ptr<StopServer>, std::string> StopServer::start(
-    const Access& access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
-    std::function<void()> release_hold) {
+Result<std::unique_ptr<StopServer>> StopServer::start(const Access& access,
+                                                      ManualControl::OpenBus open_bus,
+                                                      const FrameHistory& frame_history,
+                                                      std::function<void()> release_hold) {
   auto listener = StopListener::open(access.host, access.port + 1);
   if (!listener) return tl::unexpected(listener.error());
   std::unique_ptr<StopServer> server(
@@ -100,7 +101,7 @@ std::string StopServer::open_bus() {
   if (bus_ && bus_->state() != hal::CanState::down) return {};
   bus_.reset();
   auto bus = new_bus_();
-  if (!bus) return bus.error();
+  if (!bus) return bus.error().text();
   bus_ = std::move(*bus);
   return {};
 }

@@ -23,9 +23,10 @@ class StopServer {
  public:
   /// release_hold: tells the hands, without waiting. port: the one after the page's if it is free,
   /// else any. recent outlives it. The error says why it cannot listen.
-  static tl::expected<std::unique_ptr<StopServer>, std::string> start(
-      const Access& access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
-      std::function<void()> release_hold);
+  static Result<std::unique_ptr<StopServer>> start(const Access& access,
+                                                   ManualControl::OpenBus open_bus,
+                                                   const FrameHistory& frame_history,
+                                                   std::function<void()> release_hold);
   StopServer(const StopServer&) = delete;
   StopServer& operator=(const StopServer&) = delete;
   ~StopServer();

@@ -21,12 +21,11 @@ constexpr auto retry_after = std::chrono::milliseconds(5);
 
 }  // namespace
 
-tl::expected<std::unique_ptr<StopListener>, std::string> StopListener::open(const std::string& host,
-                                                                            int port) {
+Result<std::unique_ptr<StopListener>> StopListener::open(const std::string& host, int port) {
   auto listener = std::make_unique<StopListener>();
   boost::system::error_code error = listener->listen(host, port);
   if (error) error = listener->listen(host, 0);
-  if (error) return tl::unexpected(host + ": no port available for STOP: " + error.message());
+  if (error) return failure(host + ": no port available for STOP: " + error.message());
   return listener;
 }
 

@@ -11,7 +11,8 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/monitor/httplib.hpp"
 
@@ -39,8 +40,7 @@ class StopListener {
   using Take = std::function<void(const httplib::Request&, Answer)>;
 
   /// port: the one that is wanted; another when it is not free. The error says why there is none.
-  static tl::expected<std::unique_ptr<StopListener>, std::string> open(const std::string& host,
-                                                                       int port);
+  static Result<std::unique_ptr<StopListener>> open(const std::string& host, int port);
   StopListener() = default;
   StopListener(const StopListener&) = delete;
   StopListener& operator=(const StopListener&) = delete;

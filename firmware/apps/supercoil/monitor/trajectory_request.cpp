@@ -28,12 +28,12 @@ class KnotReader {
  public:
   explicit KnotReader(std::size_t number) : name_("knot " + std::to_string(number)) {}
 
-  tl::expected<ManualControl::NextKnot, std::string> read(const json& knot) {
-    if (!knot.is_object()) return tl::unexpected(name_ + " must be an object");
+  Result<ManualControl::NextKnot> read(const json& knot) {
+    if (!knot.is_object()) return failure(name_ + " must be an object");
     const ManualControl::NextKnot read{value(knot, "after_s", "after_s"),
                                        value(knot, "position_m", "position_m"),
                                        value(knot, "velocity_m_per_s", "velocity_m_per_s")};
-    if (problem_) return tl::unexpected(*problem_);
+    if (problem_) return failure(*problem_);
     return read;
   }
 
@@ -58,11 +58,11 @@ class KnotReader {
   std::optional<std::string> problem_;
 };
 
-tl::expected<std::vector<ManualControl::NextKnot>, std::string> knots_of(const json& given) {
+Result<std::vector<ManualControl::NextKnot>> knots_of(const json& given) {
   if (!given.is_array() || given.size() > max_knots_at_once) {
     const std::string said = given.is_array() ? std::to_string(given.size()) + " knots" : "no list";
-    return tl::unexpected("knots is " + said + "; it must be a list of 0 to " +
-                          std::to_string(max_knots_at_once));
+    return failure("knots is " + said + "; it must be a list of 0 to " +
+                   std::to_string(max_knots_at_once));
   }
   std::vector<ManualControl::NextKnot> knots;
   for (const json& one : given) {
@@ -75,13 +75,13 @@ tl::expected<std::vector<ManualControl::NextKnot>, std::string> knots_of(const j
 
 }  // namespace
 
-tl::expected<TrajectoryRequest, std::string> parse_trajectory_request(const std::string& text) {
+Result<TrajectoryRequest> parse_trajectory_request(const std::string& text) {
   const auto node = parse_node(text);
   if (!node) return tl::unexpected(node.error());
   const json read = json::parse(text);
   const auto start = read.find("start");
   if (start != read.end() && !start->is_boolean())
-    return tl::unexpected("start is " + start->dump() + "; it must be true or false");
+    return failure("start is " + start->dump() + "; it must be true or false");
   auto knots = knots_of(read.value("knots", json::array()));
   if (!knots) return tl::unexpected(knots.error());
   return TrajectoryRequest{*node, std::move(*knots), start != read.end() && start->get<bool>()};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/monitor/manual_control.hpp"
 
@@ -22,7 +22,7 @@ struct TrajectoryRequest {
 
 /// {"node":1,"knots":[{"after_s":0.04,"position_m":0.002,"velocity_m_per_s":0.001}],"start":false};
 /// knots and start may be absent. The error names the knot, its value and the allowed range.
-tl::expected<TrajectoryRequest, std::string> parse_trajectory_request(const std::string& text);
+Result<TrajectoryRequest> parse_trajectory_request(const std::string& text);
 
 /// {"refusal":"none","taken":1,"playback":"loaded","room":62,"buffered_s":0.04}
 std::string sent_json(const ManualControl::Sent& sent);

@@ -15,15 +15,14 @@ namespace {
 
 using nlohmann::json;
 
-tl::expected<std::vector<TuningRequest::Value>, std::string> values_of(Tuned what,
-                                                                       const json& given) {
+Result<std::vector<TuningRequest::Value>> values_of(Tuned what, const json& given) {
   const std::vector<std::string> known = tunable_names(what);
   std::vector<TuningRequest::Value> values;
   for (const auto& [name, text] : given.items()) {
     const std::size_t tunable = control::tunable_named(name);
     if (std::ranges::find(known, name) == known.end())
-      return tl::unexpected("'" + name + "' cannot be tuned");
-    if (!text.is_string()) return tl::unexpected("the value of " + name + " must be text");
+      return failure("'" + name + "' cannot be tuned");
+    if (!text.is_string()) return failure("the value of " + name + " must be text");
     const auto value = tuning_value(what, control::tunables()[tunable], text.get<std::string>());
     if (!value) return tl::unexpected(value.error());
     values.push_back({static_cast<std::uint8_t>(tunable), *value});
@@ -43,21 +42,21 @@ std::optional<Tuned> tuned_at(const json& place) {
 
 }  // namespace
 
-tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string& text) {
+Result<TuningRequest> parse_tuning_request(const std::string& text) {
   const auto node = parse_node(text);
   if (!node) return tl::unexpected(node.error());
   const json read = json::parse(text);
   const auto place = read.find("place");
   const auto what = place != read.end() ? tuned_at(*place) : std::nullopt;
-  if (!what) return tl::unexpected<std::string>("place must be 0 to 3, or from 8 an estimator's");
+  if (!what) return failure("place must be 0 to 3, or from 8 an estimator's");
   const auto from = read.find("from");
   const auto set = from != read.end() && from->is_string()
                        ? std::ranges::find(tuning_set_names, from->get<std::string>())
                        : tuning_set_names.end();
   if (set == tuning_set_names.end())
-    return tl::unexpected<std::string>("from must be prepared, in_use, configured or stored");
+    return failure("from must be prepared, in_use, configured or stored");
   const json given = read.value("values", json::object());
-  if (!given.is_object()) return tl::unexpected<std::string>("values must be an object");
+  if (!given.is_object()) return failure("values must be an object");
   auto values = values_of(*what, given);
   if (!values) return tl::unexpected(values.error());
   return TuningRequest{*node, place->get<std::uint8_t>(),

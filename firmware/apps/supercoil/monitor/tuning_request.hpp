@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/monitor/manual_control.hpp"
 
@@ -24,7 +24,7 @@ struct TuningRequest {
 
 /// {"node":1,"place":0,"from":"in_use","values":{"kind":"pi"}}; values are text, as on the command
 /// line. The error says what is wrong, and with what.
-tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string& text);
+Result<TuningRequest> parse_tuning_request(const std::string& text);
 
 /// Prepares what is asked for, and takes it into use. The error: no answer of the board.
 ManualControl::Answer tune(ManualControl& control, const TuningRequest& request);

@@ -41,17 +41,17 @@ class MotionReader {
   MotionReader(std::string_view text, std::string name, std::uint8_t node)
       : lines_(text), name_(std::move(name)), node_(node) {}
 
-  tl::expected<std::vector<Motion>, std::string> read() {
-    if (!lines_.next()) return tl::unexpected(name_ + ": is empty");
-    if (auto problem = read_head()) return tl::unexpected(*problem);
+  Result<std::vector<Motion>> read() {
+    if (!lines_.next()) return failure(name_ + ": is empty");
+    if (auto problem = read_head()) return failure(*problem);
     while (lines_.next()) {
-      if (auto problem = read_row()) return tl::unexpected(*problem);
+      if (auto problem = read_row()) return failure(*problem);
     }
-    if (rows_.size() < 2) return tl::unexpected(name_ + ": has fewer than 2 rows");
+    if (rows_.size() < 2) return failure(name_ + ": has fewer than 2 rows");
     std::vector<Motion> motions;
     for (const auto& [node, columns] : columns_) {
       motions.push_back({node, knots_of(columns)});
-      if (auto problem = check(motions.back())) return tl::unexpected(*problem);
+      if (auto problem = check(motions.back())) return failure(*problem);
     }
     return motions;
   }
@@ -178,8 +178,7 @@ class MotionReader {
 
 }  // namespace
 
-tl::expected<std::vector<Motion>, std::string> read_motions(const std::string& path,
-                                                            std::uint8_t node) {
+Result<std::vector<Motion>> read_motions(const std::string& path, std::uint8_t node) {
   const auto text = read_whole(path);
   if (!text) return tl::unexpected(text.error());
   return MotionReader(*text, path, node).read();

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/control/tracking/trajectory.hpp"
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::operating {
 
@@ -21,7 +20,6 @@ struct Motion {
 /// nodes 2:position_m and so on. Velocities that the file lacks are those of the parabola through
 /// three rows, and 0 at both ends. node: whose the columns without a number are. The error names
 /// file, line and value.
-tl::expected<std::vector<Motion>, std::string> read_motions(const std::string& path,
-                                                            std::uint8_t node);
+Result<std::vector<Motion>> read_motions(const std::string& path, std::uint8_t node);
 
 }  // namespace supercoil::operating

@@ -31,7 +31,7 @@ MotionLink::Answered LocalMotionLink::command(const std::string& words) {
   const auto told = socket_.ask(channel_ + " " + words);
   if (!told) return tl::unexpected(told.error());
   const auto reply = parse_answer(*told);
-  if (!reply) return tl::unexpected(*told);
+  if (!reply) return failure(*told);
   return *reply;
 }
 
@@ -43,8 +43,7 @@ MotionLink::Answered LocalMotionLink::ask(Verb verb, double value) {
 MotionLink::Played LocalMotionLink::command_then_status(const std::string& words) {
   const auto answer = command(words);
   if (!answer) return tl::unexpected(answer.error());
-  if (!std::isnan(answer->nearest))
-    return tl::unexpected(answer_text(answer->refusal, answer->nearest));
+  if (!std::isnan(answer->nearest)) return failure(answer_text(answer->refusal, answer->nearest));
   auto played = playback();
   if (played) played->refusal = answer->refusal;
   return played;
@@ -60,11 +59,11 @@ MotionLink::Played LocalMotionLink::add_knot(double after_s, const control::Knot
 MotionLink::Played LocalMotionLink::start(const Start& start) {
   auto played = command_then_status("start " + shortest_text(start.board_s + start.after_s));
   if (played && played->refusal == Refusal::out_of_range)
-    return tl::unexpected(std::string("the start was told too late: this machine was busy"));
+    return failure("the start was told too late: this machine was busy");
   return played;
 }
 
-tl::expected<LocalMotionLink::Status, std::string> LocalMotionLink::read_status() {
+Result<LocalMotionLink::Status> LocalMotionLink::read_status() {
   const auto lines = socket_.ask("playback");
   if (!lines) return tl::unexpected(lines.error());
   std::istringstream text(*lines);
@@ -78,14 +77,14 @@ tl::expected<LocalMotionLink::Status, std::string> LocalMotionLink::read_status(
     status.played.room = static_cast<std::uint8_t>(room);
     return status;
   }
-  return tl::unexpected("nothing is told of its trajectory: " + *lines);
+  return failure("nothing is told of its trajectory: " + *lines);
 }
 
 MotionLink::Played LocalMotionLink::playback() {
   return read_status().map([](const Status& status) { return status.played; });
 }
 
-tl::expected<double, std::string> LocalMotionLink::board_s() {
+Result<double> LocalMotionLink::board_s() {
   return read_status().map([](const Status& status) { return status.board_s; });
 }
 

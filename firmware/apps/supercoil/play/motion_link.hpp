@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_socket.hpp"
 #include "apps/supercoil/bus/commander.hpp"
@@ -22,7 +22,7 @@ class MotionLink {
   MotionLink& operator=(const MotionLink&) = delete;
   virtual ~MotionLink() = default;
 
-  using Answered = tl::expected<Reply, std::string>;
+  using Answered = Result<Reply>;
   using Played = Commander::Played;
 
   /// position, renew, rest.
@@ -37,7 +37,7 @@ class MotionLink {
   };
   virtual Played start(const Start& start) = 0;
   /// The board's time, where it has one that all of its channels share; else NaN.
-  virtual tl::expected<double, std::string> board_s() = 0;
+  virtual Result<double> board_s() = 0;
   virtual void send_sync(std::uint8_t number, double master_time_s) = 0;
   /// Why one that was told to start has not.
   virtual std::string why_not_started() const = 0;
@@ -51,7 +51,7 @@ class CanMotionLink final : public MotionLink {
   Played add_knot(double after_s, const control::Knot& knot) override;
   Played playback() override { return commander_.playback(); }
   Played start(const Start& start) override;
-  tl::expected<double, std::string> board_s() override { return NAN; }
+  Result<double> board_s() override { return NAN; }
   void send_sync(std::uint8_t number, double master_time_s) override;
   std::string why_not_started() const override { return "no Sync came, or too late"; }
   void release() override { commander_.release(); }
@@ -70,7 +70,7 @@ class LocalMotionLink final : public MotionLink {
   Played add_knot(double after_s, const control::Knot& knot) override;
   Played playback() override;
   Played start(const Start& start) override;
-  tl::expected<double, std::string> board_s() override;
+  Result<double> board_s() override;
   void send_sync(std::uint8_t /*number*/, double /*master_time_s*/) override {}
   std::string why_not_started() const override { return "the board's time does not go on"; }
   void release() override {}
@@ -80,7 +80,7 @@ class LocalMotionLink final : public MotionLink {
     can_client::Played played;
     double board_s;
   };
-  tl::expected<Status, std::string> read_status();
+  Result<Status> read_status();
   Answered command(const std::string& words);
   /// The command, and then what became of the trajectory.
   Played command_then_status(const std::string& words);

@@ -50,10 +50,10 @@ Player::Problem play(Player& player, const PlayOptions& options, Progress& progr
 
 int play_command(const PlayOptions& options) {
   auto motions = read_motions(options.file, static_cast<std::uint8_t>(options.node));
-  if (!motions) return refuse(options.json, exit_wrong_input, motions.error());
+  if (!motions) return refuse(options.json, exit_wrong_input, motions.error().text());
   auto player = options.can.empty() ? Player::open_local(options.socket, std::move(*motions))
                                     : Player::open(options.can, std::move(*motions));
-  if (!player) return refuse(options.json, exit_failed, player.error());
+  if (!player) return refuse(options.json, exit_failed, player.error().text());
   watch_for_interrupts();
   Progress progress("play", false);
   const auto problem = play(*player, options, progress);

@@ -35,8 +35,7 @@ std::string seconds_text(double time_s) {
 Player::Player(std::string_view kind)
     : kind_(kind), sync_(static_cast<std::uint8_t>(std::random_device()())) {}
 
-tl::expected<Player, std::string> Player::open(const std::string& bus,
-                                               std::vector<Motion> motions) {
+Result<Player> Player::open(const std::string& bus, std::vector<Motion> motions) {
   Player player("node");
   for (Motion& motion : motions) {
     auto opened = open_bus(bus, can_client::answer_ids(motion.node));
@@ -47,8 +46,7 @@ tl::expected<Player, std::string> Player::open(const std::string& bus,
   return player;
 }
 
-tl::expected<Player, std::string> Player::open_local(const std::string& socket,
-                                                     std::vector<Motion> motions) {
+Result<Player> Player::open_local(const std::string& socket, std::vector<Motion> motions) {
   Player player("channel");
   for (Motion& motion : motions) {
     auto opened = BoardSocket::open(socket);
@@ -65,7 +63,7 @@ std::string Player::whose(const Node& node) const {
 
 Player::Problem Player::take(Node& node, Verb verb, const std::string& what,
                              const MotionLink::Played& played) {
-  if (!played) return whose(node) + what + ": " + played.error();
+  if (!played) return whose(node) + what + ": " + played.error().text();
   if (played->refusal != Refusal::none)
     return whose(node) + what + ": " + told_answer(Reply(played->refusal), verb);
   node.played = *played;
@@ -77,7 +75,7 @@ Player::Problem Player::go_to_start() {
     const double first_m = node.motion.knots.front().position_m;
     const auto answer = node.link->ask(Verb::position, first_m);
     const std::string what = whose(node) + "position " + std::to_string(first_m) + ": ";
-    if (!answer) return what + answer.error();
+    if (!answer) return what + answer.error().text();
     if (answer->refusal != Refusal::none) return what + told_answer(*answer, Verb::position);
     node.renewed = Clock::now();
   }
@@ -88,7 +86,7 @@ Player::Problem Player::renew(Node& node) {
   if (Clock::now() - node.renewed < renew_every) return std::nullopt;
   node.renewed = Clock::now();
   const auto answer = node.link->ask(Verb::renew, 0.0);
-  if (!answer) return whose(node) + answer.error();
+  if (!answer) return whose(node) + answer.error().text();
   if (answer->refusal != Refusal::none)
     return whose(node) + "the board stopped it (" + told_answer(*answer, Verb::renew) + ")";
   return take(node, Verb::none, "playback", node.link->playback());
@@ -146,7 +144,7 @@ bool Player::loaded() const {
 
 Player::Problem Player::start() {
   const auto board_s = nodes_.front().link->board_s();
-  if (!board_s) return whose(nodes_.front()) + board_s.error();
+  if (!board_s) return whose(nodes_.front()) + board_s.error().text();
   const bool by_socket = std::isfinite(*board_s);
   const double channels = by_socket ? static_cast<double>(nodes_.size()) : 0.0;
   const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1),

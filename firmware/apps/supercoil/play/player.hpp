@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/play/motion_file.hpp"
 #include "apps/supercoil/play/motion_link.hpp"
@@ -22,11 +22,9 @@ class Player {
   using Problem = std::optional<std::string>;
 
   /// bus: by its name.
-  static tl::expected<Player, std::string> open(const std::string& bus,
-                                                std::vector<Motion> motions);
+  static Result<Player> open(const std::string& bus, std::vector<Motion> motions);
   /// Of the supercoild that listens at this socket; a motion's node is the channel.
-  static tl::expected<Player, std::string> open_local(const std::string& socket,
-                                                      std::vector<Motion> motions);
+  static Result<Player> open_local(const std::string& socket, std::vector<Motion> motions);
 
   /// Tells all to go to their first knot.
   Problem go_to_start();

@@ -20,11 +20,11 @@ std::string free_name(const std::string& path) {
   return name;
 }
 
-tl::expected<std::string, std::string> read_board_text(const std::string& config) {
+Result<std::string> read_board_text(const std::string& config) {
   config::Diagnostics diagnostics(config);
   std::string text = config::read_text(config, diagnostics);
   if (diagnostics.empty()) config::parse(text, diagnostics);
-  if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+  if (!diagnostics.empty()) return failure(config::to_text(diagnostics.problems()));
   return text;
 }
 
@@ -38,16 +38,15 @@ std::string missing_channel(const std::string& config, int channel) {
   return config + " has no channel " + std::to_string(channel) + ", but " + std::to_string(count);
 }
 
-tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions& options,
-                                                             const std::string& step,
-                                                             const std::string& text,
-                                                             const std::vector<Entry>& entries) {
+Result<config::BoardConfig> write_entries(const SetupOptions& options, const std::string& step,
+                                          const std::string& text,
+                                          const std::vector<Entry>& entries) {
   std::string changed = text;
   const auto channel = static_cast<std::size_t>(options.channel) - 1;
   for (const Entry& entry : entries) {
     auto next = config::with_value(changed, entry.joint ? "joint" : "channel",
                                    entry.joint.value_or(channel), entry.path, entry.literal);
-    if (!next) return tl::unexpected(options.config + ": " + next.error() + "\n");
+    if (!next) return failure(options.config + ": " + next.error().text() + "\n");
     changed = std::move(*next);
   }
   auto config = config::parse_board_config(changed, options.config);
@@ -55,18 +54,18 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
     // The lines are those of a text that is not written.
     for (Error& problem : config.error())
       problem.line = 0;
-    return tl::unexpected(config::to_text(config.error()));
+    return failure(config::to_text(config.error()));
   }
 
   if (changed == text) return std::move(*config);
   auto record = SetupRecord::open(options.config, options.channel);
-  if (!record) return tl::unexpected(record.error() + "\n");
+  if (!record) return failure(record.error().text() + "\n");
   const std::string before = free_name(options.config + before_setup);
   auto written = write_whole(before, text);
   if (written)
     written = record->add_write({options.channel, step, before, storage::crc32(changed)});
   if (written) written = write_whole(options.config, changed);
-  if (!written) return tl::unexpected(written.error() + "\n");
+  if (!written) return failure(written.error().text() + "\n");
   return std::move(*config);
 }
 

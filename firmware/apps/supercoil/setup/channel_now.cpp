@@ -9,8 +9,8 @@ std::optional<Promise> ChannelNow::promise(const control::ControllerSettings& co
   return promise_error(controller.learned_ff, settings, board, motion);
 }
 
-tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::string& channel,
-                                                  const ChannelSettings& configured) {
+Result<ChannelNow> channel_now(BoardLink& board, const std::string& channel,
+                               const ChannelSettings& configured) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
   const auto senses = board.senses(channel);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_link.hpp"
 #include "loop/promise.hpp"
@@ -24,7 +24,7 @@ struct ChannelNow {
 };
 
 /// channel: as in a line of a command. configured: as the board's file has it.
-tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::string& channel,
-                                                  const ChannelSettings& configured);
+Result<ChannelNow> channel_now(BoardLink& board, const std::string& channel,
+                               const ChannelSettings& configured);
 
 }  // namespace supercoil::operating

@@ -87,15 +87,15 @@ Commission::Done Commission::ask(const std::string& command) {
   const auto answer = board_.ask(channel_ + " " + command);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  return tl::unexpected(with_present_fault(command + ": " + *answer, board_, channel_));
+  return failure(with_present_fault(command + ": " + *answer, board_, channel_));
 }
 
 Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
-  return tl::unexpected(mode + " ended: " + told_result(*result, "", fault) +
-                        (fault.empty() ? "; docs/troubleshooting.md says what to do" : ""));
+  return failure(mode + " ended: " + told_result(*result, "", fault) +
+                 (fault.empty() ? "; docs/troubleshooting.md says what to do" : ""));
 }
 
 Commission::Done Commission::reset_faults() {
@@ -109,11 +109,11 @@ Commission::Done Commission::reset_faults() {
     told += fault;
     who_.say(told);
     const auto answer = who_.ask(reset_fault, [] { return Done(); });
-    if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
-    if (!answer || *answer == 0.0) return tl::unexpected("cannot be armed: " + fault);
+    if (who_.interrupted()) return failure("interrupted");
+    if (!answer || *answer == 0.0) return failure("cannot be armed: " + fault);
     const auto done = board_.ask(channel + " reset");
     if (!done) return tl::unexpected(done.error());
-    if (*done != "ok") return tl::unexpected("reset: " + *done + ", " + fault);
+    if (*done != "ok") return failure("reset: " + *done + ", " + fault);
   }
   return {};
 }
@@ -132,13 +132,13 @@ Commission::Done Commission::arm() {
     if (*answer == "ok") return {};
     if (!refuses(*answer, Refusal::not_ready) || elapsed_s >= max_s) {
       const std::string fault = present_fault(board_, channel_);
-      if (!fault.empty()) return tl::unexpected("cannot be armed: " + fault);
+      if (!fault.empty()) return failure("cannot be armed: " + fault);
       // Without a fault it is armed already.
       if (refuses(*answer, Refusal::wrong_state)) return {};
-      return tl::unexpected("arm: " + *answer);
+      return failure("arm: " + *answer);
     }
     who_.show_progress("waiting until the muscle must be cool", elapsed_s / max_s);
-    if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
+    if (who_.interrupted()) return failure("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
 }
@@ -157,7 +157,7 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     if (who_.sees_progress()) who_.show_progress(mode, done());
     if (who_.interrupted()) {
       static_cast<void>(ask("rest"));
-      return tl::unexpected(mode + ": interrupted");
+      return failure(mode + ": interrupted");
     }
     const auto answer = board_.ask(channel_ + " renew");
     if (!answer) return tl::unexpected(answer.error());
@@ -285,7 +285,7 @@ StepResult Commission::scale() {
   if (*taken != "ok") {
     const std::string range =
         refuses(*taken, Refusal::out_of_range) ? told_range(board_, channel_, Verb::scale) : "";
-    return tl::unexpected(with_present_fault(
+    return failure(with_present_fault(
         line.substr(channel_.size() + 1) + ": " + told_answer(line, *taken + range), board_,
         channel_));
   }
@@ -306,7 +306,7 @@ StepResult Commission::limits() {
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
-  if (!found) return tl::unexpected(with_present_fault(found.error(), board_, channel_));
+  if (!found) return failure(with_present_fault(found.error().text(), board_, channel_));
   return found;
 }
 
@@ -371,8 +371,8 @@ StepResult Commission::move() {
     ++samples;
   }
   if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
-  if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
-  if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");
+  if (who_.interrupted()) return failure("interrupted");
+  if (samples == 0) return failure("the board told no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
   Json found{{"error_m", error_m},
              {"middle_m", motion.middle_m},

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/setup/operator.hpp"
@@ -17,7 +18,7 @@
 namespace supercoil::operating {
 
 /// What a step found, for people as lines and for programs; the error says what to do.
-using StepResult = tl::expected<nlohmann::ordered_json, std::string>;
+using StepResult = Result<nlohmann::ordered_json>;
 
 class Commission {
  public:
@@ -50,7 +51,7 @@ class Commission {
 
  private:
   using Done = Operator::Done;
-  using OrWhy = tl::expected<std::string, std::string>;
+  using OrWhy = Result<std::string>;
 
   Done ask(const std::string& command);
   /// A fault from before this step is told, and reset where that is wanted.

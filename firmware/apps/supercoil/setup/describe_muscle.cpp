@@ -106,10 +106,9 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
 
 }  // namespace
 
-tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& a,
-                                                             const config::LoopTime& time) {
+Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::LoopTime& time) {
   if (!(a.of(Asked::thread_g) > 0.0) && !(a.of(Asked::heated_K) > 0.0)) {
-    return tl::unexpected<std::string>(
+    return failure(
         "thread_g or heated_K must be known: without either nothing says how hot the muscle gets");
   }
   const double error = 1e-2 * a.of(Asked::uncertainty_percent);
@@ -119,7 +118,7 @@ tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers
     std::ostringstream message;
     message << "the answers make a muscle with " << wrong->quantity << " = " << wrong->value
             << ", and it must be " << wrong->lowest << " to " << wrong->highest;
-    return tl::unexpected(message.str());
+    return failure(message.str());
   }
   const auto add = [&](const char* path, double value, const char* reason) {
     d.entries.push_back({path, number_text(value, digits_that_follow), reason});

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "config/recommended_controller.hpp"
@@ -35,7 +34,7 @@ struct MuscleDescription {
 /// answers; its bounds follow from how wrong those may be, all of them to the same side. The error
 /// says which answers contradict each other, or what no muscle of thread has. time: of the board's
 /// loop.
-tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& answers,
-                                                             const config::LoopTime& time = {});
+Result<MuscleDescription> describe_muscle(const MuscleAnswers& answers,
+                                          const config::LoopTime& time = {});
 
 }  // namespace supercoil::operating

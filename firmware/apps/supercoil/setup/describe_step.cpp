@@ -19,8 +19,6 @@ namespace supercoil::operating {
 namespace {
 
 using Json = nlohmann::ordered_json;
-template <class Value>
-using Or = tl::expected<Value, std::string>;
 
 /// What was said to describe: of the nameplate, if there is one, and of the muscle.
 struct Said {
@@ -29,18 +27,18 @@ struct Said {
 };
 
 /// The answer is kept at once, and offered when it is asked for again.
-Or<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
+Result<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
   const std::string key(q.key);
   const auto before = record.answer(key);
   if (before && q.allows(*before)) q.fallback = *before;
   const auto value = who.ask(q, [] { return Operator::Done(); });
-  if (!value) return tl::unexpected(value.error() + "\n");
-  if (auto kept = record.add_answer(key, *value); !kept) return tl::unexpected(kept.error() + "\n");
+  if (!value) return failure(value.error().text() + "\n");
+  if (auto kept = record.add_answer(key, *value); !kept) return failure(kept.error().text() + "\n");
   return *value;
 }
 
 /// One after the other.
-Or<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
+Result<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
   Said said;
   const auto has = ask_and_keep(has_nameplate, record, who);
   if (!has) return tl::unexpected(has.error());
@@ -68,7 +66,8 @@ Error beyond(const Question& q, double value, const std::string& script, int lin
 }
 
 /// What a script leaves open, or an error for each.
-Or<Said> completed(const Script& script, const SetupOptions& options, const BoardRanges& board) {
+Result<Said> completed(const Script& script, const SetupOptions& options,
+                       const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
   std::string wrong;
   for (std::size_t i = 0; i < questions.size(); ++i) {
@@ -89,7 +88,7 @@ Or<Said> completed(const Script& script, const SetupOptions& options, const Boar
                ": is missing: " + std::string(q.text) + ", " + range_text(q.allowed) + "\n";
     }
   }
-  if (!wrong.empty()) return tl::unexpected(wrong);
+  if (!wrong.empty()) return failure(wrong);
   return Said{script.nameplate, answers};
 }
 
@@ -138,10 +137,10 @@ config::LoopTime loop_time_in_file(const std::string& text, int channel) {
   return {1.0 / rate_Hz, 1.0 / rate_Hz + 1e-3 * delay_ms};
 }
 
-Or<Json> write_description(const Said& said, const SetupOptions& options, const std::string& text,
-                           Operator& who) {
+Result<Json> write_description(const Said& said, const SetupOptions& options,
+                               const std::string& text, Operator& who) {
   auto described = describe_muscle(said.muscle, loop_time_in_file(text, options.channel));
-  if (!described) return tl::unexpected(described.error() + "\n");
+  if (!described) return failure(described.error().text() + "\n");
   for (Entry& limit : said.nameplate.limits(trip_in_file_C(text, options.channel)))
     described->entries.push_back(std::move(limit));
   const auto index = static_cast<std::size_t>(options.channel) - 1;
@@ -164,13 +163,13 @@ Or<Json> write_description(const Said& said, const SetupOptions& options, const 
 
 }  // namespace
 
-Or<Json> describe_step(const SetupOptions& options, Operator& who) {
+Result<Json> describe_step(const SetupOptions& options, Operator& who) {
   const auto text = read_board_text(options.config);
   if (!text) return tl::unexpected(text.error());
   const auto joint = joint_in_file(*text, options.channel);
   BoardRanges ranges = board_ranges(*text, options.channel);
   if (joint) ranges.max_position_m = NAN;
-  Or<Said> said;
+  Result<Said> said;
   const bool asks = options.script.empty();
   if (!asks) {
     const auto script = read_script(options.script);
@@ -180,7 +179,7 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   if (joint) say_how_a_joint_is_measured(*joint, who);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
-    if (!record) return tl::unexpected(record.error() + "\n");
+    if (!record) return failure(record.error().text() + "\n");
     said = answered(ranges, *record, who);
   }
   if (!said) return tl::unexpected(said.error());

@@ -22,7 +22,8 @@ Heated::Heated(BoardLink& board, const std::string& channel, Operator& who)
 
 Heated::~Heated() {
   static_cast<void>(ask("rest"));
-  if (const auto off = ask("disarm"); !off) who_.say("the muscle may be hot: " + off.error());
+  if (const auto off = ask("disarm"); !off)
+    who_.say("the muscle may be hot: " + off.error().text());
 }
 
 Heated::Done Heated::ask(const std::string& what) {
@@ -32,12 +33,12 @@ Heated::Done Heated::ask(const std::string& what) {
 Heated::Done Heated::ask_of(const std::string& channel, const std::string& what) {
   const auto answer = board_.ask(channel + " " + what);
   if (!answer) return tl::unexpected(answer.error());
-  if (*answer != "ok") return tl::unexpected(what + ": " + *answer);
+  if (*answer != "ok") return failure(what + ": " + *answer);
   return {};
 }
 
 Heated::Done Heated::heat(double power_W) {
-  if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
+  if (who_.interrupted()) return failure("interrupted");
   return ask_of(heated_by_, "power " + number_text(power_W, power_digits));
 }
 

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <string>
 
-#include <tl/expected.hpp>
-
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/setup/operator.hpp"
 

@@ -91,8 +91,8 @@ Operator::OrWhy wait_for_answer(BoardLink& board, const SlowPull& plan, Operator
   }
 }
 
-tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::string& channel,
-                                              const SlowPull& plan, double noise_m, Operator& who) {
+Result<Pulled> pull_slowly(BoardLink& board, const std::string& channel, const SlowPull& plan,
+                           double noise_m, Operator& who) {
   Heated heated(board, channel, who);
   StallWatch stall(stall_step_ratio * plan.top_W, noise_m);
   double position_m = NAN;
@@ -101,7 +101,7 @@ tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::strin
   const double begin_s = heated.time_s();
   const auto end = [&](Ending why) -> Operator::Done {
     ending = why;
-    return tl::unexpected<std::string>("ended");
+    return failure("ended");
   };
   const auto look = [&]() -> Operator::Done {
     const double time_s = heated.time_s() - begin_s;
@@ -112,7 +112,7 @@ tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::strin
     position_m = *told;
     if (std::isnan(position_m)) {
       if (time_s < first_position_s) return {};
-      return tl::unexpected<std::string>("the board tells no position");
+      return failure("the board tells no position");
     }
     if (position_m >= told_m + told_every_ratio * plan.stop_m) {
       told_m = position_m;
@@ -134,8 +134,8 @@ StepResult limit_at(double position_m, const ChannelSettings& channel, Operator&
   const double limit_m = limit_step_m * std::floor(kept_m / limit_step_m);
   const double least_m = min_limit(channel);
   if (!(limit_m >= least_m)) {
-    return tl::unexpected("a limit of " + in_mm(limit_m) + " leaves no travel, less than " +
-                          in_mm(least_m) + "; nothing changed");
+    return failure("a limit of " + in_mm(limit_m) + " leaves no travel, less than " +
+                   in_mm(least_m) + "; nothing changed");
   }
   // It pulled less far than what is configured: this is smaller.
   who.say("limit: " + in_mm(limit_m) + " (configured: " + in_mm(channel.supervision.max_travel_m) +
@@ -167,8 +167,7 @@ StepResult find_travel_limit(BoardLink& board, const std::string& channel, const
   if (!pulled) return tl::unexpected(pulled.error());
   if (std::isnan(pulled->position_m)) {
     if (pulled->ending == Ending::answered) {
-      return tl::unexpected<std::string>(
-          "answered before the board told a position; nothing changed");
+      return failure("answered before the board told a position; nothing changed");
     }
     who.say("let go before the board told a position; the limit stays");
     return Json{{"position_m", nullptr}};

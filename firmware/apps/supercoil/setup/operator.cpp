@@ -26,8 +26,8 @@ Operator::OrWhy read_answer(const Question& question, const std::string& text) {
     if (read.ec != std::errc{} || read.ptr != end) value = NAN;
   }
   if (question.allows(value)) return value;
-  return tl::unexpected("'" + text + "' is refused: it must be a number from " +
-                        range_text(question.allowed));
+  return failure("'" + text + "' is refused: it must be a number from " +
+                 range_text(question.allowed));
 }
 
 }  // namespace supercoil::operating

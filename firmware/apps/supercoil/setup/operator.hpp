@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "config/section.hpp"
 
@@ -25,8 +25,8 @@ struct Question {
 
 class Operator {
  public:
-  using Done = tl::expected<void, std::string>;
-  using OrWhy = tl::expected<double, std::string>;
+  using Done = Result<void>;
+  using OrWhy = Result<double>;
 
   /// How often a question that waits lets the rest go on, which renews a command to heat.
   static constexpr std::chrono::milliseconds look_every{50};

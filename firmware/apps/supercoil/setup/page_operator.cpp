@@ -53,7 +53,7 @@ PageOperator::OrWhy PageOperator::ask(const Question& question,
     const bool ends = interrupted();
     const Done goes_on = meanwhile();
     lock.lock();
-    if (ends) return over(tl::unexpected<std::string>("interrupted"));
+    if (ends) return over(failure("interrupted"));
     if (!goes_on) return over(tl::unexpected(goes_on.error()));
     answered_.wait_for(lock, look_every, [&] { return answer_.has_value(); });
   }
@@ -82,7 +82,7 @@ void PageOperator::conclude(const StepResult& found) {
   if (found) {
     kept_ = Commission::kept(*found);
   } else {
-    error_ = without_line_end(found.error());
+    error_ = without_line_end(found.error().text());
     if (ending_.empty() && Clock::now() - alive_ > page_timeout) ending_ = "no page watched it";
     if (!ending_.empty()) error_ += ": " + ending_;
   }
@@ -90,7 +90,7 @@ void PageOperator::conclude(const StepResult& found) {
 
 PageOperator::Done PageOperator::answer(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  if (!question_) return tl::unexpected<std::string>("nothing is asked now");
+  if (!question_) return failure("nothing is asked now");
   const OrWhy value = read_answer(*question_, text);
   if (!value) return tl::unexpected(value.error());
   answer_ = *value;

@@ -42,7 +42,7 @@ bool is_in_order(const Json& document, const std::string& channel) {
 
 }  // namespace
 
-tl::expected<SetupRecord, std::string> SetupRecord::open(const std::string& config, int channel) {
+Result<SetupRecord> SetupRecord::open(const std::string& config, int channel) {
   const std::string path = path_of(config);
   const std::string name = name_of(channel);
   auto document = read(path, name);
@@ -50,14 +50,13 @@ tl::expected<SetupRecord, std::string> SetupRecord::open(const std::string& conf
   return SetupRecord(path, name, std::move(*document));
 }
 
-tl::expected<Json, std::string> SetupRecord::read(const std::string& path,
-                                                  const std::string& channel) {
+Result<Json> SetupRecord::read(const std::string& path, const std::string& channel) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return Json::object();
   std::ifstream file(path);
   Json document = Json::parse(std::istreambuf_iterator<char>(file), {}, nullptr, false);
   if (is_in_order(document, channel)) return document;
-  return tl::unexpected(path + ": is damaged: delete it, and setup begins with its first step");
+  return failure(path + ": is damaged: delete it, and setup begins with its first step");
 }
 
 bool SetupRecord::has(const std::string& step) const {
@@ -90,7 +89,7 @@ Json SetupRecord::found(const std::string& step) const {
   return has(step) ? document_[channel_][step] : Json();
 }
 
-tl::expected<void, std::string> SetupRecord::add(const std::string& step, const Json& found) {
+Result<void> SetupRecord::add(const std::string& step, const Json& found) {
   if (auto read = read_again(); !read) return read;
   Json own = found;
   if (const auto other = own.find(antagonist_key); other != own.end()) {
@@ -108,7 +107,7 @@ std::optional<double> SetupRecord::answer(const std::string& key) const {
   return document_[place].get<double>();
 }
 
-tl::expected<void, std::string> SetupRecord::add_answer(const std::string& key, double value) {
+Result<void> SetupRecord::add_answer(const std::string& key, double value) {
   if (auto read = read_again(); !read) return read;
   document_[answers_key][channel_][key] = value;
   return write();
@@ -122,14 +121,14 @@ std::optional<SetupRecord::Write> SetupRecord::last_write() const {
                last["before"].get<std::string>(), last["crc32"].get<std::uint32_t>()};
 }
 
-tl::expected<void, std::string> SetupRecord::add_write(const Write& w) {
+Result<void> SetupRecord::add_write(const Write& w) {
   if (auto read = read_again(); !read) return read;
   document_[writes_key].push_back(
       {{"channel", w.channel}, {"step", w.step}, {"before", w.before}, {"crc32", w.crc32}});
   return write();
 }
 
-tl::expected<void, std::string> SetupRecord::take_back() {
+Result<void> SetupRecord::take_back() {
   const auto last = last_write();
   if (!last) return {};
   Json& writes = document_[writes_key];
@@ -143,21 +142,21 @@ tl::expected<void, std::string> SetupRecord::take_back() {
   return write();
 }
 
-tl::expected<void, std::string> SetupRecord::read_again() {
+Result<void> SetupRecord::read_again() {
   auto now = read(path_, channel_);
   if (!now) return tl::unexpected(now.error());
   document_ = std::move(*now);
   return {};
 }
 
-tl::expected<void, std::string> SetupRecord::write() {
+Result<void> SetupRecord::write() {
   // It is the last key, after what there is to remember.
   document_.erase("schema_version");
   if (document_.empty()) {
     std::error_code error;
     std::filesystem::remove(path_, error);
     if (!error) return {};
-    return tl::unexpected(path_ + ": " + error.message());
+    return failed_call(path_, error.value());
   }
   document_["schema_version"] = 1;
   return write_whole(path_, document_.dump(2) + "\n");

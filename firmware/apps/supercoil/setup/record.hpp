@@ -6,7 +6,8 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 namespace supercoil::operating {
 
@@ -16,7 +17,7 @@ namespace supercoil::operating {
 class SetupRecord {
  public:
   /// An absent file is an empty record. The error says why a file is none; nothing is lost then.
-  static tl::expected<SetupRecord, std::string> open(const std::string& config, int channel);
+  static Result<SetupRecord> open(const std::string& config, int channel);
   static std::string path_of(const std::string& config) { return config + ".setup.json"; }
 
   /// Where the file is.
@@ -35,12 +36,12 @@ class SetupRecord {
   static constexpr const char* antagonist_key = "antagonist";
   /// Written at once, whole; what was found of an antagonist goes to its channel. What follows the
   /// step is to be done anew.
-  tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
+  Result<void> add(const std::string& step, const nlohmann::ordered_json& found);
 
   /// What a person answered to describe, by a question's key, until it is answered otherwise;
   /// describe offers it when it asks again.
   std::optional<double> answer(const std::string& key) const;
-  tl::expected<void, std::string> add_answer(const std::string& key, double value);
+  Result<void> add_answer(const std::string& key, double value);
 
   /// One change of the board's file.
   struct Write {
@@ -51,20 +52,19 @@ class SetupRecord {
   };
   /// Of all channels; empty: there is none to take back.
   std::optional<Write> last_write() const;
-  tl::expected<void, std::string> add_write(const Write& write);
+  Result<void> add_write(const Write& write);
   /// The last one was taken back: its step and what follows it are to be done anew.
-  tl::expected<void, std::string> take_back();
+  Result<void> take_back();
 
  private:
   SetupRecord(std::string path, std::string channel, nlohmann::ordered_json document)
       : path_(std::move(path)), channel_(std::move(channel)), document_(std::move(document)) {}
 
-  static tl::expected<nlohmann::ordered_json, std::string> read(const std::string& path,
-                                                                const std::string& channel);
+  static Result<nlohmann::ordered_json> read(const std::string& path, const std::string& channel);
   /// What the file has by now: a step may have written to it as well.
-  tl::expected<void, std::string> read_again();
+  Result<void> read_again();
   /// Without anything to remember there is no file.
-  tl::expected<void, std::string> write();
+  Result<void> write();
   void put(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
   void forget_after(nlohmann::ordered_json& channel, const std::string& step);
 

@@ -66,12 +66,12 @@ std::optional<Operator::OrWhy> ScriptedAnswers::next(const Question& question) {
   const double value = answers.values.at(answers.next);
   answers.next = std::min(answers.next + 1, answers.values.size() - 1);
   if (question.allows(value)) return value;
-  return tl::unexpected(path_ + ": " + answers.table + "." + std::string(question.key) + " = " +
-                        number_text(value, 9) + ": must be " + range_text(question.allowed) +
-                        " here: " + std::string(question.text));
+  return failure(path_ + ": " + answers.table + "." + std::string(question.key) + " = " +
+                 number_text(value, 9) + ": must be " + range_text(question.allowed) +
+                 " here: " + std::string(question.text));
 }
 
-tl::expected<Script, std::string> read_script(const std::string& path) {
+Result<Script> read_script(const std::string& path) {
   config::Diagnostics diagnostics(path);
   const std::string text = config::read_text(path, diagnostics);
   Script script;
@@ -104,7 +104,7 @@ tl::expected<Script, std::string> read_script(const std::string& path) {
       read_step(table, root, script.answers);
     root.finish();
   }
-  if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+  if (!diagnostics.empty()) return failure(config::to_text(diagnostics.problems()));
   return script;
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/nameplate.hpp"
@@ -45,6 +45,6 @@ struct Script {
   ScriptedAnswers answers;
 };
 /// The tables of a file, all but [muscle] may be absent. The error is whole lines.
-tl::expected<Script, std::string> read_script(const std::string& path);
+Result<Script> read_script(const std::string& path);
 
 }  // namespace supercoil::operating

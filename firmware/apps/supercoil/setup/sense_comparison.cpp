@@ -14,8 +14,6 @@ namespace {
 
 using board::MeterComparison;
 /// The error: why it ended.
-template <class Value>
-using OrEnded = tl::expected<Value, std::string>;
 
 constexpr std::chrono::milliseconds probing{300};
 /// The board asks for a second at a steady power; a meter needs some time as well.
@@ -28,24 +26,22 @@ std::string shown(double value) {
   return number_text(value, shown_digits);
 }
 
-OrEnded<void> tell(Heated& heated, const std::string& verb, double value) {
+Result<void> tell(Heated& heated, const std::string& verb, double value) {
   auto taken = heated.ask(verb + " " + number_text(value, 9));
   if (taken) return taken;
-  return tl::unexpected(taken.error() +
-                        ". This reading and the others do not fit one another, the senses or the "
-                        "configured resistance; the board has forgotten them and uses what it used "
-                        "before");
+  return failure(taken.error().text() +
+                 ". This reading and the others do not fit one another, the senses or the "
+                 "configured resistance; the board has forgotten them and uses what it used "
+                 "before");
 }
 
 /// The questions at one power.
-OrEnded<void> compare_at(double power_W, const ComparisonPlan& plan, Heated& heated,
-                         Operator& who) {
+Result<void> compare_at(double power_W, const ComparisonPlan& plan, Heated& heated, Operator& who) {
   who.say("channel " + plan.channel + " gets " + shown(power_W) + " W");
   if (auto held = heated.hold(power_W, settling); !held) return held;
   double asked_s = heated.time_s();
-  const auto goes_on = [&]() -> OrEnded<void> {
-    if (heated.time_s() - asked_s > max_question_s)
-      return tl::unexpected<std::string>("no answer within 5 minutes");
+  const auto goes_on = [&]() -> Result<void> {
+    if (heated.time_s() - asked_s > max_question_s) return failure("no answer within 5 minutes");
     return heated.heat(power_W);
   };
   const auto meter_V =
@@ -85,22 +81,21 @@ std::string describe_plan(const ComparisonPlan& plan) {
          " each";
 }
 
-OrEnded<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
-                                               Operator& who) {
+Result<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
+                                              Operator& who) {
   Heated heated(board, plan.channel, who);
   const auto ended = [&](const std::string& why) {
-    return tl::unexpected(with_present_fault(why, board, plan.channel));
+    return failure(with_present_fault(why, board, plan.channel));
   };
-  if (const auto armed = heated.ask("arm"); !armed) return ended(armed.error());
+  if (const auto armed = heated.ask("arm"); !armed) return ended(armed.error().text());
   // The probe of arming refuses to be disturbed.
   board.wait(probing);
   for (const double part : {0.5, 1.0}) {
     if (const auto asked = compare_at(part * plan.power_W, plan, heated, who); !asked)
-      return ended(asked.error());
+      return ended(asked.error().text());
   }
   auto found = board.senses(plan.channel);
-  if (found && !found->compared())
-    return tl::unexpected<std::string>("the board has no comparison");
+  if (found && !found->compared()) return failure("the board has no comparison");
   return found;
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <tl/expected.hpp>
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/setup/operator.hpp"
@@ -28,9 +28,8 @@ std::string describe_plan(const ComparisonPlan& plan);
 
 /// Arms the channel, heats it with half of that power and then all of it, and asks two questions at
 /// each; it is disarmed however this ends. The error: why it ended.
-tl::expected<board::SenseComparison, std::string> compare_senses(BoardLink& board,
-                                                                 const ComparisonPlan& plan,
-                                                                 Operator& who);
+Result<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
+                                              Operator& who);
 
 /// "true over measured: supply 1, current 0.98; 2 % may remain of each"
 std::string describe_comparison(const board::SenseComparison& found);

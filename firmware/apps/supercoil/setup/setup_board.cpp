@@ -22,7 +22,7 @@ SetupBoard::~SetupBoard() {
 StepResult SetupBoard::run(const std::string& step) {
   // A step before may have changed the file.
   if (auto again = read_again(); !again) return tl::unexpected(again.error());
-  if (const std::string why = left_out(step); !why.empty()) return tl::unexpected(why);
+  if (const std::string why = left_out(step); !why.empty()) return failure(why);
   if (step == "doctor") {
     if (auto done = read(); !done) return tl::unexpected(done.error());
     return doctor_step(options_, *config_, who_);
@@ -47,7 +47,7 @@ StepResult SetupBoard::run(const std::string& step) {
   return found;
 }
 
-tl::expected<void, std::string> SetupBoard::compare_with(SetupRecord& record) {
+Result<void> SetupBoard::compare_with(SetupRecord& record) {
   if (!tells_of_muscle(record)) return {};
   if (auto ready = open(); !ready) return ready;
   const auto known = link_->muscle(address());
@@ -64,34 +64,34 @@ std::string SetupBoard::left_out(const std::string& step) {
   return read() ? operating::left_out(*found, config_->settings, index()) : "";
 }
 
-tl::expected<void, std::string> SetupBoard::read() {
-  return config_ ? tl::expected<void, std::string>() : read_again();
+Result<void> SetupBoard::read() {
+  return config_ ? Result<void>() : read_again();
 }
 
-tl::expected<void, std::string> SetupBoard::read_again() {
+Result<void> SetupBoard::read_again() {
   auto config = config::read_board_config(options_.config);
-  if (!config) return tl::unexpected(config::to_text(config.error()));
+  if (!config) return failure(config::to_text(config.error()));
   if (const std::string why = missing_channel(options_.config, options_.channel); !why.empty())
-    return tl::unexpected(why);
+    return failure(why);
   config_ = std::move(*config);
   return {};
 }
 
-tl::expected<void, std::string> SetupBoard::open() {
+Result<void> SetupBoard::open() {
   if (auto done = read(); !done) return done;
   std::unique_ptr<BoardLink> opened;
   if (!link_) {
     auto link = open_link(options_.can, options_.socket);
-    if (!link) return tl::unexpected(link.error() + "; " + how_to_start());
+    if (!link) return failure(link.error().text() + "; " + how_to_start());
     opened = std::move(*link);
   }
   BoardLink& board = opened ? *opened : *link_;
   // What a step heats with, and what the board makes of it, is by the file.
   const auto others = differences_of_board(board, first_address(), config_->settings, index());
-  if (!others) return tl::unexpected(others.error() + "; " + how_to_start());
+  if (!others) return failure(others.error().text() + "; " + how_to_start());
   if (!others->empty()) {
-    return tl::unexpected(options_.config + ": the board does not run with this file: " + *others +
-                          "; " + how_to_start());
+    return failure(options_.config + ": the board does not run with this file: " + *others + "; " +
+                   how_to_start());
   }
   // Only that board is disarmed in the end.
   if (opened) link_ = std::move(opened);

@@ -28,16 +28,16 @@ class SetupBoard {
   /// Compares what calibrate and identify found with what the board goes by now; the record
   /// discounts what is another muscle's, and somebody is told. Without any of both the board is
   /// not looked for.
-  tl::expected<void, std::string> compare_with(SetupRecord& record);
+  Result<void> compare_with(SetupRecord& record);
   /// Why a step of setup_steps is not done with this channel; empty: it is.
   std::string left_out(const std::string& step);
 
  private:
-  tl::expected<void, std::string> read();
+  Result<void> read();
   /// What was read before stays where the file is in no order now.
-  tl::expected<void, std::string> read_again();
+  Result<void> read_again();
   /// Refuses a board that runs with another file.
-  tl::expected<void, std::string> open();
+  Result<void> open();
   /// The board with the file, as commands to copy.
   std::string how_to_start() const;
   std::size_t index() const { return static_cast<std::size_t>(options_.channel) - 1; }

@@ -75,14 +75,14 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   std::optional<ScriptedAnswers> scripted;
   if (!options.script.empty()) {
     const auto script = read_script(options.script);
-    if (!script) return concluded(options, Json::object(), exit_wrong_input, script.error());
+    if (!script) return concluded(options, Json::object(), exit_wrong_input, script.error().text());
     scripted = script->answers;
     terminal.take(*scripted);
   }
   SetupBoard board(options, terminal);
   if (options.steps.empty()) {
     if (const auto compared = board.compare_with(record); !compared)
-      return concluded(options, Json::object(), exit_failed, compared.error());
+      return concluded(options, Json::object(), exit_failed, compared.error().text());
   }
   Json results = Json::object();
   int status = exit_done;
@@ -107,12 +107,12 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (!found) {
       const int why = describes && !terminal.interrupted() ? exit_wrong_input : exit_failed;
       terminal.end_progress();
-      if (!describes) return concluded(options, results, why, of_step(name, found.error()));
-      return concluded(options, results, why, found.error());
+      if (!describes) return concluded(options, results, why, of_step(name, found.error().text()));
+      return concluded(options, results, why, found.error().text());
     }
     results[name] = *found;
     if (auto kept = record.add(name, *found); !kept)
-      return concluded(options, results, exit_failed, kept.error());
+      return concluded(options, results, exit_failed, kept.error().text());
     if (!Commission::kept(*found)) status = exit_failed;
     // The board must run with the file as it is now.
     if (wrote_file(*found) && options.steps.empty()) {
@@ -142,7 +142,7 @@ bool undo_anyway(const SetupOptions& options, const std::string& why) {
 int undo_command(const SetupOptions& options) {
   const auto undone =
       undo_setup(options, [&](const std::string& why) { return undo_anyway(options, why); });
-  if (!undone) return refuse(options.json, exit_failed, undone.error());
+  if (!undone) return refuse(options.json, exit_failed, undone.error().text());
   if (options.json) {
     Json on_board = Json::array();
     for (const OnBoard& one : undone->on_board)
@@ -214,7 +214,7 @@ int setup_command(const SetupOptions& options) {
       !missing.empty())
     return concluded(options, Json::object(), exit_wrong_input, missing);
   auto record = SetupRecord::open(options.config, options.channel);
-  if (!record) return concluded(options, Json::object(), exit_failed, record.error());
+  if (!record) return concluded(options, Json::object(), exit_failed, record.error().text());
   return run_steps(options, *record, options.json ? stderr : stdout);
 }
 

@@ -40,7 +40,7 @@ void SetupSession::serve_with(httplib::Server& server, const Access& access) {
                 if (!asked.is_object())
                   return refuse(response, 400, "the request is no JSON object");
                 const auto done = obey(asked);
-                if (!done) return refuse(response, 400, done.error());
+                if (!done) return refuse(response, 400, done.error().text());
                 Json now = state();
                 now["done"] = *done;
                 answer_json(response, now.dump());
@@ -63,11 +63,11 @@ Json SetupSession::state() const {
   }
   told["steps"] = std::move(steps);
   page_.add_to(told);
-  if (!record) told["error"] = record.error();
+  if (!record) told["error"] = record.error().text();
   return told;
 }
 
-tl::expected<std::string, std::string> SetupSession::obey(const Json& asked) {
+Result<std::string> SetupSession::obey(const Json& asked) {
   const auto text_of = [&](const char* key) {
     const auto found = asked.find(key);
     return found != asked.end() && found->is_string() ? found->get<std::string>() : std::string();
@@ -79,15 +79,15 @@ tl::expected<std::string, std::string> SetupSession::obey(const Json& asked) {
   if (what == "begin") return without_words(begin(text_of("step")));
   if (what == "answer") return without_words(page_.answer(text_of("text")));
   if (what == "undo") return undo();
-  if (what != "end") return tl::unexpected<std::string>("do: begin, answer, end or undo");
+  if (what != "end") return failure("do: begin, answer, end or undo");
   end("ended on the page");
   return {};
 }
 
 SetupSession::Done SetupSession::begin(const std::string& step) {
-  if (!is_step(step)) return tl::unexpected("there is no step '" + step + "'");
+  if (!is_step(step)) return failure("there is no step '" + step + "'");
   const std::lock_guard lock(beginning_);
-  if (!page_.begin(step)) return tl::unexpected<std::string>("another step is under way");
+  if (!page_.begin(step)) return failure("another step is under way");
   if (thread_.joinable()) thread_.join();
   before_();
   thread_ = std::thread([this, step] { page_.conclude(run(step)); });
@@ -104,9 +104,9 @@ StepResult SetupSession::run(const std::string& step) {
   return found;
 }
 
-tl::expected<std::string, std::string> SetupSession::undo() {
+Result<std::string> SetupSession::undo() {
   const std::lock_guard lock(beginning_);
-  if (page_.busy()) return tl::unexpected<std::string>("a step is under way");
+  if (page_.busy()) return failure("a step is under way");
   const auto undone = undo_setup(options_, [](const std::string&) { return false; });
   if (!undone) return tl::unexpected(undone.error());
   return undone_text(options_.config, *undone);

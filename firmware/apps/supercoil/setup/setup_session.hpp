@@ -7,7 +7,8 @@
 #include <thread>
 
 #include <nlohmann/json.hpp>
-#include <tl/expected.hpp>
+
+#include "supercoil/hal/error.hpp"
 
 #include "apps/supercoil/monitor/access.hpp"
 #include "apps/supercoil/setup/options.hpp"
@@ -41,9 +42,9 @@ class SetupSession {
   /// error and kept are of the last one.
   nlohmann::ordered_json state() const;
   /// What was done, in words where somebody should read it.
-  tl::expected<std::string, std::string> obey(const nlohmann::ordered_json& asked);
+  Result<std::string> obey(const nlohmann::ordered_json& asked);
   Done begin(const std::string& step);
-  tl::expected<std::string, std::string> undo();
+  Result<std::string> undo();
   StepResult run(const std::string& step);
 
   SetupOptions options_;

@@ -31,14 +31,13 @@ bool TerminalOperator::interrupted() const {
   return operating::interrupted != 0;
 }
 
-tl::expected<std::string, std::string> TerminalOperator::next_line(
-    const std::function<Done()>& meanwhile) {
+Result<std::string> TerminalOperator::next_line(const std::function<Done()>& meanwhile) {
   for (;;) {
     if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
     if (auto line = answers_.wait(look_every)) return *line;
     // Ctrl-C may come with the end of the answers.
-    if (interrupted()) return tl::unexpected<std::string>("interrupted");
-    if (answers_.ended()) return tl::unexpected<std::string>("nobody answers");
+    if (interrupted()) return failure("interrupted");
+    if (answers_.ended()) return failure("nobody answers");
   }
 }
 
@@ -67,9 +66,9 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
     }
     OrWhy value = read_answer(q, *line);
     if (value) return value;
-    std::fprintf(out_, "%s\n", value.error().c_str());
+    std::fprintf(out_, "%s\n", value.error().text().c_str());
   }
-  return tl::unexpected("no allowed answer in 3 tries: " + std::string(q.text));
+  return failure("no allowed answer in 3 tries: " + std::string(q.text));
 }
 
 }  // namespace supercoil::operating

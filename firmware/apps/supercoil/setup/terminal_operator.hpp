@@ -31,7 +31,7 @@ class TerminalOperator final : public Operator {
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
  private:
-  tl::expected<std::string, std::string> next_line(const std::function<Done()>& meanwhile);
+  Result<std::string> next_line(const std::function<Done()>& meanwhile);
 
   std::FILE* out_;
   ScriptedAnswers script_;

@@ -20,21 +20,20 @@ std::string change_text(const Write& write) {
 }
 
 /// The last write, where it is this channel's.
-tl::expected<Write, std::string> own_write(const SetupOptions& options, const SetupRecord& record) {
+Result<Write> own_write(const SetupOptions& options, const SetupRecord& record) {
   const auto last = record.last_write();
   if (!last) {
     std::error_code ignored;
     const std::string kept = options.config + before_setup;
     if (!std::filesystem::exists(kept, ignored))
-      return tl::unexpected(options.config + ": setup has changed nothing");
-    return tl::unexpected(SetupRecord::path_of(options.config) +
-                          ": does not tell what setup wrote; " + kept +
-                          " is the file as it was before: compare, and copy it yourself");
+      return failure(options.config + ": setup has changed nothing");
+    return failure(SetupRecord::path_of(options.config) + ": does not tell what setup wrote; " +
+                   kept + " is the file as it was before: compare, and copy it yourself");
   }
   if (last->channel == options.channel) return *last;
   const std::string other = std::to_string(last->channel);
-  return tl::unexpected(options.config + ": the last change was " + change_text(*last) +
-                        ": --channel " + other + " --undo takes that back first");
+  return failure(options.config + ": the last change was " + change_text(*last) + ": --channel " +
+                 other + " --undo takes that back first");
 }
 
 /// Of the steps from this one on that are done. The channel is as the commands would call it.
@@ -71,8 +70,8 @@ std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecor
 
 }  // namespace
 
-tl::expected<Undone, std::string> undo_setup(
-    const SetupOptions& options, const std::function<bool(const std::string& why)>& anyway) {
+Result<Undone> undo_setup(const SetupOptions& options,
+                          const std::function<bool(const std::string& why)>& anyway) {
   auto record = SetupRecord::open(options.config, options.channel);
   if (!record) return tl::unexpected(record.error());
   const auto last = own_write(options, *record);
@@ -85,14 +84,14 @@ tl::expected<Undone, std::string> undo_setup(
   if (storage::crc32(*now) != last->crc32 && *now != *before) {
     const std::string why = options.config + ": was changed after " + change_text(*last) +
                             " wrote it, and that change would be taken back too";
-    if (!anyway(why)) return tl::unexpected(why + "; --undo --force does it");
+    if (!anyway(why)) return failure(why + "; --undo --force does it");
   }
   Undone undone{last->channel, last->step, free_name(options.config + ".undone"),
                 left_on_board(options, *record, last->step)};
   if (auto kept = write_whole(undone.kept_as, *now); !kept) return tl::unexpected(kept.error());
   std::error_code error;
   std::filesystem::rename(last->before, options.config, error);
-  if (error) return tl::unexpected(last->before + ": " + error.message());
+  if (error) return failed_call(last->before, error.value());
   if (auto told = record->take_back(); !told) return tl::unexpected(told.error());
   return undone;
 }

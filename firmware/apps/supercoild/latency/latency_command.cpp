@@ -75,7 +75,7 @@ int latency_command(const LatencyOptions& options) {
     hal_linux::CpuLatencyRequest wakeful;
     if (options.priority > 0) conditions.steps = {hal_linux::lock_memory(), wakeful.hold()};
     auto thread = LoopThread::start(loop, meter, rate_Hz, {"loop", options.priority, options.cpu});
-    if (!thread) return fail(thread.error());
+    if (!thread) return fail(thread.error().text());
     conditions.steps.insert(conditions.steps.end(), (*thread)->steps().begin(),
                             (*thread)->steps().end());
     log_steps(conditions.steps);
@@ -89,7 +89,7 @@ int latency_command(const LatencyOptions& options) {
              stdout);
   if (options.plot.empty()) return exit_done;
   const auto drawn = draw(latency_figure(latency, conditions), options.plot);
-  return drawn ? exit_done : fail(drawn.error());
+  return drawn ? exit_done : fail(drawn.error().text());
 }
 
 }  // namespace supercoil::daemon

@@ -57,7 +57,7 @@ std::string draw(const std::string& lines) {
 double number(const Study& study, std::size_t run, const char* key) {
   const Draws draws(study);
   const auto document = draws.document(draws.of_run(run), 0, run);
-  if (!document) FAIL(document.error().c_str());
+  if (!document) FAIL(document.error().text().c_str());
   return document->at_path(key).value_or(std::nan(""));
 }
 

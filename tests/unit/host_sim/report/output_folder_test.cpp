@@ -101,7 +101,7 @@ TEST(OutputFolder, ReportsAFullDiskAndLeavesNothing) {
     const SmallDisk disk(1000);
     const auto written = folder->write("large.txt", std::string(100000, 'x'));
     CHECK_FALSE(written.has_value());
-    CHECK(written.error().find("large.txt: cannot be written: ") != std::string::npos);
+    CHECK(written.error().text().find("large.txt: cannot be written: ") != std::string::npos);
   }
   CHECK_FALSE(fs::exists(parent / "full"));
 }
@@ -110,15 +110,15 @@ TEST(OutputFolder, CannotBeWhereAFileIs) {
   std::ofstream(parent / "file") << "x";
   const auto folder = OutputFolder::open(parent / "file");
   CHECK_FALSE(folder.has_value());
-  STRCMP_CONTAINS("/file: ", folder.error().c_str());
+  STRCMP_CONTAINS("/file: ", folder.error().text().c_str());
   STRCMP_EQUAL("x", content(parent / "file").c_str());
 }
 
 TEST(OutputFolder, CannotBeWhereNothingMayBeWritten) {
   const auto folder = OutputFolder::open("/proc/supercoil");
   CHECK_FALSE(folder.has_value());
-  STRCMP_CONTAINS("/proc/supercoil: cannot be made: ", folder.error().c_str());
+  STRCMP_CONTAINS("/proc/supercoil: cannot be made: ", folder.error().text().c_str());
   const auto existing = OutputFolder::open("/proc");
   CHECK_FALSE(existing.has_value());
-  STRCMP_CONTAINS("/proc: cannot be written to: ", existing.error().c_str());
+  STRCMP_CONTAINS("/proc: cannot be written to: ", existing.error().text().c_str());
 }

@@ -161,14 +161,14 @@ TEST(Report, TraceReportsADiskThatIsFull) {
     CHECK_FALSE(finished.has_value());
     STRCMP_EQUAL(
         (std::string(trace_file(format)) + ": cannot be written: No space left on device").c_str(),
-        finished.error().c_str());
+        finished.error().text().c_str());
   }
 }
 
 TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {
   const auto drawn =
       draw(one_curve("a \"quoted\" 'title' with \\, $HOME and `touch ran`"), folder / "a b.svg");
-  CHECK_TEXT(drawn.has_value(), drawn.has_value() ? "" : drawn.error().c_str());
+  CHECK_TEXT(drawn.has_value(), drawn.has_value() ? "" : drawn.error().text().c_str());
   const std::string svg = content(folder / "a b.svg");
   STRCMP_CONTAINS("</svg>", svg.c_str());
   STRCMP_CONTAINS("a \"quoted\" 'title' with \\, $HOME and `touch ran`", svg.c_str());

@@ -75,7 +75,7 @@ class LossyCommands final : public hal::CanBus {
   std::deque<hal::CanFrame> answers_;
 };
 
-tl::expected<KnownMuscle, std::string> asked(int lost) {
+Result<KnownMuscle> asked(int lost) {
   return Commander(std::make_unique<LossyBus>(lost), node).muscle();
 }
 
@@ -93,7 +93,7 @@ TEST(Commander, AsksOnceMoreWhenAQuestionWasLost) {
 TEST(Commander, SaysThatNobodyAnswers) {
   const auto known = asked(2);
   CHECK_FALSE(known.has_value());
-  STRCMP_CONTAINS("no answer from node 3", known.error().c_str());
+  STRCMP_CONTAINS("no answer from node 3", known.error().text().c_str());
 }
 
 /// A person or a step renews: one lost frame must not end what heats.

@@ -17,7 +17,7 @@ std::string knot(const std::string& after_s, const std::string& position_m,
 std::string problem(const std::string& knots, const std::string& start = "false") {
   const auto read =
       parse_trajectory_request(R"({"node":2,"start":)" + start + R"(,"knots":)" + knots + "}");
-  return read ? "" : read.error();
+  return read ? "" : read.error().text();
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
   a.set(static_cast<std::size_t>(Asked::thread_g), 0.0);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
-  STRCMP_CONTAINS("thread_g or heated_K", d.error().c_str());
+  STRCMP_CONTAINS("thread_g or heated_K", d.error().text().c_str());
 }
 
 TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
@@ -94,7 +94,8 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
   a.set(static_cast<std::size_t>(Asked::stretch_mm), 0.01);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
-  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06", d.error().c_str());
+  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06",
+                  d.error().text().c_str());
 }
 
 TEST(DescribeMuscle, APowerStageThatActsLateGetsLessBandwidth) {

@@ -16,7 +16,7 @@ TEST_GROUP(SetupRecord) {
 
   SetupRecord opened(int channel = 1) const {
     auto record = SetupRecord::open(config, channel);
-    CHECK_TRUE_TEXT(record.has_value(), record ? "" : record.error().c_str());
+    CHECK_TRUE_TEXT(record.has_value(), record ? "" : record.error().text().c_str());
     return *record;
   }
 };
@@ -57,7 +57,7 @@ TEST(SetupRecord, ADamagedRecordIsRefusedAndKept) {
     std::ofstream(SetupRecord::path_of(config)) << damaged;
     const auto record = SetupRecord::open(config, 1);
     CHECK_FALSE(record.has_value());
-    STRCMP_CONTAINS("board.toml.setup.json: is damaged", record.error().c_str());
+    STRCMP_CONTAINS("board.toml.setup.json: is damaged", record.error().text().c_str());
     std::ifstream file(SetupRecord::path_of(config));
     const std::string kept{std::istreambuf_iterator<char>(file), {}};
     STRCMP_EQUAL(damaged, kept.c_str());
@@ -68,5 +68,5 @@ TEST(SetupRecord, SaysWhereItCannotBeWritten) {
   config = folder.path() + "/missing/board.toml";
   const auto added = opened().add("describe", {{"muscle", 1}});
   CHECK_FALSE(added.has_value());
-  STRCMP_CONTAINS("missing/board.toml.setup.json", added.error().c_str());
+  STRCMP_CONTAINS("missing/board.toml.setup.json", added.error().text().c_str());
 }

@@ -32,14 +32,15 @@ int run(const std::string& folder) {
   StorageWorker storage(config, stores, files);
   auto commands = LocalCommands::open(folder + "/commands");
   if (!commands) {
-    std::fprintf(stderr, "local_board: %s\n", commands.error().c_str());
+    std::fprintf(stderr, "local_board: %s\n", commands.error().text().c_str());
     return 1;
   }
   Telemetry telemetry(loop, storage.relay(), std::move(*commands), nullptr);
   const auto telling = telemetry.start();
   const auto thread = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
   if (!telling || !thread) {
-    std::fprintf(stderr, "local_board: %s\n", (telling ? thread.error() : telling.error()).c_str());
+    std::fprintf(stderr, "local_board: %s\n",
+                 (telling ? thread.error().text() : telling.error().text()).c_str());
     return 1;
   }
   std::puts("ready");

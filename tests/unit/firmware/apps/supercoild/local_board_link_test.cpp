@@ -43,7 +43,7 @@ class Served {
   explicit Served(const Row& row) : rows_(rig_.loop.channels()) {
     rows_.put(row);
     auto commands = LocalCommands::open(path_);
-    if (!commands) FAIL(commands.error().c_str());
+    if (!commands) FAIL(commands.error().text().c_str());
     thread_ = std::thread([this, mine = std::move(*commands)]() mutable {
       while (!ends_)
         mine.serve(rig_.loop, rows_, 10);
@@ -58,7 +58,7 @@ class Served {
 
   LocalBoardLink link() const {
     auto socket = BoardSocket::open(path_);
-    if (!socket) FAIL(socket.error().c_str());
+    if (!socket) FAIL(socket.error().text().c_str());
     return LocalBoardLink(std::move(*socket));
   }
 
@@ -148,5 +148,5 @@ TEST(LocalBoardLink, ASignalLosesNoAnswer) {
   const auto answer = socket->ask("1 renew");
   board.join();
   std::signal(SIGUSR1, before);
-  STRCMP_EQUAL("ok", answer ? answer->c_str() : answer.error().c_str());
+  STRCMP_EQUAL("ok", answer ? answer->c_str() : answer.error().text().c_str());
 }

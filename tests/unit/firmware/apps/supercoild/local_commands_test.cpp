@@ -44,7 +44,7 @@ class Client {
 
 LocalCommands opened(const std::string& path) {
   auto commands = LocalCommands::open(path);
-  if (!commands) FAIL(commands.error().c_str());
+  if (!commands) FAIL(commands.error().text().c_str());
   return std::move(*commands);
 }
 

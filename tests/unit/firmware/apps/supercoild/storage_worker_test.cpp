@@ -60,7 +60,7 @@ TEST_GROUP(StorageWorker) {
   ChannelSettings next_start() {
     config::BoardConfig next = config();
     const auto known = daemon::load_learned(next, stores);
-    if (!known) FAIL(known.error().c_str());
+    if (!known) FAIL(known.error().text().c_str());
     return next.settings.channels[0];
   }
 };

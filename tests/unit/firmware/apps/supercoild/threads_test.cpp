@@ -50,12 +50,12 @@ TEST_GROUP(DaemonThreads) {
       stores.emplace_back(folder.path(), static_cast<int>(i + 1), files);
     storage_worker = std::make_unique<StorageWorker>(config, stores, files);
     auto commands = LocalCommands::open(folder / "commands");
-    if (!commands) FAIL(commands.error().c_str());
+    if (!commands) FAIL(commands.error().text().c_str());
     telemetry =
         std::make_unique<Telemetry>(loop, storage_worker->relay(), std::move(*commands), &can);
     CHECK(telemetry->start().has_value());
     auto started = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
-    if (!started) FAIL(started.error().c_str());
+    if (!started) FAIL(started.error().text().c_str());
     thread = std::move(*started);
   }
   void teardown() override {
@@ -68,12 +68,12 @@ TEST_GROUP(DaemonThreads) {
 
   BoardSocket client() const {
     auto socket = BoardSocket::open(folder / "commands");
-    if (!socket) FAIL(socket.error().c_str());
+    if (!socket) FAIL(socket.error().text().c_str());
     return std::move(*socket);
   }
   static std::string ask(const BoardSocket& socket, const std::string& line) {
     const auto answer = socket.ask(line);
-    return answer ? *answer : answer.error();
+    return answer ? *answer : answer.error().text();
   }
   /// Keeps rows, as the daemon's main thread does, until the condition holds.
   template <class Condition>

@@ -8,7 +8,7 @@ using namespace supercoil::operating;
 TEST_GROUP(TunedPlace) {
   /// A board of these kinds, controllers first.
   static AskTuning board(std::vector<double> controllers, std::vector<double> estimators) {
-    return [=](int place, std::size_t tunable, TuningSet) -> tl::expected<double, std::string> {
+    return [=](int place, std::size_t tunable, TuningSet) -> Result<double> {
       LONGS_EQUAL(0, tunable);
       const auto at = static_cast<std::size_t>(place);
       const auto& of = at < first_estimator_place ? controllers : estimators;
@@ -26,13 +26,14 @@ TEST(TunedPlace, ANumberOrAKindThatIsThereOnce) {
   LONGS_EQUAL(2, find_place(Tuned::controller, "2", kinds).value());
   LONGS_EQUAL(0, find_place(Tuned::controller, "mrac", kinds).value());
   STRCMP_EQUAL("several controllers are pi: write the number; there are 0 (mrac), 1 (pi), 2 (pi)",
-               find_place(Tuned::controller, "pi", kinds).error().c_str());
+               find_place(Tuned::controller, "pi", kinds).error().text().c_str());
   STRCMP_EQUAL("there is no controller 3; there are 0 (mrac), 1 (pi), 2 (pi)",
-               find_place(Tuned::controller, "3", kinds).error().c_str());
+               find_place(Tuned::controller, "3", kinds).error().text().c_str());
   STRCMP_EQUAL("there is no estimator 1; there is 0 (gradient)",
-               find_place(Tuned::estimator, "1", {"gradient"}).error().c_str());
-  STRCMP_EQUAL("there is no estimator none",
-               find_place(Tuned::estimator, "none", std::vector<std::string>{}).error().c_str());
+               find_place(Tuned::estimator, "1", {"gradient"}).error().text().c_str());
+  STRCMP_EQUAL(
+      "there is no estimator none",
+      find_place(Tuned::estimator, "none", std::vector<std::string>{}).error().text().c_str());
 }
 
 TEST(TunedPlace, ItsKindTellsWhetherItIsAnEstimator) {
@@ -42,15 +43,15 @@ TEST(TunedPlace, ItsKindTellsWhetherItIsAnEstimator) {
   LONGS_EQUAL(first_estimator_place, find_any_place("gradient", ask).value());
   LONGS_EQUAL(first_estimator_place, find_any_place("8", ask).value());
   STRCMP_EQUAL("there is no controller 5; there are 0 (mrac), 1 (pi)",
-               find_any_place("5", ask).error().why.c_str());
+               find_any_place("5", ask).error().text().c_str());
   STRCMP_EQUAL("there is no estimator 1; there is 0 (gradient)",
-               find_any_place("9", ask).error().why.c_str());
+               find_any_place("9", ask).error().text().c_str());
 }
 
 TEST(TunedPlace, ABoardThatDoesNotAnswerIsTold) {
-  const auto silent = [](int, std::size_t, TuningSet) -> tl::expected<double, std::string> {
-    return tl::unexpected<std::string>("no answer");
+  const auto silent = [](int, std::size_t, TuningSet) -> Result<double> {
+    return failure("no answer", std::errc::timed_out);
   };
   const auto found = find_place(Tuned::controller, "0", silent);
-  CHECK(!found && found.error().no_answer);
+  CHECK(!found && found.error().code == std::errc::timed_out);
 }

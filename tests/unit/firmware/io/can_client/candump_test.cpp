@@ -18,7 +18,7 @@ namespace {
 /// Empty: it was a line.
 std::string error_of(const std::string& line) {
   const auto read = parse_candump_line(line);
-  return read ? "" : read.error();
+  return read ? "" : read.error().text();
 }
 
 bool is_ours(const std::string& line) {

@@ -20,7 +20,7 @@ std::string text_of_example(const std::string& name) {
 void check_edit(const std::string& before, std::size_t channel, const std::string& path,
                 const std::string& literal, const std::string& after) {
   const auto edited = with_value(before, "channel", channel, path, literal);
-  CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().c_str());
+  CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().text().c_str());
   STRCMP_EQUAL(after.c_str(), edited->c_str());
 }
 
@@ -28,7 +28,7 @@ std::string why_not(const std::string& text, std::size_t channel, const std::str
                     const std::string& literal) {
   const auto edited = with_value(text, "channel", channel, path, literal);
   CHECK_FALSE(edited.has_value());
-  return edited.error();
+  return edited.error().text();
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ TEST(EditToml, EveryExampleTakesANewMuscle) {
           std::pair{"heater.cold_resistance_Ohm", "9.5"},
           std::pair{"controller", "{ kind = \"learned_ff\" }"}}) {
       const auto edited = with_value(text, "channel", last, path, literal);
-      CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().c_str());
+      CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().text().c_str());
       text = *edited;
     }
     const auto after = parse_board_config(text, name);

@@ -20,7 +20,7 @@ TEST_GROUP(LockFile) {
     const auto lock = LockFile::take(folder / "lock");
     CHECK_FALSE(lock.has_value());
     STRCMP_EQUAL((folder / "lock" + ": the lock file " + std::string(why)).c_str(),
-                 lock.error().c_str());
+                 lock.error().text().c_str());
   }
 };
 
@@ -32,7 +32,7 @@ TEST(LockFile, OnlyOneHoldsIt) {
     CHECK_FALSE(second.has_value());
     const std::string why = folder / "lock" + ": another supercoild drives this board, process " +
                             std::to_string(::getpid());
-    STRCMP_EQUAL(why.c_str(), second.error().c_str());
+    STRCMP_EQUAL(why.c_str(), second.error().text().c_str());
   }
   CHECK(LockFile::take(folder / "lock").has_value());
 }
@@ -41,7 +41,7 @@ TEST(LockFile, WithoutItsFolderItSaysSo) {
   const auto lock = LockFile::take(folder / "none/lock");
   const std::string why =
       folder / "none/lock" + ": the lock file cannot be made: No such file or directory";
-  STRCMP_EQUAL(why.c_str(), lock.error().c_str());
+  STRCMP_EQUAL(why.c_str(), lock.error().text().c_str());
 }
 
 TEST(LockFile, NoSymbolicLinkIsFollowed) {

@@ -32,7 +32,7 @@ TEST_GROUP(Csv) {
   std::string text;
 
   recorder::Sink into() {
-    return [this](std::string_view part) -> tl::expected<void, std::string> {
+    return [this](std::string_view part) -> Result<void> {
       text += part;
       return {};
     };
@@ -171,10 +171,9 @@ TEST(Csv, OfManyRowsComesInPartsAndStopsAtTheFirstThatCannotBeWritten) {
     recording.rows.push_back(row(i * tick_ns, 0));
   LONGS_EQUAL(10'001, lines().size());
   int parts = 0;
-  const auto written = to_csv(recording, [&](std::string_view) -> tl::expected<void, std::string> {
-    return ++parts == 2 ? tl::expected<void, std::string>(tl::unexpected<std::string>("full"))
-                        : tl::expected<void, std::string>();
+  const auto written = to_csv(recording, [&](std::string_view) -> Result<void> {
+    return ++parts == 2 ? Result<void>(failure("full")) : Result<void>();
   });
-  STRCMP_EQUAL("full", written.error().c_str());
+  STRCMP_EQUAL("full", written.error().text().c_str());
   LONGS_EQUAL(2, parts);
 }

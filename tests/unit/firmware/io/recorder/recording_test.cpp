@@ -22,7 +22,7 @@ TEST_GROUP(Recording) {
 
   std::string error(const std::string& text, Damaged damaged = Damaged::refuse) {
     const auto read = decode(text, damaged);
-    return read ? "" : read.error();
+    return read ? "" : read.error().text();
   }
   /// The header rewritten with one value changed, and its CRC as it must be.
   std::string with(const std::string& from, const std::string& to) const {

@@ -60,7 +60,7 @@ TEST(Codec, TuningIsReadBack) {
     }
     set.tuning.controller = 3.0;
     const auto read = decode(encode(set));
-    CHECK_TEXT(read.has_value(), read ? "" : read.error().c_str());
+    CHECK_TEXT(read.has_value(), read ? "" : read.error().text().c_str());
     CHECK(read->tuning == set.tuning);
     CHECK(read->has_muscle == has_muscle);
   }
@@ -223,7 +223,7 @@ TEST(Codec, EveryValidSetComesBackBitForBit) {
     board::Learned set = *learned_sets();
     RC_ASSERT_FALSE(check(set).has_value());
     auto read = decode(encode(set));
-    if (!read) RC_FAIL(read.error());
+    if (!read) RC_FAIL(read.error().text());
     RC_ASSERT(read->version == set.version);
     for (const Field& field : fields) {
       RC_ASSERT(std::bit_cast<std::uint64_t>(field.of(*read)) ==

@@ -49,7 +49,7 @@ TEST(DamagedFile, HasAnErrorWhenBothAreDamagedAndGoesOnFromThere) {
   const auto loaded = store.load();
   CHECK_FALSE(loaded.has_value());
   STRCMP_CONTAINS("/d/learned-3.toml: is empty; /d/learned-3.toml.previous: is not a stored",
-                  loaded.error().c_str());
+                  loaded.error().text().c_str());
   save(3);
   save(4);
   check_loaded(Source::current, 4);
@@ -85,5 +85,5 @@ TEST(DamagedFile, ThatIsTheOnlyOneIsAnErrorAndNotNothing) {
   const auto loaded = store.load();
   CHECK_FALSE(loaded.has_value());
   STRCMP_EQUAL("/d/learned-3.toml: is empty; /d/learned-3.toml.previous: is not there",
-               loaded.error().c_str());
+               loaded.error().text().c_str());
 }

@@ -23,7 +23,7 @@ TEST_GROUP(Kill) {
   /// What is stored, which must be there and in order.
   board::Learned stored() {
     const auto loaded = LearnedStore(folder.path(), 1, files).load();
-    CHECK_TEXT(loaded.has_value(), loaded ? "" : loaded.error().c_str());
+    CHECK_TEXT(loaded.has_value(), loaded ? "" : loaded.error().text().c_str());
     CHECK(loaded->learned.has_value());
     CHECK_TEXT(loaded->problems.empty(), "nothing is damaged");
     CHECK_TEXT(which(*loaded->learned) >= 0, "the set is one that was saved, whole");

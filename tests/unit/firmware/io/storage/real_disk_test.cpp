@@ -34,7 +34,7 @@ TEST_GROUP(RealDisk) {
     Child child([&](int answer) {
       preparation();
       const auto saved = store.save(nth_set(7));
-      const std::string text = saved ? "saved" : saved.error();
+      const std::string text = saved ? "saved" : saved.error().text();
       if (write(answer, text.data(), text.size()) < 0) _exit(1);
     });
     return child.read(1 << 12);
@@ -86,11 +86,11 @@ TEST(RealDisk, SaysThatTheFolderIsNotThere) {
   const auto loaded_there = lost.load();
   CHECK_FALSE(loaded_there.has_value());
   STRCMP_EQUAL((gone + ": cannot be opened as a folder: No such file or directory").c_str(),
-               loaded_there.error().c_str());
+               loaded_there.error().text().c_str());
   const auto saved = lost.save(nth_set(1));
   CHECK_FALSE(saved.has_value());
   STRCMP_EQUAL((gone + "/learned-2.toml.new: cannot be made: No such file or directory").c_str(),
-               saved.error().c_str());
+               saved.error().text().c_str());
 }
 
 TEST(RealDisk, DamagedTruncatedAndEmptyFilesGiveThePreviousSet) {

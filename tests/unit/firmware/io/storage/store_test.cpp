@@ -179,7 +179,7 @@ TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
   const auto saved = store.save(bad);
   CHECK_FALSE(saved.has_value());
   STRCMP_EQUAL("is not stored: stiffness_N_per_m = -16 is out of range: must be 0.01 to 1e+06",
-               saved.error().c_str());
+               saved.error().text().c_str());
   bad.muscle.stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(store.save(bad).has_value());
   CHECK(disk.seen() == before);
@@ -192,7 +192,8 @@ TEST(LearnedStore, SaysWhyWhatWasLeftOverCannotBeRemoved) {
   SimulatedFiles failing(disk, {2, EROFS, false, false});  // after both files were read
   const auto saved = LearnedStore("/d", 3, failing).save(nth_set(2));
   CHECK_FALSE(saved.has_value());
-  STRCMP_EQUAL("/d/learned-3.toml.new: simulated: Read-only file system", saved.error().c_str());
+  STRCMP_EQUAL("/d/learned-3.toml.new: simulated: Read-only file system",
+               saved.error().text().c_str());
 }
 
 TEST(LearnedStore, LoadingChangesNothing) {

@@ -12,13 +12,13 @@ constexpr std::size_t channels = 4;
 
 TEST_GROUP(CommandText){
     static Command read(std::string_view text){const auto command = parse_command(text, channels);
-if (!command) FAIL(command.error().c_str());
+if (!command) FAIL(command.error().text().c_str());
 return *command;
 }
 static void check_wrong(std::string_view text, const char* why) {
   const auto command = parse_command(text, channels);
   CHECK_FALSE(command.has_value());
-  STRCMP_EQUAL(why, command.error().c_str());
+  STRCMP_EQUAL(why, command.error().text().c_str());
 }
 }
 ;
@@ -104,7 +104,7 @@ TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
         std::pair{"1 start 5 6", "start takes no more: leave out '6'"}}) {
     const auto read = parse_trajectory_command(text, channels);
     CHECK(read && !*read);
-    STRCMP_EQUAL(why, read->error().c_str());
+    STRCMP_EQUAL(why, read->error().text().c_str());
   }
 }
 

@@ -60,7 +60,7 @@ struct RecorderOnADisk : Utest {
     const std::string path = "/d/flight-" + std::to_string(number) + ".scfr";
     CHECK_TEXT(disk.names.contains(path), path.c_str());
     auto read = recorder::decode(disk.names.at(path)->seen, recorder::Damaged::refuse);
-    CHECK_TEXT(read.has_value(), read ? "" : read.error().c_str());
+    CHECK_TEXT(read.has_value(), read ? "" : read.error().text().c_str());
     return *read;
   }
   /// One line for each note; problems begin with "! ".

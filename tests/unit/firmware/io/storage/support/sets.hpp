@@ -25,7 +25,7 @@ inline board::Learned nth_set(int n) {
 /// What decoding says of a file.
 inline std::string answer(const std::string& text) {
   const auto set = storage::decode(text);
-  return set ? "in order" : set.error();
+  return set ? "in order" : set.error().text();
 }
 
 /// Which of the row a set is, whatever its version; −1 when it is none of them, or a mixture.

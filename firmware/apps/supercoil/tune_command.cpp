@@ -22,8 +22,10 @@ using control::Tunable;
 /// That nothing of this name can be tuned: what was meant, also of another command.
 std::string not_tunable(const std::string& name, const std::string& value,
                         const std::vector<std::string>& known, const TuneOptions& options) {
-  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
-    if (telemetry::run_setting_name(i) != name) continue;
+  std::uint8_t setting = 0;
+  while (setting < telemetry::run_settings && telemetry::run_setting_name(setting) != name)
+    ++setting;
+  if (setting < telemetry::run_settings) {
     return name + " is a setting, which tune does not change: supercoil setting " +
            std::to_string(options.channel) + " " + name + (value.empty() ? "" : " " + value) +
            " --can " + (options.can.empty() ? "BUS" : options.can);

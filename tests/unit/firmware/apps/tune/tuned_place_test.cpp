@@ -7,7 +7,8 @@ using namespace supercoil::operating;
 
 TEST_GROUP(TunedPlace) {
   /// A board of these kinds, controllers first.
-  static AskTuning board(std::vector<double> controllers, std::vector<double> estimators) {
+  static AskTuning board(const std::vector<double>& controllers,
+                         const std::vector<double>& estimators) {
     return [=](int place, std::size_t tunable, TuningSet) -> Result<double> {
       LONGS_EQUAL(0, tunable);
       const auto at = static_cast<std::size_t>(place);

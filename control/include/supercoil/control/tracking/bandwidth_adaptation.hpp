@@ -22,6 +22,7 @@ namespace supercoil::control {
 /// ωc.
 class BandwidthAdaptation {
  public:
+  /// Of the loop that runs.
   struct Settings {
     double max_rad_per_s = 8.0;   ///< ωc at the start, > 0
     double lag_rad_per_s = 22.0;  ///< ωl, > 0: of the mechanics, which the PID leaves

@@ -3,6 +3,8 @@
 #include "supercoil/control/tracking/learned_feedforward.hpp"
 
 #include <CppUTest/TestHarness.h>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
 
 #include "supercoil/control/actuator/conversions.hpp"
 
@@ -109,6 +111,24 @@ TEST(LearnedFeedforward, LearnsNothingWhileThePowerIsLimited) {
   for (int k = 0; k < 20'000; ++k)
     (void)law.step(in);
   CHECK((law.weights() - before).norm() == 0.0);
+}
+
+TEST(LearnedFeedforward, TellsTheGainsThatItUses) {
+  LearnedFeedforwardSettings settings;
+  settings.learn = false;
+  LearnedFeedforward<double> law(settings, 1e-3);
+  law.start({});
+  const double before = law.gain(0).value;
+  boost::random::mt19937 source(1);
+  boost::random::normal_distribution<double> noise(0.0, 1e-3);
+  LawInput<double> in;
+  for (int k = 0; k < 60'000; ++k) {
+    in.position = noise(source);
+    (void)law.step(in);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(law.gain(i).value > 0.0);
+  CHECK(law.gain(0).value <= 0.25 * before);
 }
 
 TEST(LearnedFeedforward, ALightlyDampedMuscleIsHeldWithLessBandwidth) {

@@ -38,13 +38,11 @@ class BandwidthAdaptation {
 
   /// With all of the bandwidth, knowing nothing.
   void restart() {
-    BandwidthAdaptation fresh = *this;
-    fresh.ratio_ = 1.0;
-    fresh.noise_ = fresh.error_ = fresh.lagged_ = fresh.sum_ = 0.0;
-    fresh.gained_.fill(0.0);
-    fresh.updates_ = fresh.tick_ = 0;
-    fresh.limited_ = false;
-    *this = fresh;
+    ratio_ = 1.0;
+    noise_ = error_ = lagged_ = sum_ = 0.0;
+    gained_.fill(0.0);
+    updates_ = tick_ = 0;
+    limited_ = false;
   }
 
   /// The feedback's gains were multiplied by this: so is its greatest bandwidth.

@@ -57,6 +57,7 @@ class FixedPid {
   /// Gains for another muscle than the nominal one, in the same units. For a law that does not run.
   void retune(const Theta& theta) {
     gains_ = theta * bandwidth_rad_per_s_;
+    ratio_ = 1.0;
     const Theta units = gains_ * dc_gain_m_per_W_;
     tuned_proportional_ = proportional_ = to<Scalar>(units[2]);
     tuned_derivative_ = derivative_ = to<Scalar>(units[1]);
@@ -74,6 +75,7 @@ class FixedPid {
 
   /// All gains from now on, over those tuned for the muscle.
   void schedule(Scalar ratio) {
+    ratio_ = static_cast<double>(ratio);
     proportional_ = tuned_proportional_ * ratio;
     derivative_ = tuned_derivative_ * ratio;
     integral_step_ = tuned_integral_step_ * Wide(ratio);
@@ -108,9 +110,9 @@ class FixedPid {
 
   static constexpr std::size_t gains = 3;
   GainValue gain(std::size_t i) const {
-    if (i == 0) return {Gain::proportional, gains_[2]};
-    if (i == 1) return {Gain::integral, gains_[3]};
-    return {Gain::derivative, gains_[1]};
+    if (i == 0) return {Gain::proportional, ratio_ * gains_[2]};
+    if (i == 1) return {Gain::integral, ratio_ * gains_[3]};
+    return {Gain::derivative, ratio_ * gains_[1]};
   }
 
  private:
@@ -123,7 +125,8 @@ class FixedPid {
   double bandwidth_rad_per_s_;
   double dc_gain_m_per_W_;
   double step_s_;
-  Theta gains_;
+  Theta gains_;         // tuned for the muscle
+  double ratio_ = 1.0;  // over those
   StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
   Wide slope_gain_;
   Scalar tuned_proportional_{};

@@ -16,6 +16,11 @@ inline ProofSettings paper_proof() {
   return s;
 }
 
+/// The paper's muscle is safe at this power, however long.
+inline double paper_safe_W() {
+  return plan_proof(paper_proof(), {}, 1000.0).safe_W;
+}
+
 inline constexpr double slower = 12.0;
 
 /// 2 J/K: 27 s of time constant, and a small travel.

@@ -146,8 +146,20 @@ TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
   CHECK(stored->calibration == scaled->calibration);
   DOUBLES_EQUAL(2.0, stored->tuning.controller.value_or(-1.0), 0.0);
   DOUBLES_EQUAL(0.0, stored->tuning.estimator.value_or(-1.0), 0.0);
+  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
+  CHECK(update()->tuning == stored->tuning);
   CHECK(answer_to(Verb::store, clear_tuning) == Refusal::none);
   CHECK(update()->tuning == board::StoredTuning{});
+}
+
+TEST(Axis, WhatWasClearedIsNotStoredWithSomethingElse) {
+  rig().hold_power(2.0, 4.0);
+  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
+  CHECK(update()->has_muscle);
+  CHECK(answer_to(Verb::store, 0.0) == Refusal::none);
+  CHECK_FALSE(update().has_value());
+  CHECK(answer_to(Verb::store, store_tuning) == Refusal::none);
+  CHECK_FALSE(update()->has_muscle);
 }
 
 TEST(Axis, BeginsWithTheControllerThatWasStored) {

@@ -159,6 +159,7 @@ TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
         if (active) {
           CHECK(of(leader).progress >= progress - 1e-3F);
           progress = std::max(progress, of(leader).progress);
+          CHECK_COMPARE(progress, <=, 1.0F);
           CHECK(of(leader).result == ModeResult::running);
         }
         return !active;

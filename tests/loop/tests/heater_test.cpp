@@ -28,6 +28,13 @@ TEST(Heater, TellsByWhichGainsItCorrectsItsSensesAndNotSinceWhen) {
   CHECK(Rig(settings).loop.channel(0).senses() == without_date);
 }
 
+TEST(Heater, WritesItsDutyInTheFirstTickWhateverWasThereBefore) {
+  Rig rig(settings);
+  CHECK(rig.muscle().pwm.set(5) == hal::Status::ok);
+  rig.run_ticks(1);
+  LONGS_EQUAL(0, rig.muscle().pwm.read_back());
+}
+
 TEST(Heater, TellsHowOldItsResistanceIs) {
   Rig rig(settings);
   arm(rig);

@@ -142,6 +142,10 @@ TEST(ABus, CanBeStartedAndEndedAtOnce) {
     started(1ms).reset();
 }
 
+TEST(ABus, WithoutItsThreadIsAnError) {
+  CHECK_FALSE(BusThread::start({"small", 0, -1, 1}, 1ms, {}).has_value());
+}
+
 TEST(ABus, OfAPeriodThatIsNoneIsAnError) {
   const auto bus = BusThread::start({"i2c-1"}, 0ns, {});
   STRCMP_EQUAL("a bus's period must be above 0", bus.error().text().c_str());

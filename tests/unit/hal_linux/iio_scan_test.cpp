@@ -128,6 +128,9 @@ TEST(IioScan, CallsAPartOfAScanAnError) {
     const auto again = opened();
     arrives(whole + whole.substr(0, bytes));
     CHECK(again->input(0).latest().status == hal::Status::io_error);
+    // Nothing of it is taken.
+    const auto fresh = opened();
+    check(hal::Status::io_error, 0, 0, fresh->input(0).latest());
   }
 }
 

@@ -68,6 +68,10 @@ TEST(CheckRivals, TakesNoHarmFromWhatEndsMeanwhile) {
   check_finding("ok", "none above", "", found());
   CHECK_FALSE(parse_thread_stat("").has_value());
   CHECK_FALSE(parse_thread_stat(") 1 (").has_value());
+  // Whole but for one bracket.
+  const std::string whole = stat("x", of_user, 90, SCHED_FIFO);
+  CHECK(parse_thread_stat(whole).has_value());
+  CHECK_FALSE(parse_thread_stat(whole.substr(whole.find('(') + 1)).has_value());
   CHECK_FALSE(parse_thread_stat("5 (x) S a b c d e f g").has_value());
 }
 

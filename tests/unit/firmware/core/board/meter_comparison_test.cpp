@@ -86,6 +86,16 @@ TEST(MeterComparison, FindsTheGainsFromTwoPowers) {
   DOUBLES_EQUAL(0.0, found->compared_s, 0.0);
 }
 
+TEST(MeterComparison, WaitsForTheVoltsWhereTheAmperesAreReadFirst) {
+  hold(0.1);
+  read_both();
+  hold(0.2);
+  check(Refusal::none, amperes(line_A()));
+  CHECK_FALSE(comparison.found().has_value());
+  check(Refusal::none, volts(supply_V));
+  CHECK_TRUE(comparison.found().has_value());
+}
+
 TEST(MeterComparison, FindsGainsOverTheUncorrectedReadings) {
   present = {1.25, 0.8, 0.05, 1.0};
   supply_told = 1.25 * 0.9;

@@ -1,4 +1,6 @@
 // What holds where a board's file says nothing.
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 #include "board/air.hpp"
@@ -40,6 +42,18 @@ TEST(DefaultSettings, OfAChannelKnowNothingThatWasLearned) {
   LONGS_EQUAL(1, channel.controllers.size());
   LONGS_EQUAL(1, channel.estimators.size());
   LONGS_EQUAL(0, channel.configured_controllers.size());
+}
+
+TEST(DefaultSettings, OfAJoint) {
+  const JointSettings joint;
+  LONGS_EQUAL(0, joint.agonist);
+  LONGS_EQUAL(1, joint.antagonist);
+  DOUBLES_EQUAL(1.0, joint.co_contraction_W, 0.0);
+  CHECK(std::isinf(joint.max_co_contraction_W));
+  DOUBLES_EQUAL(1.0, joint.antagonist_lever_ratio, 0.0);
+  CHECK(std::isnan(joint.pretension_N));
+  DOUBLES_EQUAL(0.5, joint.stiffness_ratios()[0], 0.0);
+  DOUBLES_EQUAL(0.5, joint.stiffness_ratios()[1], 0.0);
 }
 
 TEST(DefaultSettings, OfAHeater) {

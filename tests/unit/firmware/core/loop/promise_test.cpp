@@ -60,6 +60,13 @@ TEST(Promise, TheFirstMotionIsOneThatTheMuscleCanFollow) {
   }
 }
 
+TEST(Promise, TheFirstMotionIsOneSineFromItsLowestPlace) {
+  const double low_m = motion.middle_m - motion.amplitude_m;
+  DOUBLES_EQUAL(low_m, motion.at(0.0), 1e-12);
+  DOUBLES_EQUAL(motion.middle_m, motion.at(0.25 * motion.period_s), 1e-12);
+  DOUBLES_EQUAL(low_m, motion.at(motion.period_s), 1e-12);
+}
+
 TEST(Promise, WhereFullStrokesDidNotFitTheFirstMotionStaysLower) {
   const Feasibility f = feasibility(channel, board);
   const FirstMotion lower = plan_first_motion(f, 0.07);
@@ -145,6 +152,15 @@ TEST(Promise, PowerThatComesLateCountsByHowFarTheMotionGoesMeanwhile) {
 
 TEST(Promise, ALoopThatRingsIsPromisedNothing) {
   CHECK_TRUE(is_promised_for(channel.controllers[0], channel, board.step_s()));
+  // Still stable.
+  const auto modulus = [&] {
+    const auto margin = margin_of(channel.controllers[0], channel, board.step_s());
+    return margin && margin->stable() ? margin->modulus : 0.0;
+  };
+  while (modulus() >= 0.3)
+    channel.heater.delay_s += 0.001;
+  CHECK_COMPARE(modulus(), >, 0.2);
+  CHECK_FALSE(is_promised_for(channel.controllers[0], channel, board.step_s()));
   channel.heater.delay_s = 0.1;
   CHECK_FALSE(is_promised_for(channel.controllers[0], channel, board.step_s()));
   channel.controllers[0].learned_ff.bandwidth_rad_per_s = 2.0;

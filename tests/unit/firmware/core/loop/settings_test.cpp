@@ -78,8 +78,13 @@ TEST(BoardSettingsCheck, ABundleIsProvenByItsLeaderAlone) {
   settings.channels.resize(3);
   add_bundle(settings, {{0, 2}});
   CHECK_FALSE(check(settings).has_value());
+  for (const std::size_t channel : {0U, 2U})
+    POINTERS_EQUAL(&settings.bundles[0], settings.bundle_of(channel));
+  POINTERS_EQUAL(nullptr, settings.bundle_of(1));
   settings.channels[2].supervision.proof_of_response = true;
   check_says("channel 3 cannot prove by itself that it responds", "bundle");
+  settings.bundles[0].channels = {0};
+  check_says("channels must be at least two", "bundle");
 }
 
 TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {

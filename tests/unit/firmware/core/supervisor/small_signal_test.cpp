@@ -101,6 +101,26 @@ TEST(SmallSignal, IsAsLargeWhateverWasFoundOfAnEarlierMuscle) {
                 plan_small_signal(rubbed, {}, held_W, rate_Hz).dither.amplitude_W, 0.0);
 }
 
+/// For 4 s, of a slow dither for 10 s or four periods, of the slowest for two; and one period
+/// before.
+TEST(SmallSignal, TakesTheTimeThatItsDitherNeeds) {
+  struct {
+    int half_steps;
+    int periods;
+  } const cases[]{{20, 10}, {70, 4}, {100, 4}, {150, 3}, {350, 2}, {600, 2}};
+  for (const auto& [half_steps, periods] : cases) {
+    SmallSignal::Settings plan;
+    plan.dither.half_steps = half_steps;
+    plan.rate_Hz = 100.0;
+    SmallSignal measuring;
+    measuring.start(plan, ExpectedMotion({}, plan.step_s));
+    int steps = 1;
+    while (measuring.step(0.0, 0.0))
+      ++steps;
+    LONGS_EQUAL((1 + periods) * 2 * half_steps, steps);
+  }
+}
+
 /// Where nothing settles and nothing is noisy, from the very first step on.
 TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
   const control::PhysicalParameters muscle;

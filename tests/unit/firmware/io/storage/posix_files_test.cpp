@@ -39,6 +39,14 @@ TEST(PosixFiles, ReadWhatTheyWrote) {
   CHECK(*files.read(path("x"), 2) == content.substr(0, 2));
 }
 
+// errno keeps what an earlier call left there.
+TEST(PosixFiles, DoNotTakeAnEarlierInterruptionForTheirOwn) {
+  errno = EINTR;
+  put("x", "1");
+  errno = EINTR;
+  CHECK(*files.read(path("x"), 100) == "1");
+}
+
 TEST(PosixFiles, NeverWriteOverAFile) {
   put("x", "1");
   const auto again = files.create(path("x"));

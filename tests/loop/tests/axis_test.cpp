@@ -152,6 +152,12 @@ TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
   CHECK(update()->tuning == board::StoredTuning{});
 }
 
+TEST(Axis, WhatIsNoPlaceIsNotTuned) {
+  for (const double place : {-1.0, 256.0, std::nan("")})
+    CHECK(answer_to(Verb::tune, place) == Refusal::out_of_range);
+  CHECK(answer_to(Verb::tune, 0.0) == Refusal::none);
+}
+
 TEST(Axis, WhatWasClearedIsNotStoredWithSomethingElse) {
   rig().hold_power(2.0, 4.0);
   CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);

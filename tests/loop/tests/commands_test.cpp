@@ -229,6 +229,13 @@ TEST(Commands, ScaleIsRefusedWhileAControllerFollowsAPosition) {
   CHECK(answer_to(Verb::scale, 0.005) == Refusal::wrong_state);
 }
 
+TEST(Commands, ScaleIsRefusedWhileThereIsNoPosition) {
+  rig.boot();
+  rig.muscle().position.set(host_sim::ConverterFaults{.silent = true});
+  rig.run(0.1);
+  CHECK(answer_to(Verb::scale, 0.005) == Refusal::not_ready);
+}
+
 TEST(Commands, PeriodsThatAreLeftOutCountForACommandThatExpires) {
   arm();
   rig.heat(Task::power);

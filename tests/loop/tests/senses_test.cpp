@@ -116,3 +116,22 @@ TEST(Senses, PeriodsThatAreLeftOutCountForTheTemperatureToo) {
   DOUBLES_EQUAL(rig.time_s(), slow.time_s(), 1.5 * rig.period_s());
   DOUBLES_EQUAL(rig.snapshot().hottest_C, slow.snapshot().hottest_C, 0.1);
 }
+
+TEST(Senses, PeriodsThatAreLeftOutAreHeatedByAllThatMayHaveActed) {
+  Rig slow(rough_board());
+  for (Rig* each : {&rig, &slow}) {
+    each->boot();
+    each->arm();
+    each->run(0.2);
+    each->heat(Task::power);
+    each->run(0.5);
+  }
+  for (int i = 0; i < 100; ++i) {
+    slow.board.lose_in_tick(3.1 * slow.period_s());
+    slow.run_ticks(3);
+  }
+  rig.run(slow.time_s() - rig.time_s());
+  CHECK(slow.state() == State::active);
+  DOUBLES_EQUAL(rig.time_s(), slow.time_s(), 1.5 * rig.period_s());
+  CHECK_COMPARE(slow.snapshot().hottest_C, >=, rig.snapshot().hottest_C - 0.05);
+}

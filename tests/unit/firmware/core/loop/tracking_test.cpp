@@ -34,6 +34,12 @@ TEST(Smoothed, BeginsAtZeroAndFollowsARampWithoutLag) {
   DOUBLES_EQUAL(2.0 * tick_s * 1000, smoothed.value(), 1e-6);
 }
 
+TEST(Smoothed, TakesHalfOfAJumpInAStepThatIsAsLongAsItsTimeConstant) {
+  Smoothed smoothed(tick_s, tick_s);
+  smoothed.step(1.0);
+  DOUBLES_EQUAL(2.0 * 0.5 - 0.25, smoothed.value(), 1e-12);
+}
+
 /// Of a muscle that rests where it shall be, with the power that holds it there.
 TEST_GROUP(Tracking) {
   control::PhysicalParameters muscle;

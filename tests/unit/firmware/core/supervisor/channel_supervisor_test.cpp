@@ -225,6 +225,25 @@ TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
     check_fault(Fault::none, channel.step());
 }
 
+TEST(ChannelSupervisor, WithoutAReadingOfTheCurrentNeitherHeaterNorMuscleIsJudged) {
+  Channel channel;
+  channel.step();
+  channel.inputs.heater.current = {0.0, 0.0, false, hal::Status::not_ready};
+  channel.inputs.axis.position.value += 0.002;
+  channel.step();
+  DOUBLES_EQUAL(0.3, channel.supervisor.verdict().margin(Fault::heater_open).measured, 0.0);
+  DOUBLES_EQUAL(0.0, channel.moved_m(), 50e-6);
+}
+
+TEST(ChannelSupervisor, AResistanceDriftsOnlyWhereItIsMeasuredWithoutAGap) {
+  Channel channel;
+  channel.inputs.heater.resistance_Ohm = 15.0;
+  for (int i = 1; i < 1500; ++i) {
+    channel.inputs.heater.resistance_fresh = i % 499 != 0;
+    check_fault(Fault::none, channel.step());
+  }
+}
+
 TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome) {
   for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
     Channel channel;

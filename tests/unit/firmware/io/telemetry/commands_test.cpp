@@ -7,6 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "telemetry/can_endpoint.hpp"
 #include "unit/firmware/io/telemetry/support/master.hpp"
 
 using namespace supercoil;
@@ -45,6 +46,19 @@ TEST_GROUP(CanCommands) {
     return answer.granted;
   }
 };
+
+TEST(CanCommands, AreHeardForEachChannelAndTheSyncOfAllBoards) {
+  settings.first_node = 3;
+  const auto ids = telemetry::heard_ids(settings, 2);
+  const std::set<std::uint16_t> heard(ids.begin(), ids.end());
+  for (const can::Node node : {can::Node{2}, can::Node{3}, can::Node{4}, can::Node{5}}) {
+    const bool is_own = node == 3 || node == 4;
+    for (const can::MessageInfo& message :
+         {can::message::command, can::message::knot, can::message::play, can::message::status})
+      CHECK_EQUAL(is_own, heard.contains(can::id_of(message, node)));
+  }
+  CHECK(heard.contains(telemetry::sync_id));
+}
 
 TEST(CanCommands, AMasterClaimsALeaseAndIsObeyed) {
   CHECK(claim(master) != 0);

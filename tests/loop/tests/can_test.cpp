@@ -70,6 +70,16 @@ TEST(OverCan, TheMasterGetsTheLoopsRefusal) {
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
 }
 
+TEST(OverCan, EachNodeTellsOfItsOwnMuscle) {
+  for (const unsigned place : {0U, 1U}) {
+    const auto asking = static_cast<std::uint16_t>(SUPERCOIL_MUSCLE_READ_FRAME_ID + place);
+    rig.bus.deliver({asking, 1, {known_cold_resistance}, {}});
+    rig.run(0.02);
+    CHECK(rig.last_of.contains(static_cast<std::uint16_t>(SUPERCOIL_MUSCLE_FRAME_ID + place)));
+    CHECK_EQUAL(place == 1U, rig.last_of.contains(SUPERCOIL_MUSCLE_FRAME_ID + 1));
+  }
+}
+
 TEST(OverCan, EachNodeTellsItsProgramOnceASecondWhileTheLoopRuns) {
   rig.run(10.0);
   DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID], 1);

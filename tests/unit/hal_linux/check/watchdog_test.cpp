@@ -92,3 +92,14 @@ TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
     check_finding("warning", "does not tell what it is", "wdctl", found(device));
   }
 }
+
+TEST(CheckWatchdog, TakesNoOtherOneForTheFirst) {
+  TemporaryFolder without_first;
+  without_first.write("sys/class/watchdog/watchdog1/identity", "other\n");
+  without_first.write("sys/class/watchdog/watchdog1/dev", "250:1\n");
+  const Machine other{without_first / "proc", without_first / "sys", without_first / "dev"};
+  set_device(10, 130);
+  Told told;
+  check_watchdog(other, device, false, told.sink());
+  check_finding("warning", "does not tell what it is", "wdctl", told.findings.front());
+}

@@ -21,6 +21,19 @@ TEST(PublishedMuscle, TellsEachQuantityAtItsPlaceAndNoOther) {
     CHECK(std::isnan(published.get(none)));
 }
 
+TEST(PublishedMuscle, OfABoardsFileHasItsLimits) {
+  ChannelSettings channel;
+  channel.limiter.min_W = 0.1;
+  channel.limiter.max_W = 3.5;
+  channel.supervision.trip_C = 150.0;
+  channel.supervision.max_travel_m = 0.03;
+  const ConfiguredMuscle configured = configured_muscle(channel, -0.01);
+  DOUBLES_EQUAL(3.5, configured.max_W, 0.0);
+  DOUBLES_EQUAL(150.0, configured.trip_C, 0.0);
+  DOUBLES_EQUAL(-0.01, configured.min_set_point_m, 0.0);
+  DOUBLES_EQUAL(0.03, configured.max_set_point_m, 0.0);
+}
+
 TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_cold_resistance] == "cold_resistance_Ohm");
   CHECK(known_quantities[known_position_offset] == "position_offset_m");

@@ -1,5 +1,8 @@
 #include "supervisor/channel_state.hpp"
 
+#include <string>
+#include <utility>
+
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
@@ -35,6 +38,27 @@ TEST(ChannelState, HeatsOnlyWhenActive) {
   CHECK(channel.may_heat());
   CHECK(channel.rest() == Refusal::none);
   CHECK_FALSE(channel.may_heat());
+}
+
+// Their numbers are on the bus.
+TEST(ChannelState, EveryRefusalHasItsName) {
+  for (const auto& [refusal, text] :
+       {std::pair{Refusal::none, "none"}, std::pair{Refusal::wrong_state, "wrong_state"},
+        std::pair{Refusal::cause_persists, "cause_persists"},
+        std::pair{Refusal::no_edge, "no_edge"}, std::pair{Refusal::not_ready, "not_ready"},
+        std::pair{Refusal::busy, "busy"}, std::pair{Refusal::out_of_range, "out_of_range"},
+        std::pair{Refusal::no_such_channel, "no_such_channel"},
+        std::pair{Refusal::not_lease_holder, "not_lease_holder"},
+        std::pair{Refusal::no_lease, "no_lease"},
+        std::pair{Refusal::wrong_counter, "wrong_counter"},
+        std::pair{Refusal::queue_full, "queue_full"},
+        std::pair{Refusal::claim_again, "claim_again"},
+        std::pair{Refusal::protocol_mismatch, "protocol_mismatch"},
+        std::pair{Refusal::unsuitable, "unsuitable"},
+        std::pair{Refusal::infeasible, "infeasible"}}) {
+    CHECK(static_cast<std::size_t>(refusal) < refusal_names.size());
+    STRCMP_EQUAL(text, std::string(name(refusal)).c_str());
+  }
 }
 
 TEST(ChannelState, KeepsItsFirstCause) {

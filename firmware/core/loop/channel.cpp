@@ -168,7 +168,6 @@ Refusal Channel::arm(const BoardTick& board) {
 
 void Channel::arm_now() {
   state_.arm();
-  supervisor_.rearmed();
   axis_.heater().start_probe();
 }
 

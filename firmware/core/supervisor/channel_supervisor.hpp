@@ -30,8 +30,6 @@ class ChannelSupervisor {
   bool inside(double sensor_m) const {
     return sensor_m >= settings_.min_position_m && sensor_m <= settings_.max_position_m;
   }
-  /// The channel was armed anew. What watches the muscle goes on: re-arming proves nothing of it.
-  void rearmed() { lost_.reset(); }
 
  private:
   void judge_sensors(const AxisInputs& axis, const HeaterInputs& heater);

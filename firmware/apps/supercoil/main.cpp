@@ -68,7 +68,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
                    "tuning, compare_supply V, compare_current A, compare_rise K; N is a place in "
                    "the configuration, from 0, or a kind, e.g. pi")
       ->required()
-      ->expected(1, 3);
+      ->expected(1, -1);
   CLI::Option* hold = command->add_option(
       "--for", options.hold_s,
       "Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, "

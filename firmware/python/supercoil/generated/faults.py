@@ -447,9 +447,9 @@ class HeaterNotResponding(FaultError):
     meaning = """\
 Power goes in, current flows, and the position does not move as it should: 'moved 0.3 of the 2.0 mm expected in 20 s'."""
     remedy = """\
-1. Do not look for it by heating more. Let it cool.
+1. Do not look for the cause by heating more. Let the muscle cool.
 2. Pull the free end: does the sensor follow?
-3. Is the muscle straight, free, and still elastic? One that was melted is stiff.
+3. Is the muscle straight, free, and still elastic? A muscle that has melted is stiff.
 4. If nothing is wrong: identify, and compare with the configuration.
 5. Reset, arm."""
     page = """\
@@ -461,47 +461,48 @@ Power goes in, current flows, and the position does not move as it should: "move
 models of the muscle. It trips if each model moved by at least 1 mm, and the position by less than 0.3 of the model that moved least
 (`responding_window_s`, `responding_ratio`, `responding_min_m`).
 
-- One model is the believed muscle: configured, or found by the last `identify`. Nine are mixtures of the fastest and the slowest muscle that its
-  `[thermal]` bounds allow. So where some muscle within the bounds may stand still, no motion is expected.
-- The models are driven with the power that was applied. Their motion in the last second of the window does not count, because they have heat but
-  no inertia.
-- Windows follow each other from boot on, or from an `identify` that found a muscle, whether the channel is armed or not, so it takes 20 to 40 s.
-  Neither arming nor a calibration restarts a window. After a response (below) the window ends when it would have ended, but what was expected and
-  what moved before the response no longer counts.
+- One model is the believed muscle: configured, or found by the last `identify`. The other nine are mixtures of the fastest and the slowest muscle that
+  its `[thermal]` bounds allow. So if some muscle within the bounds could stand still, no motion is expected.
+- The models are driven with the applied power. Their motion in the last second of the window does not count, because they model heat but no inertia.
+- Windows follow each other from boot on, or from an `identify` that found a muscle, whether the channel is armed or not, so detection takes 20 to 40 s.
+  Neither arming nor a calibration restarts a window. A response (below) does not change the end of the window, but the expected and measured motion
+  before the response no longer counts.
 
 **A muscle that was identified must also respond while it is hot and still** (in mode position or power; a muscle from a learned file counts as
 identified, unless the file has the configuration's own parameters). This is decided within seconds:
 
-1. The safe power is the one at which even a quarter of the lowest heat transfer (`min_transfer_W_per_K`) keeps the muscle below derating: 1.1 W
-   by default, and 0.61 W until the senses were [compared with a meter](../safety.md#power), when 12 V may be 10.8 to 13.2 V. Above the safe power
-   any motion that follows the power proves the muscle. The motion is compared with a model driven by the power that really acted.
-2. If there is no such motion, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle) whose response is at
-   most 20 µm, or two counts of a coarse sensor. The expected response is the one that [identify](../control.md#identify) measured: if friction leaves
-   a quarter of the model's motion, the dither has four times the power, up to a tenth of `max_W`. (In simulation, friction of 0.2 % of the load leaves
-   0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that this does not move enough is held to the safe power, as `--check` says. A half
-   lasts 1.2 s at most; that of a slow muscle up to 6 s, if no shorter one is decided in time and the muscle would move
-   by at most 80 µm (or eight counts) if friction let it go. The dither begins early enough to be decided within half of the time in which a muscle at the interval's hot end, with its maximum power, the lowest
-   mass and a quarter of the lowest heat transfer, reaches `trip_C`. That half is 0.6 s where 4.5 W were held, and 1.7 s where 1.7 W were. (A muscle of
-   2 J/K has 7 s where 4.5 W were held and the senses were compared with a meter, and 2.8 s at the 2.8 W that it may have until then.) Nothing from before
-   the dither is used.
-3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. When the model has fallen by twice
-   `responding_min_m`, and less than 0.17 of that is seen, it is this fault. A muscle that falls is intact, and friction or hysteresis swallows its
-   dither: from then on only its own motion proves it. If that does not happen within three quarters of the time in 2., for example because it is at
-   rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have cooled (below).
+1. The safe power is the one at which even a quarter of the lowest heat transfer (`min_transfer_W_per_K`) keeps the muscle below derating: 1.1 W by
+   default, and 0.61 W until the senses have been [compared with a meter](../safety.md#power), because 12 V may be 10.8 to 13.2 V until then. Above the
+   safe power any motion that follows the power proves the muscle. The motion is compared with a model driven by the power that really acted.
+2. If there is no such motion, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle) whose response is at most
+   20 µm, or two counts of a coarse sensor. The expected response is the one that [identify](../control.md#identify) measured: if friction leaves a
+   quarter of the model's motion, the dither has four times the power, up to a tenth of `max_W`. (In simulation, friction of 0.2 % of the load leaves
+   0.17 on the paper's muscle, and 1 % less than 0.01.) A muscle that the dither cannot move enough is limited to the safe power, and `--check` says so.
+   A half lasts 1.2 s at most; that of a slow muscle up to 6 s, if no shorter one is decided in time and the muscle would move by at most 80 µm (or
+   eight counts) if friction let it go. The dither begins early enough to be decided within half of the time in which a muscle at the interval's hot
+   end, with its maximum power, the lowest mass and a quarter of the lowest heat transfer, reaches `trip_C`. Half of that time is 0.6 s if 4.5 W were
+   held, and 1.7 s if 1.7 W were. (A muscle of 2 J/K has 7 s if 4.5 W were held and the senses were compared with a meter, and 2.8 s at the 2.8 W that
+   it may have until then.) Nothing from before the dither is used.
+3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. If the position has fallen by less
+   than 0.17 of the model's fall when the model has fallen by twice `responding_min_m`, the fault trips. A muscle that falls is intact, and friction or
+   hysteresis hides its response to the dither: from then on only its own motion proves it. If its motion does not prove it within three quarters of the
+   time in 2., for example because it is at rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have
+   cooled (below).
 4. If nothing is decided within three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel gets at most the safe power
    until there is a response. Then a missing response counts only after a motion or a time as in 3., because hysteresis hides the beginning of a motion
    that reverses. The dither goes on at the safe power, so that a muscle at rest can respond. A position that moves by more than 0.1 of
-   `responding_min_m` rms in a block, for whatever reason, is hardly that of a dead sensor: the decision waits, but no longer than 5. allows.
-5. Neither a rest, nor less power, nor arming anew gives back time that was used without a response. From each response on, the firmware counts how hot
-   the muscle is at most if it lost contact at that moment, and has a quarter of the lowest heat transfer since: with the power that really acted, at rest
-   too. The shares of the time to the limit in 2. to 4. are used up by the clock, which a moment of less power restarts, or by that heat, whichever is sooner. So a muscle that was at the safe power for
-   long has less time when it is given more, and one that was held to the safe power, or whose power was taken away, gets the safe power after a rest until it
-   responds (at rest its fall is a response), or until so much time is left that a dither is decided in it: at rest, 8 s on the paper's muscle.
+   `responding_min_m` rms in a block, for any reason, is unlikely to come from a dead sensor: the decision waits, but no longer than 5. allows.
+5. Neither a rest, nor less power, nor arming again restores time that was used without a response. From each response on, the firmware computes the
+   maximum temperature of a muscle that lost contact at that moment and has had a quarter of the lowest heat transfer since, with the power that really
+   acted, also at rest. The shares of the time to the limit in 2. to 4. are used up by the clock, which restarts after any moment of less power, or by
+   that heat, whichever comes first. So a muscle that was at the safe power for long has less time when it is given more. A muscle that was limited to
+   the safe power, or whose power was taken away, gets the safe power after a rest until it responds (at rest its fall is a response), or until there is
+   again enough time to decide a dither: at rest, 8 s on the paper's muscle.
 
 | | |
 |---|---|
-| decision | a matched filter: Σ expected·measured / Σ expected², both without what is slower than 1 rad/s (of all power) or 4 rad/s (of the dither; the longer its halves are than 1.2 s, the lower), as soon as the expected motion is 18.6 standard deviations of this ratio's noise |
-| noise | `position.noise_rms_m` and the counts, or what the model leaves of the motion, whichever is larger |
+| decision | a matched filter: Σ expected·measured / Σ expected², both high-pass filtered at 1 rad/s (for all power) or 4 rad/s (for the dither; lower if its halves are longer than 1.2 s), when the expected motion is 18.6 standard deviations of this ratio's noise |
+| noise | `position.noise_rms_m` and the counts, or the motion that the model does not explain, whichever is larger |
 | dead below | a ratio of 0.17: 3.1 standard deviations, so 1 dead muscle of 1000 passes a block |
 | false alarm | if an intact muscle's response is half of the model's, less than once in 10⁹ blocks (6.2 standard deviations; counted up to 4, where it is at most twice a normal tail) |
 
@@ -510,50 +511,50 @@ the noise, with slow ticks, and with how much the true power may exceed the meas
 on a Raspberry Pi at 100 Hz (`raspberry-pi-pwm-ads1115.toml`) from 2.27 to 4.24 W. `supercoild --check` names the channel and the power.
 
 `proof_of_response = false` in `[channel.detectors]` switches all of this off. Then only the window of 20 s remains, as for a muscle that is not
-identified: its parameters may be wrong by half, and such a fine test would take it for dead. The muscles of a
-[bundle](../joints.md#with-a-heater-each) are dithered together and respond together: a dead muscle passes beside intact ones.
+identified: its parameters may be wrong by half, and such a sensitive test would mistake it for a dead one. The muscles of a
+[bundle](../joints.md#with-a-heater-each) are dithered together and respond together: a dead muscle is not detected beside intact ones.
 
 **Reaction:** the channel goes cold. The next window begins; a reset is not refused because of this fault.
 
 ## Likely causes
 
 - the muscle came off its anchor, or its end off the sensor
-- it is blocked, or its turns have melted together
-- heat goes elsewhere: it lies in water, in moving air, against metal
+- the muscle is blocked, or its turns have melted together
+- the heat flows elsewhere: the muscle lies in water, in moving air, against metal
 - the believed parameters are far from this muscle (more than three times)
-- the sensor is frozen in a cold-looking muscle
+- the sensor is frozen at the position of a cold muscle
 
 ## Remedy
 
-1. Do not look for it by heating more. Let it cool.
+1. Do not look for the cause by heating more. Let the muscle cool.
 2. Pull the free end: does the sensor follow?
-3. Is the muscle straight, free, and still elastic? One that was melted is stiff.
+3. Is the muscle straight, free, and still elastic? A muscle that has melted is stiff.
 4. If nothing is wrong: `identify`, and compare with the configuration.
 5. Reset, arm.
 
 ## Margin
 
-In metres, a minimum: the range of the position in this window, and 0.3 of the range of the model that moved least. If 8 mm moved where 9 mm were
-expected, it is 0.008 over 0.0027, used 0.34. Early in a window both are small; read the margin late. If less than 1 mm is expected, used is 0. After a
-dither without a response: how far the muscle fell with the power, and 0.17 of what the model fell.
+In metres, a minimum: the range of the position in this window, and 0.3 of the range of the model that moved least. If the muscle moved 8 mm where 9 mm
+were expected, the margin is 0.008 over 0.0027, used 0.34. Early in a window both are small; read the margin late. If less than 1 mm is expected, used
+is 0. After a dither without a response: how far the muscle fell with the power, and 0.17 of what the model fell.
 
 ## Not detected
 
 - A muscle that is not identified and is held at a constant power: once it is at rest, no motion is expected, so a sensor that slips off is not noticed.
   The same holds during identify, and with `proof_of_response = false`.
-- Of a muscle that is not identified any motion counts, in whatever direction and with whatever cause: a swinging load hides a dead muscle.
-- In a muscle that is not identified: anything within the first 20 s. At 4.5 W it has reached its final temperature long before.
+- For a muscle that is not identified any motion counts, in any direction and from any cause: a swinging load hides a dead muscle.
+- On a muscle that is not identified: anything within the first 20 s. At 4.5 W it has reached its final temperature long before.
 
 ## False alarms
 
-- **A sudden draught**, in which the controller holds the muscle still with more power: no model with constant cooling stands still then. Simulated with the
-  paper's muscle, 10 µm of noise, `pi` and `learned_ff`: a muscle that is not identified trips when its cooling doubles at 5 or 10 mm (12 of 12 runs), but
-  not when it grows by half. An identified one does not trip at 3, 5 or 10 mm (none of 36), because its responses prove that it is intact; before responses
-  counted, 16 did. It may still trip if its cooling grows by 2.2, all that `[thermal]` allows by default (17 of 96): at 3 mm, from 0.4 to 0.9 W, and
-  elsewhere if that begins 2 to 3 s before a window ends. The muscles of a [joint](../joints.md), and those that follow in a bundle, have no responses of
-  their own.
-- **Cooling that is believed wrong by a factor of two**, while the power falls slowly and the muscle still warms: no model stands still, but the muscle does
-  (1 of 75 groups of 20 runs, [safety](../safety.md#what-narrows-the-interval)).
+- **A sudden draught**, in which the controller holds the muscle still with more power: no model with constant cooling stands still then. Simulated with
+  the paper's muscle, 10 µm of noise, `pi` and `learned_ff`: a muscle that is not identified trips when its cooling doubles at 5 or 10 mm (12 of 12
+  runs), but not when it grows by half. An identified one does not trip at 3, 5 or 10 mm (none of 36), because its responses prove that it is intact;
+  before responses counted, 16 did. It may still trip if its cooling grows by a factor of 2.2, the largest that `[thermal]` allows by default (17 of
+  96): at 3 mm, from 0.4 to 0.9 W, and at other positions if the draught begins 2 to 3 s before a window ends. The muscles of a [joint](../joints.md),
+  and those that follow in a bundle, have no responses of their own.
+- **Believed cooling that is wrong by a factor of two**, while the power falls slowly and the muscle is still warming: no model stands still, but the
+  muscle does (1 of 75 groups of 20 runs, [safety](../safety.md#what-narrows-the-interval)).
 """
 
 
@@ -881,27 +882,27 @@ limit 7, used 0.8. A muscle as it was calibrated uses 0.77. It keeps the value o
 
 
 class MuscleLoose(FaultError):
-    """A muscle of a joint gets all the power that it may have, more is asked for, and the joint does not move: 'moved 0.05 of the 3.2 mm
-expected'. The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
+    """A muscle of a joint gets its maximum allowed power, more is demanded, and the joint does not move: 'moved 0.05 of the 3.2 mm expected'.
+The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
 
     number = 34
     name = "muscle_loose"
     meaning = """\
-A muscle of a joint gets all the power that it may have, more is asked for, and the joint does not move: 'moved 0.05 of the 3.2 mm
-expected'. The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
+A muscle of a joint gets its maximum allowed power, more is demanded, and the joint does not move: 'moved 0.05 of the 3.2 mm expected'.
+The muscle is torn, or its cable is slack. Single muscles are judged by heater_not_responding only."""
     remedy = """\
-1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
-2. Is one loose? Fasten it, tighten its cable, calibrate both.
-3. Did it move the wrong way? identify shows whether heat moves it so (moved_backwards). Then do one of these: swap both heaters
-   with their current senses; change the sign of m_per_count, offset_m, min_m and max_m, and swap the last two; or swap
-   agonist and antagonist in [joint], and move channel.position as it is to the new agonist.
-4. Are both taut? Then find what held the joint. Set max_travel_m so that it lies within the end stops.
+1. Let both muscles cool. Turn the joint by hand, both ways: each muscle should become taut.
+2. Is one muscle loose? Fasten it, tighten its cable, calibrate both muscles.
+3. Did the joint move the wrong way? identify shows whether heat moves it the wrong way (moved_backwards). Then do one of these: swap both heaters
+   with their current senses; change the sign of m_per_count, offset_m, min_m and max_m, and swap the last two; or swap agonist and
+   antagonist in [joint], and move channel.position unchanged to the new agonist.
+4. Are both muscles taut? Then find what held the joint. Set max_travel_m so that it lies within the end stops.
 5. Reset, arm."""
     page = """\
 # 34 muscle_loose
 
-A muscle of a [joint](../joints.md) gets all the power that it may have, more is asked for, and the joint does not move: "moved 0.05 of the 3.2 mm
-expected". The muscle is torn, or its cable is slack. Single muscles are judged by [heater_not_responding](heater_not_responding.md) only.
+A muscle of a [joint](../joints.md) gets its maximum allowed power, more is demanded, and the joint does not move: "moved 0.05 of the 3.2 mm expected".
+The muscle is torn, or its cable is slack. Single muscles are judged by [heater_not_responding](heater_not_responding.md) only.
 
 **Detected** while a muscle is limited without a gap, by its maximum, its temperature or the supply. The expected motion is counted from zero when the limit
 begins, and again each time the joint has moved by 0.9 mm. The fault trips when the muscle should have moved the joint by at least 3 mm (three times
@@ -916,8 +917,8 @@ its limit: in simulation 1 to 13 s after arming, if the limit moves the joint by
 **Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves nothing until its slack is
 taken up, and only more heat would show whether that happens.
 
-**Which muscle** it is, the recording shows: both channels have this fault, and it concerns the one whose `applied_W` was at its maximum. By the position:
-a joint below its reference has lost its agonist, one above it its antagonist.
+**Which muscle** is loose can be read from the recording: both channels have this fault, and it concerns the one whose `applied_W` was at its maximum.
+The position shows it too: a joint below its reference has lost its agonist, one above it its antagonist.
 
 **Reaction:** both channels of the joint go cold. The expected motion is counted from zero; a reset is not refused because of this fault.
 
@@ -925,37 +926,38 @@ a joint below its reference has lost its agonist, one above it its antagonist.
 
 - the muscle is torn, or came off its anchor or the lever
 - its cable slipped off its pulley, or became longer than the muscle can take up
-- the joint is held: at an end stop short of where it was sent, or by something stronger than the muscle
+- the joint is held: by an end stop before its set point, or by something stronger than the muscle
 - the sensor's magnet turns on its axle
-- the joint moves away from where it is sent: both heaters are swapped, or the position has the wrong sign
+- the joint moves away from its set point: both heaters are swapped, or the position has the wrong sign
 - a load that grows, for seconds, while the muscle is at its limit
 
 ## Remedy
 
-1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
-2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
-3. Did it move the wrong way? `identify` shows whether heat moves it so (`moved_backwards`). Then do one of these: swap both heaters
-   with their current senses; change the sign of `m_per_count`, `offset_m`, `min_m` and `max_m`, and swap the last two; or swap
-   `agonist` and `antagonist` in `[[joint]]`, and move `[channel.position]` as it is to the new agonist.
-4. Are both taut? Then find what held the joint. Set `max_travel_m` so that it lies within the end stops.
+1. Let both muscles cool. Turn the joint by hand, both ways: each muscle should become taut.
+2. Is one muscle loose? Fasten it, tighten its cable, `calibrate` both muscles.
+3. Did the joint move the wrong way? `identify` shows whether heat moves it the wrong way (`moved_backwards`). Then do one of these: swap both heaters
+   with their current senses; change the sign of `m_per_count`, `offset_m`, `min_m` and `max_m`, and swap the last two; or swap `agonist` and
+   `antagonist` in `[[joint]]`, and move `[channel.position]` unchanged to the new agonist.
+4. Are both muscles taut? Then find what held the joint. Set `max_travel_m` so that it lies within the end stops.
 5. Reset, arm.
 
 ## Margin
 
-In metres, a minimum: how far the joint moved since the counting began, and 0.3 of how far the muscle should have moved it. While less than 3 mm is expected,
-or nothing is limited, used is 0. If the joint moved the other way, a maximum: how far, during the last expected millimetre, and 0.3 of it.
+In metres, a minimum: how far the joint moved since the counting began, and 0.3 of how far the muscle should have moved it. While less than 3 mm is
+expected, or no muscle is limited, used is 0. If the joint moved the other way, a maximum: how far it moved during the last expected millimetre, and 0.3
+of that expected motion.
 
 ## Not detected
 
-- A loose muscle from which no more is asked than it can give: the other muscle, a spring or a load does its work.
+- A loose muscle from which no more is demanded than its limit: the other muscle, a spring or a load does its work.
 - A loose muscle that is already hot when it reaches its limit, because nothing pulls the joint away: then no motion is expected, and
   [controller_invalid](controller_invalid.md) follows after 120 s.
-- A demand that falls below the limit again and again, as a noisy one may: the expected motion is then counted from zero each time.
-- Slack that the other muscle takes up at once, because both stay taut: the joint jumps by a part of it and continues to follow. Less pretension is left;
-  `calibrate` again.
+- A demand that falls below the limit again and again, for example because it is noisy: the expected motion is then counted from zero each time.
+- Slack that the other muscle takes up at once, because both stay taut: the joint jumps by a part of the slack and continues to follow. Less pretension
+  is left; `calibrate` again.
 - A joint that moves the wrong way with muscles whose limit moves it by less than 3 mm. [over_travel](over_travel.md) ends the motion, and `identify` shows
   the cause.
-- If the other muscle pulls the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.
+- If the other muscle pulls the joint out of its travel: [over_travel](over_travel.md) trips first, within 0.1 s.
 """
 
 

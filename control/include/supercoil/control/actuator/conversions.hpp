@@ -21,7 +21,7 @@ struct KnownParameters {
 
 /// Physical parameters from θ. The thermal pole is the slowest real root of
 /// θ1 m̂s³ + θ2 s² + θ3 s + θ4, which is right for any muscle whose mechanics are faster than its
-/// cooling. Empty when that polynomial is not Hurwitz or a parameter comes out not positive.
+/// cooling. Empty when that polynomial is not Hurwitz or a resulting parameter is not positive.
 std::optional<PhysicalParameters> physical_from(const Theta& theta, const KnownParameters& known);
 
 /// The same from b0…b3; empty also when b3 is not positive.

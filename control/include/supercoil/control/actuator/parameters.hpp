@@ -41,7 +41,8 @@ struct TransferFunction {
   double b3;
 };
 
-/// What each parameter may be: spans that hold any muscle of thread, from a hair's to a rope's.
+/// The allowed range of a parameter, wide enough for muscles from the size of a hair to that of a
+/// rope.
 struct PhysicalRange {
   const char* name;  ///< as in the code and in configurations
   double PhysicalParameters::*member;
@@ -57,7 +58,7 @@ inline constexpr std::array<PhysicalRange, 6> physical_ranges{{
     {"force_per_kelvin_N_per_K", &PhysicalParameters::force_per_kelvin_N_per_K, 1e-6, 1e3},
 }};
 
-/// The first parameter that is not a number within its range.
+/// The first parameter that is NaN or outside its range.
 std::optional<Violation> check(const PhysicalParameters& parameters);
 
 }  // namespace supercoil::control

@@ -6,7 +6,7 @@
 namespace supercoil::control {
 
 /// ẋ = A x + B u with x = [temperature_rise_K, position_m, velocity_m_per_s] and
-/// u = [power_W, load_N]; the load pulls the muscle longer (Eqs. (1) and (2)).
+/// u = [power_W, load_N]; the load stretches the muscle (Eqs. (1) and (2)).
 struct ActuatorStateSpace {
   Matrix<double, 3> a;
   Matrix<double, 3, 2> b;

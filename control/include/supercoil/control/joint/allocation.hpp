@@ -7,18 +7,18 @@
 
 namespace supercoil::control {
 
-/// Of both heaters, each in its own watts.
+/// The power of both heaters, each in its own watts.
 struct PairPower {
   double agonist_W = 0.0;
   double antagonist_W = 0.0;
 };
 
-/// A law moves a joint by one number, the effort v = P₁ − g P₂ in watts of the agonist, where g is
-/// the antagonist's DC gain over the agonist's: so many watts of the agonist move the joint as far
-/// as one of the antagonist. Without a state, so nothing in it can wind up.
+/// A law moves a joint by one number, the effort v = P₁ − g P₂ in watts of the agonist. g is the
+/// antagonist's DC gain over the agonist's: g watts of the agonist move the joint as far as one
+/// watt of the antagonist. Stateless, so nothing can wind up.
 class JointAllocation {
  public:
-  /// What both heaters may have.
+  /// The range of each heater's power.
   struct Ranges {
     PowerRange agonist;
     PowerRange antagonist;
@@ -27,10 +27,10 @@ class JointAllocation {
   /// gain_ratio: g > 0.
   explicit JointAllocation(double gain_ratio) : gain_ratio_(gain_ratio) {}
 
-  /// Half of the effort comes from each, around co_contraction_W >= 0, of which both pull alike:
-  /// P₁ = c + v/2, g P₂ = c − v/2. What one of them cannot give is left to the other. Within the
-  /// ranges; the effort is the one that was asked for, or the nearest that they allow. An effort
-  /// that is NaN gives NaN.
+  /// Each muscle gives half of the effort, around co_contraction_W >= 0, at which both pull alike:
+  /// P₁ = c + v/2, g P₂ = c − v/2. What one muscle cannot give is left to the other. Both powers
+  /// are within their ranges; the effort is the demanded one, or the nearest that the ranges allow.
+  /// An effort that is NaN gives NaN.
   PairPower divide(double effort_W, double co_contraction_W, const Ranges& ranges) const {
     if (!std::isfinite(effort_W)) return {NAN, NAN};
     const PowerRange against{gain_ratio_ * ranges.antagonist.min_W,
@@ -40,7 +40,7 @@ class JointAllocation {
     return {ranges.agonist.clip(against_W + effort_W), against_W / gain_ratio_};
   }
 
-  /// v of these powers.
+  /// The effort v of these powers.
   double effort_W(const PairPower& power) const {
     return power.agonist_W - gain_ratio_ * power.antagonist_W;
   }

@@ -9,19 +9,19 @@
 
 namespace supercoil::control {
 
-/// The lever at which a muscle pulls: constant, or of the joint's angle. A muscle contracts by the
-/// arc, ∫ r dθ from the angle 0 on.
+/// The radius at which a muscle pulls: constant, or dependent on the joint's angle. The muscle
+/// contracts by the arc, ∫ r dθ from the angle 0.
 class Lever {
  public:
   static constexpr std::size_t max_points = 7;
 
-  /// Constant, of 15 mm.
+  /// Constant, 15 mm.
   Lever() : Lever(0.015) {}
   /// radius_m > 0.
   explicit Lever(double radius_m) : radii_m_{radius_m} {}
 
-  /// radii_m: 2 to max_points, each > 0, at angles evenly spaced from first_rad <= 0 to
-  /// last_rad >= 0; a straight line between two of them, and constant beyond.
+  /// radii_m: 2 to max_points, each > 0, at angles evenly spaced from first_rad <= 0 to last_rad >=
+  /// 0; linear between two points, and constant beyond.
   Lever(double first_rad, double last_rad, std::span<const double> radii_m)
       : first_rad_(first_rad),
         spacing_rad_((last_rad - first_rad) / static_cast<double>(radii_m.size() - 1)),
@@ -34,7 +34,7 @@ class Lever {
       arcs_m_[i] -= zero_m;
   }
 
-  /// So many times as long at every angle; ratio > 0.
+  /// The lever with all radii multiplied by ratio > 0.
   Lever scaled(double ratio) const {
     Lever other = *this;
     for (std::size_t i = 0; i < points_; ++i) {
@@ -45,14 +45,14 @@ class Lever {
   }
 
   bool is_constant() const { return points_ == 1; }
-  /// The values that it was made of.
+  /// The radii that the lever was constructed from.
   std::span<const double> radii_m() const { return {radii_m_.data(), points_}; }
   double first_rad() const { return first_rad_; }
   double last_rad() const { return first_rad_ + static_cast<double>(points_ - 1) * spacing_rad_; }
   double min_radius_m() const { return *std::ranges::min_element(radii_m()); }
   double max_radius_m() const { return *std::ranges::max_element(radii_m()); }
 
-  /// In m, at an angle in rad; NaN at one that is NaN, as of all here.
+  /// In m, at an angle in rad. A NaN argument gives NaN, here and below.
   double radius_m(double angle_rad) const {
     const double in_rad = std::clamp(angle_rad, first_rad_, last_rad());
     const std::size_t i = before(in_rad);
@@ -60,7 +60,7 @@ class Lever {
   }
   double zero_radius_m() const { return radius_m(0.0); }
 
-  /// In m, by which the agonist contracts from the angle 0 to this one, in rad.
+  /// The contraction of the agonist from the angle 0 to this one: in m, for an angle in rad.
   double arc_m(double angle_rad) const {
     const double in_rad = std::clamp(angle_rad, first_rad_, last_rad());
     const std::size_t i = before(in_rad);
@@ -69,13 +69,13 @@ class Lever {
            radius_m(in_rad) * (angle_rad - in_rad);
   }
 
-  /// In rad, at which arc_m() is this arc, in m.
+  /// The angle in rad at which arc_m() is this arc, in m.
   double angle_rad(double arc_m) const {
     std::size_t i = 0;
     while (i + 1 < points_ && arcs_m_[i + 1] < arc_m)
       ++i;
     const double left_m = arc_m - arcs_m_[i];
-    // The line's slope ends with the table: before its first point and after its last one.
+    // The radius is constant before the table's first point and after its last.
     const bool beyond = left_m < 0.0 || i + 1 == points_;
     const double slope = beyond ? 0.0 : slope_m_per_rad(i);
     const double radius_m = radii_m_[i];

@@ -21,13 +21,13 @@ struct FirstOrderHold {
 };
 
 /// ẋ = A x + B u, step in seconds (> 0). The exponential of [[A, B], [0, 0]] (Van Loan 1978).
-/// For the sizes that discretize.cpp names: the matrix exponential takes half a minute to compile,
-/// and would be compiled by everybody who filters anything.
+/// Instantiated in discretize.cpp, for the sizes named there: the matrix exponential takes half a
+/// minute to compile, and every user of a filter would compile it.
 template <int N, int Inputs>
 ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
                                          const Matrix<double, N, Inputs>& b, double step_s);
 
-/// The same with u a straight line from sample to sample.
+/// The same with u linear between samples.
 template <int N, int Inputs>
 FirstOrderHold<N, Inputs> first_order_hold(const Matrix<double, N>& a,
                                            const Matrix<double, N, Inputs>& b, double step_s);

@@ -9,7 +9,7 @@
 
 namespace supercoil::control {
 
-/// How the input runs between samples. Powers and references are held; positions are not.
+/// How the input behaves between samples. Powers and references are held; positions are not.
 enum class Hold { zero_order, first_order };
 
 /// The controllable companion form of 1/Λ(s), Λ monic: state [X, sX, …, s^(Order−1) X]/Λ.
@@ -55,7 +55,7 @@ class StateVariableFilter {
   /// with first-order hold it is the sample of *this* tick.
   void step(Scalar input) {
     const Accumulator<Scalar> now(input);
-    // Lazy: in place; g++ 12 calls Eigen's usual product, and waits for what comes back.
+    // Lazy, so computed in place: g++ 12 calls Eigen's usual product, and waits for its result.
     State next = transition_.lazyProduct(state_);
     if constexpr (hold == Hold::zero_order) {
       next += start_ * now;
@@ -69,7 +69,7 @@ class StateVariableFilter {
   /// [X, sX, …, s^(Order−1) X]/Λ at this tick.
   const State& state() const { return state_; }
 
-  /// As after a long time of an input that moves steadily, rate in its unit per second.
+  /// The state after an input has long moved at a constant rate, in its unit per second.
   void settle(Scalar input, Scalar rate = Scalar{}) {
     last_ = Accumulator<Scalar>(input);
     const Accumulator<Scalar> slope = Accumulator<Scalar>(rate) / lambda_[0];
@@ -77,7 +77,7 @@ class StateVariableFilter {
     state_[0] = last_ / lambda_[0] - slope * lambda_[1] / lambda_[0];
     state_[1] = slope;
   }
-  /// Takes a state over, and the input that goes with it.
+  /// Takes over a state and the input that belongs to it.
   void set(const State& state, Scalar input) {
     state_ = state;
     last_ = Accumulator<Scalar>(input);
@@ -103,8 +103,8 @@ class OnePoleBank {
  public:
   using State = Vector<Accumulator<Scalar>, N>;
 
-  /// pole_rad_per_s > 0. held[i]: input i keeps its value from tick to tick; the others are
-  /// straight lines.
+  /// pole_rad_per_s > 0. held[i]: input i keeps its value from tick to tick; the other inputs are
+  /// linear in between.
   OnePoleBank(double pole_rad_per_s, double step_s, const std::array<bool, N>& held) {
     const Matrix<double, 1> a{-pole_rad_per_s};
     const Matrix<double, 1> b{1.0};
@@ -126,7 +126,7 @@ class OnePoleBank {
   }
   const State& state() const { return state_; }
 
-  /// As after a long time of inputs that move steadily, rates in their units per second.
+  /// The state after the inputs have long moved at constant rates, in their units per second.
   void settle(const State& input, const State& rate) {
     const Accumulator<Scalar> time_s = Accumulator<Scalar>(1) / pole_;
     last_ = input;

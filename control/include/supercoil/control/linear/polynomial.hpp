@@ -1,4 +1,4 @@
-// Stability and positive realness of the small polynomials that designs are made of.
+// Stability and positive realness of the small polynomials used in designs.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ constexpr Polynomial<2> squared_pole(double pole_rad_per_s) {
   return {pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
 }
 
-/// All roots strictly in the left half plane (Routh's test). A leading coefficient that is not
-/// positive, or a NaN anywhere, is not Hurwitz.
+/// True when all roots are strictly in the left half plane (Routh's test). False when the leading
+/// coefficient is not positive, or when any coefficient is NaN.
 template <std::size_t Degree>
 constexpr bool is_hurwitz(const Polynomial<Degree>& c) {
   constexpr std::size_t width = Degree / 2 + 1;
@@ -50,11 +50,11 @@ constexpr bool is_hurwitz(const Polynomial<Degree>& c) {
   return true;
 }
 
-/// What strict positive realness of a transfer function of relative degree one hangs on.
+/// What decides whether a transfer function of relative degree one is strictly positive real.
 struct PositiveRealness {
   bool hurwitz;            ///< the denominator has all its roots in the left half plane
   bool high_frequency;     ///< lim ω² Re G(jω) > 0
-  double min_real_part;    ///< the least of Re G(jω)·|D(jω)|² over all ω
+  double min_real_part;    ///< the minimum of Re G(jω)·|D(jω)|² over all ω
   double worst_rad_per_s;  ///< where it is reached (infinity when it falls without bound)
   bool strict() const { return hurwitz && high_frequency && min_real_part > 0.0; }
 };

@@ -1,4 +1,4 @@
-// The arithmetics that a controller or an estimator can be asked to run in, and naming of choices.
+// The arithmetics that a controller or an estimator can run in, and the naming of choices.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace supercoil::control {
 
-/// A choice and the names that configurations call its values by.
+/// A choice: its values, and their names in configurations.
 template <class Value, std::size_t N>
 using Names = std::array<std::pair<std::string_view, Value>, N>;
 
-/// Empty: no value has this name. Case counts.
+/// Empty when no value has this name; case-sensitive.
 template <class Value, std::size_t N>
 constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::string_view name) {
   for (const auto& [text, value] : names) {
@@ -21,7 +21,7 @@ constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::str
   return std::nullopt;
 }
 
-/// "?": the value has no name.
+/// "?" when the value has no name.
 template <class Value, std::size_t N>
 constexpr std::string_view name_of(const Names<Value, N>& names, Value demanded) {
   for (const auto& [text, value] : names) {

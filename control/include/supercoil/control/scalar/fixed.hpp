@@ -17,9 +17,9 @@ __extension__ using Int128 = __int128;
 ///
 /// Nothing wraps: every result that does not fit becomes max() or min(). Products and quotients are
 /// formed in twice the width and rounded to nearest; products round ties upward, quotients away
-/// from zero. All of it is integer arithmetic, so results are the same to the bit everywhere.
+/// from zero. All of it is integer arithmetic, so results are bit-identical everywhere.
 ///
-/// A NaN has no fixed-point value: it converts to 0. Callers that may meet one test for it first.
+/// NaN has no fixed-point value and converts to 0. Callers that may see a NaN test for it first.
 template <int IntegerBits, int FractionBits>
 class Fixed {
   static_assert(IntegerBits >= 2 && FractionBits >= 1);
@@ -42,7 +42,7 @@ class Fixed {
   constexpr explicit Fixed(Fixed<I, F> other) {
     if constexpr (F > FractionBits) {
       constexpr int shift = F - FractionBits;
-      // What is cut off is half or more: its first bit is set.
+      // Rounds up when the part cut off is half or more: its first bit is set.
       raw_ = clamp((other.raw() >> shift) + ((other.raw() >> (shift - 1)) & 1));
     } else if constexpr (I <= IntegerBits) {
       raw_ = static_cast<Raw>(other.raw()) << (FractionBits - F);
@@ -63,7 +63,7 @@ class Fixed {
   static constexpr Fixed max() { return from_raw(std::numeric_limits<Raw>::max()); }
   static constexpr Fixed min() { return from_raw(std::numeric_limits<Raw>::min()); }
   static constexpr Fixed resolution() { return from_raw(1); }
-  /// True where an operation has (or may have) saturated.
+  /// True when an operation has (or may have) saturated.
   constexpr bool at_limit() const { return *this == max() || *this == min(); }
 
   constexpr explicit operator double() const { return static_cast<double>(raw_) / scale; }
@@ -133,8 +133,8 @@ class Fixed {
   static constexpr Raw limit(bool negative) {
     return negative ? std::numeric_limits<Raw>::min() : std::numeric_limits<Raw>::max();
   }
-  // One comparison, after narrowing, and a branch that is predicted: this is most of what a step in
-  // fixed point costs.
+  // One comparison after narrowing, and a well-predicted branch: this is most of the cost of a step
+  // in fixed point.
   template <class Integer>
   static constexpr Raw clamp(Integer value) {
     const auto narrow = static_cast<Raw>(value);
@@ -159,9 +159,9 @@ class Fixed {
   Raw raw_ = 0;
 };
 
-/// The product's format: ±128 in steps of 6e-8.
+/// The format of signals and gains: ±128 in steps of 6e-8.
 using Q8_24 = Fixed<8, 24>;
-/// The format of its accumulators: ±32768 in steps of 3.6e-15.
+/// The format of accumulators: ±32768 in steps of 3.6e-15.
 using Q16_48 = Fixed<16, 48>;
 
 }  // namespace supercoil::control

@@ -5,7 +5,7 @@
 
 namespace supercoil::control {
 
-/// A value outside what is allowed: which one, and the range (ends included).
+/// A value outside its allowed range: its name, and the range (ends included).
 struct Violation {
   const char* quantity;
   double value;
@@ -13,7 +13,7 @@ struct Violation {
   double highest;
 };
 
-/// Remembers the first quantity that fixed point could not hold.
+/// Remembers the first quantity that fixed point cannot hold.
 class FixedPointFit {
  public:
   static constexpr double signal = 127.0;
@@ -23,7 +23,7 @@ class FixedPointFit {
   void at_most(const char* quantity, double value, double highest) {
     check({quantity, value, -highest, highest});
   }
-  /// A gain of fewer steps than this is lost in rounding.
+  /// A gain below min_gain is lost in rounding.
   void gain(const char* quantity, double value) { check({quantity, value, min_gain, signal}); }
   const std::optional<Violation>& violation() const { return violation_; }
 

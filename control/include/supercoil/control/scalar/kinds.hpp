@@ -1,4 +1,4 @@
-// Lists of the kinds that a choice has (laws, estimators), each with its definition and settings.
+// Lists of the kinds to choose from (laws, estimators), each with its definition and settings.
 #pragma once
 
 #include <string_view>
@@ -10,8 +10,9 @@
 
 namespace supercoil::control {
 
-/// An entry of a list, which is a std::tuple of these. Definition: states a name, whether it runs
-/// in fixed_point, and In<Scalar>, what runs. Member: of the common settings, its own.
+/// An entry of a list; a list is a std::tuple of entries. Definition: states a name, whether the
+/// kind runs in fixed_point, and In<Scalar>, the class that runs. Member: the kind's own settings
+/// within the common ones.
 template <class Kind, Kind Value, class TheDefinition, auto Member>
 struct Listed {
   using Definition = TheDefinition;
@@ -38,7 +39,7 @@ constexpr void with_chosen(Settings& settings, Function function) {
 }
 
 /// Calls function(Definition, Scalar, its own settings) for the kind and the arithmetic that the
-/// settings choose, if the kind is in the list and runs in that.
+/// settings choose, if the kind is in the list and runs in that arithmetic.
 template <class List, class Settings, class Function>
 constexpr void with_running(const Settings& settings, Function function) {
   with_chosen<List>(settings, [&](auto definition, const auto& own) {
@@ -54,7 +55,7 @@ constexpr void with_running(const Settings& settings, Function function) {
   });
 }
 
-/// Calls function(Definition, its own settings) for each of the list.
+/// Calls function(Definition, its own settings) for each entry of the list.
 template <class List, class Settings, class Function>
 constexpr void with_each(Settings& settings, Function function) {
   const auto call = [&](auto listed) {
@@ -63,7 +64,7 @@ constexpr void with_each(Settings& settings, Function function) {
   std::apply([&](auto... listed) { (call(listed), ...); }, List{});
 }
 
-/// Those of the list, after the kind that is none of it.
+/// The names of the list's kinds, after the one kind that is not in the list.
 template <class List, class Kind>
 constexpr auto names_of(std::string_view none, Kind none_of_it) {
   return std::apply(
@@ -74,8 +75,7 @@ constexpr auto names_of(std::string_view none, Kind none_of_it) {
       List{});
 }
 
-/// False for q8.24 where the kind needs float or double. A kind that is not in the list runs in
-/// all.
+/// False for q8.24 when the kind needs float or double. A kind not in the list runs in all.
 template <class List, class Kind>
 constexpr bool runs_in(Kind kind, Arithmetic arithmetic) {
   bool fixed_point = true;
@@ -84,8 +84,8 @@ constexpr bool runs_in(Kind kind, Arithmetic arithmetic) {
   return fixed_point || arithmetic != Arithmetic::q8_24;
 }
 
-/// A std::variant of None and of each of the list, as Running<Definition, Scalar> in each scalar
-/// that it runs in.
+/// A std::variant of None and, for each entry of the list, of Running<Definition, Scalar> in each
+/// scalar that the entry runs in.
 template <class None, template <class, class> class Running, class List>
 class VariantOf {
   template <class Definition, bool FixedPoint = Definition::fixed_point>

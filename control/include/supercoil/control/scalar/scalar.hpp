@@ -1,4 +1,4 @@
-// What the control library asks of a scalar type, and the three that it is built for.
+// What the control library requires of a scalar type, and the three types it is built for.
 #pragma once
 
 #include <cmath>
@@ -20,12 +20,13 @@ struct AccumulatorOf<Fixed<I, F>> {
 };
 }  // namespace detail
 
-/// The 64-bit type in which states are accumulated. An increment of a state at 1 kHz is a
-/// thousandth of a time constant's worth and less: in 32 bits its rounding is 2 µm of position.
+/// The 64-bit type in which states are accumulated. At 1 kHz a state moves in a tick by a
+/// thousandth or less of its change over a time constant: in 32 bits, rounding that increment costs
+/// 2 µm of position.
 template <class Scalar>
 using Accumulator = typename detail::AccumulatorOf<Scalar>::type;
 
-/// A conversion that is meant: between double, float and the fixed-point formats.
+/// An intentional conversion between double, float and the fixed-point formats.
 template <class To, class From>
 constexpr To to(const From& value) {
   return static_cast<To>(value);
@@ -35,7 +36,7 @@ using std::abs;
 using std::isfinite;
 using std::sqrt;
 
-/// One vector type for every length, on the stack.
+/// One vector type for all lengths, on the stack.
 template <class Scalar, int N>
 using Vector = Eigen::Matrix<Scalar, N, 1>;
 template <class Scalar, int Rows, int Columns = Rows>

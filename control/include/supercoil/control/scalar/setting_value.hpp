@@ -6,7 +6,7 @@
 
 namespace supercoil::control {
 
-/// One of a law's or an estimator's settings that can be changed while it runs; its range stands in
+/// A setting of a law or an estimator that can be changed while it runs; its range is in
 /// tunable.cpp.
 template <class Settings>
 struct SettingValue {
@@ -28,7 +28,7 @@ constexpr SettingValue<Settings> setting_value(std::string_view name) {
           }};
 }
 
-/// Member: a list of the settings; of it the element at I.
+/// Member: an array among the settings. The value is its element at I.
 template <class Settings, auto Member, int I>
 constexpr SettingValue<Settings> element_value(std::string_view name) {
   return {name, [](const Settings& s) { return static_cast<double>((s.*Member)[I]); },

@@ -1,4 +1,4 @@
-// How hot the muscle can be, where its heat transfer is known at some rises better than at others.
+// How hot the muscle can be, when its heat transfer is known better at some rises than at others.
 #pragma once
 
 #include <algorithm>
@@ -11,28 +11,29 @@
 
 namespace supercoil::control {
 
-/// What is known of η of a muscle whose rise is between two. Colder it may be less, hotter more: as
-/// the cube root of the rise, which free convection never exceeds, and radiation not with it as
-/// long as it is less than a third (docs/safety.md). It never falls with the rise.
+/// Bounds on η while the rise is between from_K and to_K. Below from_K, η may be smaller, and above
+/// to_K larger, in proportion to the cube root of the rise. Free convection never changes faster,
+/// nor does its sum with radiation while radiation is less than a third (docs/safety.md). η never
+/// falls with the rise.
 struct TransferSpan {
   double min_W_per_K = 0.0;
   double max_W_per_K = INFINITY;
   double from_K = 0.0;
   double to_K = INFINITY;
 
-  /// The least heat transfer that is possible at this rise >= 0, in W/K.
+  /// The minimum heat transfer possible at this rise >= 0, in W/K.
   double lowest(double rise_K) const {
     return rise_K >= from_K ? min_W_per_K : min_W_per_K * std::cbrt(rise_K / from_K);
   }
-  /// The greatest.
+  /// The maximum.
   double highest(double rise_K) const {
     return rise_K <= to_K ? max_W_per_K : max_W_per_K * std::cbrt(rise_K / to_K);
   }
 };
 
-/// The interval observer with bounds of η for each band of rises. An end goes by the bound at its
-/// own rise: a muscle that is beyond that end has no less of it, or no more. The bounds may be set
-/// anew at any time; the ends go on from where they are.
+/// The interval observer with bounds on η for each band of rises. Each end uses the bound at its
+/// own rise: a muscle hotter than the hot end has no less heat transfer, one colder than the cold
+/// end no more. The bounds may be changed at any time; the ends continue from their present values.
 class RiseIntervalObserver {
  public:
   /// step_s > 0.
@@ -40,7 +41,7 @@ class RiseIntervalObserver {
     set(bounds, {});
   }
 
-  /// Within `bounds`, and within each of the spans as far as that leaves anything.
+  /// Uses `bounds`, narrowed by each of the spans as far as `bounds` allow.
   void set(const ThermalBounds& bounds, std::span<const TransferSpan> spans) {
     for (std::size_t i = 0; i < bands; ++i) {
       double lowest = bounds.min_transfer_W_per_K;
@@ -48,7 +49,7 @@ class RiseIntervalObserver {
       const double from_K = band_K * static_cast<double>(i);
       for (const TransferSpan& span : spans) {
         lowest = std::max(lowest, std::min(span.lowest(from_K), bounds.max_transfer_W_per_K));
-        // The last band has no end.
+        // The last band has no upper end.
         if (i + 1 < bands) highest = std::min(highest, span.highest(from_K + band_K));
       }
       highest = std::max(highest, bounds.min_transfer_W_per_K);
@@ -57,9 +58,9 @@ class RiseIntervalObserver {
     }
   }
 
-  /// min_W, max_W ≥ 0: what was applied since the last tick lies between them.
+  /// min_W, max_W ≥ 0: the power applied since the last tick lies between them.
   void step(double min_W, double max_W) {
-    // Where an end moves into another band, the bound must hold in both.
+    // When an end moves into another band, the bound must hold in both.
     const std::size_t hot = band(max_K_);
     const double max_K = hot_[hot].moved(max_K_, max_W);
     const std::size_t cooler = band(max_K);
@@ -74,12 +75,12 @@ class RiseIntervalObserver {
   double min_K() const { return min_K_; }
   double max_K() const { return max_K_; }
 
-  /// After a start whose history is unknown: anything from 0 to limit_K.
+  /// For a start with unknown history: the rise may be anything from 0 to limit_K.
   void reset(double limit_K) {
     min_K_ = 0.0;
     max_K_ = limit_K;
   }
-  /// From the ends that another one has reached.
+  /// Continues from the ends of another observer.
   void start_from(const RiseIntervalObserver& other) {
     min_K_ = other.min_K_;
     max_K_ = other.max_K_;
@@ -89,8 +90,9 @@ class RiseIntervalObserver {
   static constexpr std::size_t bands = 100;
   static constexpr double band_K = 2.0;
 
-  /// The greatest mass with which this least heat transfer keeps ψ/η within its bound. One with
-  /// more mass has more heat transfer too, and cools no slower (docs/safety.md).
+  /// The bounds with the largest thermal mass that, with this minimum heat transfer, keeps ψ/η
+  /// within its bound. A muscle with more mass also has more heat transfer, and cools no slower
+  /// (docs/safety.md).
   static ThermalBounds no_slower(ThermalBounds bounds, double lowest_W_per_K) {
     bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
                                          bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);

@@ -1,19 +1,19 @@
-// How hot the muscle is, by what was learned of it.
+// How hot the muscle is, according to its learned thermal pole.
 #pragma once
 
 #include <cmath>
 
 namespace supercoil::control {
 
-/// ψφ̇ = −ηφ + P with ψ0 fixed at set-up and η̂ = −s0·ψ0, s0 the learned thermal pole: neither can
-/// be identified from position and power alone, but their ratio can (docs/paper.md).
+/// ψφ̇ = −ηφ + P with ψ0 fixed at set-up and η̂ = −s0·ψ0, s0 the learned thermal pole: neither ψ
+/// nor η can be identified from position and power alone, but their ratio can (docs/paper.md).
 class ThermalObserver {
  public:
-  /// thermal_mass_J_per_K > 0, step_s > 0. Until something was learned it says 0.
+  /// thermal_mass_J_per_K > 0, step_s > 0. rise_K() is 0 until a pole is learned.
   ThermalObserver(double thermal_mass_J_per_K, double step_s)
       : thermal_mass_J_per_K_(thermal_mass_J_per_K), step_s_(step_s) {}
 
-  /// pole_rad_per_s < 0; anything else is not taken over.
+  /// pole_rad_per_s < 0; anything else is ignored.
   void learn(double pole_rad_per_s) {
     if (!(pole_rad_per_s < 0.0) || !std::isfinite(pole_rad_per_s)) return;
     decay_ = std::exp(pole_rad_per_s * step_s_);

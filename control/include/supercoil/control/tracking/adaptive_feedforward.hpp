@@ -10,16 +10,15 @@
 
 namespace supercoil::control {
 
-/// u = θ̄1 m̂x⃛m + θ̄2 ẍm + θ̄3 ẋm + θ̄4 xm + θ̄5 + Kp e + Kd ė + Ki ∫e, e = xm − x: the muscle's equation
-/// turned round, so that a muscle that is θ̄ follows its model exactly. θ̄ follows the estimate while
-/// that is settled, and rests otherwise.
+/// u = θ̄1 m̂x⃛m + θ̄2 ẍm + θ̄3 ẋm + θ̄4 xm + θ̄5 + Kp e + Kd ė + Ki ∫e, e = xm − x: the inverse of
+/// the muscle's equation, so that a muscle with parameters θ̄ follows its model exactly. θ̄ follows
+/// the estimate while that is settled, and rests otherwise.
 ///
-/// The PID is fixed: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle, which leaves about
-/// ωc/s of the open loop. Estimates fed into it gave errors of 2 to 4 mm after a change of
-/// stiffness.
+/// The PID is fixed: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle, so the open loop is
+/// about ωc/s. Using estimates in it gave errors of 2 to 4 mm after a change of stiffness.
 struct AdaptiveFeedforwardSettings {
   RegressionScale scale;  ///< of the nominal muscle; θ̄(0)
-  /// ωc. At 8 the loop holds for ±20 % of all six physical parameters at once with 1.5 ms of delay
+  /// ωc. At 8 the loop tolerates ±20 % of all six physical parameters at once with 1.5 ms of delay
   /// (loop_margin_test.cpp).
   double bandwidth_rad_per_s = 8.0;
   double derivative_filter_rad_per_s = 60.0;  ///< of the error, twice this pole
@@ -27,7 +26,7 @@ struct AdaptiveFeedforwardSettings {
 };
 
 /// The law of AdaptiveFeedforwardSettings. Positions and powers are in watts at rest (LawInput); it
-/// saturates nothing itself.
+/// does not saturate its output.
 template <class Scalar>
 class AdaptiveFeedforward {
  public:
@@ -44,15 +43,15 @@ class AdaptiveFeedforward {
     theta_ << Wide(1), Wide(1), Wide(1), Wide(1), Wide{};
   }
 
-  /// The muscle was identified: θ̄ and the PID's gains are its own, and the bias stays. For a law
-  /// that does not run.
+  /// The muscle was identified: sets θ̄ and the PID's gains to its own; the bias stays. Not while
+  /// the law runs.
   void retune(const Theta& theta) {
     pid_.retune(theta);
     const Theta relative = theta.cwiseQuotient(settings_.scale.nominal);
     theta_.template head<4>() = relative.template cast<Wide>();
   }
 
-  /// The estimate, once a tick before step().
+  /// Takes the estimate; call once a tick before step().
   void learn(const Estimate& estimate) {
     if (!estimate.settled) return;
     Parameters now;
@@ -60,11 +59,12 @@ class AdaptiveFeedforward {
         Wide(estimate.bias_W);
     const Parameters change = (now - theta_) * follow_step_;
     theta_ += change;
-    // What the feedforward takes over, the integral has held until now.
+    // The feedforward takes this power over from the integral.
     pid_.hand_over_to_feedforward(change.cwiseProduct(weights_).dot(motion_));
   }
 
-  /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
+  /// Starts with the muscle moving like its model. To hold a power, the integral becomes that power
+  /// less the rest.
   void start(const LawStart<Scalar>& at) {
     pid_.start(at);
     motion_ = Parameters::Zero();
@@ -77,7 +77,7 @@ class AdaptiveFeedforward {
 
   void slow_down() { pid_.slow_down(); }
 
-  /// Returns the wanted power.
+  /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in) {
     pid_.update_derivative(in);
     motion_ = motion_of(in);

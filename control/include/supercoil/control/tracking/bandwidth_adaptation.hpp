@@ -1,4 +1,4 @@
-// How quick a feedback has to be, told from its own error.
+// Finds from a feedback's own error how fast it has to be.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +10,22 @@
 
 namespace supercoil::control {
 
-/// Lowers a feedback's bandwidth where nothing but the sensor's noise is left of the error, and
-/// raises it again as soon as there is more.
+/// Lowers a feedback's bandwidth while only sensor noise is left in the error, and raises it again
+/// when there is more.
 ///
-/// A loop L = ωc/(s (s/ωl + 1)) leaves the error e. What it moved is known, so is what a loop of
-/// any other ωc would have left of the same noise and the same disturbances: beside the running
-/// loop, six are reckoned, each half as quick as the one before. White noise of a reading is in
-/// none of the motions that came before it, so E[eᵢ²] is the mean square of the true error and the
-/// noise's own, which is the same for all: the loop with the least E[eᵢ²] follows best. Each is
-/// compared with the one that is half as quick, over 30 times the reciprocal of the slower one's
-/// ωc.
+/// A loop L = ωc/(s (s/ωl + 1)) leaves the error e. The motion that it caused is known, and so is
+/// the error that any other ωc would have left with the same noise and the same disturbances. Six
+/// loops are computed beside the running one, each half as fast as the one before. White noise of a
+/// reading is independent of all earlier motion, so E[eᵢ²] is the mean square of the true error
+/// plus that of the noise, which is the same for all: the loop with the smallest E[eᵢ²] tracks
+/// best. Each loop is compared with the one half as fast, over 30 times the reciprocal of the
+/// slower one's ωc.
 class BandwidthAdaptation {
  public:
-  /// Of the loop that runs.
+  /// The running loop.
   struct Settings {
     double max_rad_per_s = 8.0;   ///< ωc at the start, > 0
-    double lag_rad_per_s = 22.0;  ///< ωl, > 0: of the mechanics, which the PID leaves
+    double lag_rad_per_s = 22.0;  ///< ωl, > 0: the mechanics' lag, left by the PID
     double step_s = 1e-3;         ///< of a tick, > 0
   };
 
@@ -36,7 +36,7 @@ class BandwidthAdaptation {
         lag_share_(
             -std::expm1(-s.lag_rad_per_s * static_cast<double>(ticks_per_update_) * s.step_s)) {}
 
-  /// With all of the bandwidth, knowing nothing.
+  /// Restarts at full bandwidth, with nothing learned.
   void restart() {
     ratio_ = 1.0;
     noise_ = error_ = lagged_ = sum_ = 0.0;
@@ -45,11 +45,11 @@ class BandwidthAdaptation {
     limited_ = false;
   }
 
-  /// The feedback's gains were multiplied by this: so is its greatest bandwidth.
+  /// The feedback's gains were multiplied by gain_ratio, and so is its maximum bandwidth.
   void scale(double gain_ratio) { max_angle_ *= gain_ratio; }
 
-  /// One tick: the measured error, in any unit; and whether another power acted than the demanded
-  /// one, when nothing is known of what this or another loop would have moved.
+  /// One tick. error: measured, in any unit. limited: the applied power was not the demanded one,
+  /// so what this or another loop would have moved is unknown.
   void step(double error, bool limited) {
     sum_ += error;
     limited_ = limited_ || limited;
@@ -59,7 +59,7 @@ class BandwidthAdaptation {
     tick_ = 0;
   }
 
-  /// Of the greatest bandwidth: 1, ½, … 1/32.
+  /// The bandwidth over its maximum: 1, ½, … 1/32.
   double ratio() const { return ratio_; }
 
  private:
@@ -70,17 +70,17 @@ class BandwidthAdaptation {
   static constexpr std::size_t loops = 6;
   /// ωc times the time between updates: 10 ms at 8 rad/s.
   static constexpr double update_angle = 0.08;
-  /// A loop that is stepped more coarsely is not what would have run.
+  /// Loops stepped more coarsely than this would not behave like real ones.
   static constexpr double max_angle = 0.5;
   static constexpr double memory_angle = 30.0;
   static constexpr std::int64_t first_updates = 50;
   static constexpr double noise_updates = 500.0;
-  /// Of the noise's mean square: less of a change of the error is taken for noise.
+  /// Over the noise's mean square: limit of what a change of the error counts as noise.
   static constexpr double max_noise = 16.0;
-  /// An error of eight deviations is no noise: all of the bandwidth is wanted at once.
+  /// An error of eight deviations is not noise: full bandwidth is needed at once.
   static constexpr double max_error = 64.0;
-  /// Of the deviation that noise alone gives a difference: lest a start or a change, whose errors
-  /// are a thousand times as large, counts for minutes.
+  /// Limit of a difference, over the deviation that noise alone gives it. Otherwise a start or a
+  /// change, whose errors are a thousand times as large, would count for minutes.
   static constexpr double max_deviations = 5.0;
 
   void update(double error, bool limited) {
@@ -139,7 +139,7 @@ class BandwidthAdaptation {
   double error_ = 0.0;   // of the last update
   double lagged_ = 0.0;  // the same through the lag
   std::array<Loop, loops> loops_{};
-  std::array<double, loops - 1> gained_{};  // mean square, by the loop that is half as quick
+  std::array<double, loops - 1> gained_{};  // mean square, by the loop half as fast
   std::int64_t updates_ = 0;
   std::int64_t tick_ = 0;
   double sum_ = 0.0;  // of the errors since the last update

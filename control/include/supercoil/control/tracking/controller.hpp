@@ -17,17 +17,17 @@ class Controller {
   Controller(const ControllerSettings& settings, double step_s);
   /// One tick: no heap, no exception, no operating system.
   ControllerOutput step(const ControllerInput& input);
-  /// Before the first step, and when it takes over: starts from there instead of from zero.
+  /// Call before the first step, and when it takes over: starts from `at` instead of from zero.
   void start(const ControllerStart& at);
-  /// The muscle was identified, or is known from before: gains that follow from it are its own from
-  /// then on. The same muscle again changes nothing that was learned since. theta: in its own
-  /// units. Before start(), not while it runs.
+  /// The muscle was identified, or is known from before: tunes the gains that depend on it. The
+  /// same muscle again changes nothing that was learned since. theta: in its own units. Call before
+  /// start(), not while it runs.
   void retune(const Theta& theta);
-  /// What is known of the muscle, each tick before step(); only laws with a model of it care.
+  /// What is known of the muscle, each tick before step(); used only by laws with a model of it.
   void learn(const Estimate& estimate);
-  /// Of its reference model, in metres; zero in open loop.
+  /// The reference model's motion, in metres; zero in open loop.
   ModelMotion<double> motion() const;
-  /// One of its gains: selector is the part of a full turn, in 2⁻³², at which this one comes round.
+  /// One of its gains. selector: its place among all gains, as a fraction in units of 2⁻³².
   GainValue gain(std::uint32_t selector) const;
 
  private:

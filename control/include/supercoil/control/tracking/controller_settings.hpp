@@ -15,11 +15,11 @@
 
 namespace supercoil::control {
 
-/// The numbers go over CAN: a new one comes last.
+/// The numbers are sent over CAN: a new one comes last.
 enum class ControllerKind { power, pi, pd_ff, mrac, mrac_ls, adaptive_ff, learned_ff };
 
-/// What a Controller is made of. Of the laws' own settings only those of kind count. Nothing is
-/// checked here: see supported(), contradictions_of_law() and check_fit().
+/// What a Controller is made of. Of the laws' own settings only those of `kind` are used. Nothing
+/// is checked here: see supported(), contradictions_of_law() and check_fit().
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::mrac;
   Arithmetic arithmetic = Arithmetic::float64;
@@ -31,13 +31,13 @@ struct ControllerSettings {
   MracLeastSquaresSettings mrac_ls;
   AdaptiveFeedforwardSettings adaptive_ff;
   LearnedFeedforwardSettings learned_ff;
-  /// A loop that is seen to oscillate gets a slower feedback, where its law can be slowed down.
+  /// Slows down the feedback of a loop that is found to oscillate, if its law can be slowed down.
   bool slow_when_oscillating = true;
   /// References are made feasible for the muscle; otherwise they are taken as they are.
   bool shape_reference = false;
-  RegressionScale shaped_for;  ///< the muscle for which, until it is identified
+  RegressionScale shaped_for;  ///< the assumed muscle, until it is identified
 
-  /// The muscle from which every law begins. max_W: of its channel; NaN while that is not known.
+  /// Sets the muscle from which every law begins. max_W: of its channel; NaN while unknown.
   void set_nominal(const PhysicalParameters& muscle, double max_W);
 };
 
@@ -69,18 +69,18 @@ constexpr bool adapts(ControllerKind kind) {
   return it_does;
 }
 
-/// With the gains that follow from a muscle; of a law that adapts, with the θ* that matches it
-/// (mrac_matching.hpp). Empty in open loop, and where no θ matches.
+/// The law with the gains that follow from a muscle; for a law that adapts, with the θ* that
+/// matches it (mrac_matching.hpp). Empty in open loop, and when no θ matches.
 std::optional<FixedLaw> fixed_law(const ControllerSettings& settings,
                                   const PhysicalParameters& muscle);
 
 /// Values that exclude each other, and premises of the law that fail.
 LawProblems contradictions_of_law(const ControllerSettings& settings);
 
-/// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed
-/// point saturates silently: this is asked before it runs. quantity is the setting's name in
+/// The first setting that q8.24 cannot hold; empty when all fit, and for other arithmetics. Fixed
+/// point saturates silently, so call this before running it. quantity is the setting's name in
 /// configurations, value what fixed point would have to hold for it. max_reference_m: of the
-/// channel; max_W: its greatest power.
+/// channel; max_W: its maximum power.
 std::optional<Violation> check_fit(const ControllerSettings& settings, double step_s,
                                    double max_reference_m, double max_W);
 

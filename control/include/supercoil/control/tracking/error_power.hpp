@@ -1,4 +1,4 @@
-// The power that a muscle's distance from its reference model's motion stands for.
+// The power that corresponds to a muscle's distance from its reference model's motion.
 #pragma once
 
 #include <utility>
@@ -7,16 +7,16 @@
 
 namespace supercoil::control {
 
-/// P = f(xm − e) is about f(xm) − (θ4 e + θ3 ė + θ2 ë): who regresses the applied power on the
-/// model's motion must add what the error takes, or learns the feedback's work as the muscle's. A
-/// slow feedback, as on a lightly damped muscle, leaves errors for seconds, and a limited power for
-/// as long as it lasts. The error goes through the regression's own two low-passes, after which its
-/// derivatives are not noise.
+/// P = f(xm − e) is about f(xm) − (θ4 e + θ3 ė + θ2 ë): a regression of the applied power on the
+/// model's motion must add the error's power, or it learns the feedback's work as the muscle's. A
+/// slow feedback, as on a lightly damped muscle, leaves errors for seconds; a limited power leaves
+/// them for as long as it lasts. The error goes through the regression's own two low-passes, after
+/// which its derivatives are not noise.
 class ErrorPower {
  public:
   void restart() { *this = {}; }
 
-  /// One tick. error: the model's position less the muscle's, in watts at rest. The one before
+  /// One tick. error: the model's position less the muscle's, in watts at rest. The previous error
   /// belongs to the power that acted since.
   void step(double error) { sum_ += std::exchange(last_, error); }
 

@@ -9,7 +9,7 @@
 
 namespace supercoil::control {
 
-/// u = θ1ᵀα/λ u + (θ2ᵀα/λ + θ3) x of direct adaptation, whose θ rests.
+/// u = θ1ᵀα/λ u + (θ2ᵀα/λ + θ3) x: direct adaptation while θ rests.
 struct FilteredFeedback {
   Polynomial<2> lambda{};                       ///< λ(s), monic
   std::array<double, 2> on_power{};             ///< θ1ᵀα, ascending
@@ -17,8 +17,8 @@ struct FilteredFeedback {
   double direct_W_per_m = 0.0;                  ///< θ3
 };
 
-/// Kp + Ki/s + Kd s/(s/ω + 1)² on the error, and filtered feedback beside it. On small errors and
-/// within the law's limits.
+/// Kp + Ki/s + Kd s/(s/ω + 1)² on the error, plus filtered feedback. Holds for small errors within
+/// the law's limits.
 struct FixedLaw {
   double proportional_W_per_m = 0.0;
   double integral_W_per_m_s = 0.0;
@@ -27,7 +27,7 @@ struct FixedLaw {
   std::optional<FilteredFeedback> filtered{};
 };
 
-/// Of a FixedPid tuned for the muscle.
+/// The law of a FixedPid tuned for the muscle.
 inline FixedLaw fixed_pid_law(const Theta& theta, double bandwidth_rad_per_s,
                               double filter_rad_per_s) {
   const Theta gains = theta * bandwidth_rad_per_s;

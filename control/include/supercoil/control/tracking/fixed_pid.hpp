@@ -1,4 +1,4 @@
-// A PID of fixed gains, for the errors that a law's own knowledge leaves.
+// A PID with fixed gains, for the errors that a law's own model leaves.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace supercoil::control {
 
-/// Of the mechanics' damping rate, up to which FixedPid leaves ωc/s of the open loop: beyond it a
-/// second-order gain falls with the square. A lightly damped muscle (ratio 0.06) limit-cycles at
-/// 8 rad/s, and is followed within 0.34 µm at 1 rad/s.
+/// Maximum of ωc over the mechanics' damping rate. Up to it the open loop with FixedPid is about
+/// ωc/s; beyond it a second-order gain falls with the square. A lightly damped muscle (ratio 0.06)
+/// limit-cycles at 8 rad/s, but tracks within 0.34 µm at 1 rad/s.
 constexpr double damping_share = 0.36;
 
-/// µ/m̂ of the muscle, about: the lag that a FixedPid tuned for it leaves in the open loop.
+/// About µ/m̂ of the muscle: the lag that a FixedPid tuned for it leaves in the open loop.
 inline double damping_rate(const Theta& theta, double moving_mass_kg) {
   return theta[1] / (theta[0] * moving_mass_kg);
 }
@@ -25,22 +25,22 @@ inline double feedback_bandwidth(double max_rad_per_s, const Theta& theta, doubl
   return std::min(max_rad_per_s, damping_share * damping_rate(theta, moving_mass_kg));
 }
 
-/// For laws that are nothing without their FixedPid.
+/// For laws that cannot do without their FixedPid.
 inline void check_bandwidth(LawProblems& problems, double bandwidth_rad_per_s) {
   if (!(bandwidth_rad_per_s >= 0.01)) problems.add({"bandwidth_rad_per_s", "must be 0.01 to 100"});
 }
 
 /// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle,
-/// or of the one that was found since: of the open loop that leaves about ωc/s.
+/// or of the one identified since. The open loop is then about ωc/s.
 ///
-/// ė is filtered as a whole. Were only ẋ, its lag would act as an error that no bandwidth removes:
-/// 0.6 µm rms on the paper's sine, 2.3 µm on its steps.
+/// ė is filtered as a whole. If only ẋ were, its lag would act as an error that no bandwidth
+/// removes: 0.6 µm rms on the paper's sine, 2.3 µm on its steps.
 template <class Scalar>
 class FixedPid {
  public:
   using Wide = Accumulator<Scalar>;
 
-  /// bandwidth: ωc. filter: of the derivative of e, twice this pole. step_s: > 0, in seconds.
+  /// bandwidth: ωc. filter: double pole for the derivative of e. step_s: > 0, in seconds.
   FixedPid(const RegressionScale& scale, double bandwidth_rad_per_s, double filter_rad_per_s,
            double step_s)
       : bandwidth_rad_per_s_(bandwidth_rad_per_s),
@@ -51,10 +51,10 @@ class FixedPid {
     retune(scale.nominal);
   }
 
-  /// ωc from the next retune() on.
+  /// Sets ωc from the next retune() on.
   void set_bandwidth(double rad_per_s) { bandwidth_rad_per_s_ = rad_per_s; }
 
-  /// Gains for another muscle than the nominal one, in the same units. For a law that does not run.
+  /// Gains for a muscle other than the nominal one, in the same units. Not while the law runs.
   void retune(const Theta& theta) {
     gains_ = theta * bandwidth_rad_per_s_;
     ratio_ = 1.0;
@@ -64,7 +64,7 @@ class FixedPid {
     tuned_integral_step_ = integral_step_ = Wide(units[3] * step_s_);
   }
 
-  /// The loop oscillates: lower gains, until another muscle is found.
+  /// The loop oscillates: lowers the gains until another muscle is identified.
   void slow_down() {
     gains_ *= oscillation_gain_ratio;
     tuned_proportional_ = tuned_proportional_ * to<Scalar>(oscillation_gain_ratio);
@@ -73,7 +73,7 @@ class FixedPid {
     schedule(Scalar(1));
   }
 
-  /// All gains from now on, over those tuned for the muscle.
+  /// From now on all gains are `ratio` times those tuned for the muscle.
   void schedule(Scalar ratio) {
     ratio_ = static_cast<double>(ratio);
     proportional_ = tuned_proportional_ * ratio;
@@ -81,19 +81,19 @@ class FixedPid {
     integral_step_ = tuned_integral_step_ * Wide(ratio);
   }
 
-  /// As if the muscle had long moved as the model does, at this distance; the integral is zero.
+  /// Settles as if the muscle had long moved like the model, at this distance; zero integral.
   void start(const LawStart<Scalar>& at) {
     slope_.settle(at.model.position - at.position);
     integral_ = Wide{};
     demanded_ = at.power;
   }
-  /// What the rest, at the start's motion, leaves of the power to the integral.
+  /// Sets the integral to the power less the rest and the feedback at the start's motion.
   void hold(const LawInput<Scalar>& at, Scalar power, Scalar rest) {
     integral_ = Wide(power - rest - feedback(at));
   }
 
-  /// The wanted power: the rest and this. The integrator holds while the power is limited, unless
-  /// the error leads out of the limit.
+  /// Returns the demanded power: the rest plus the PID's. The integrator holds while the power is
+  /// limited, unless the error leads out of the limit.
   Scalar step(const LawInput<Scalar>& in, Scalar rest) {
     const Scalar e = error(in);
     const bool leads_out = (demanded_ > in.applied) == (e < Scalar(0));
@@ -101,11 +101,11 @@ class FixedPid {
     demanded_ = rest + feedback(in) + to<Scalar>(integral_);
     return demanded_;
   }
-  /// The rest gives so much more from now on, which was the integral's to give.
+  /// From now on the rest gives this much more, and the integral that much less.
   void hand_over_to_feedforward(Wide power) { integral_ -= power; }
-  /// What the last step wanted.
+  /// What the last step demanded.
   Scalar demanded() const { return demanded_; }
-  /// Before step(), once a tick.
+  /// Call once a tick, before step().
   void update_derivative(const LawInput<Scalar>& in) { slope_.step(error(in)); }
 
   static constexpr std::size_t gains = 3;
@@ -126,7 +126,7 @@ class FixedPid {
   double dc_gain_m_per_W_;
   double step_s_;
   Theta gains_;         // tuned for the muscle
-  double ratio_ = 1.0;  // over those
+  double ratio_ = 1.0;  // of the gains in use over those
   StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
   Wide slope_gain_;
   Scalar tuned_proportional_{};

@@ -1,4 +1,4 @@
-// What a tracking law multiplies its signals by: its settings, or what it has adapted them to.
+// The gains by which a tracking law multiplies its signals, as set or as adapted.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace supercoil::control {
 
-/// The numbers go over CAN.
+/// The numbers are sent over CAN.
 enum class Gain : std::uint8_t {
   none = 0,
   proportional = 1,  ///< W/m
   integral = 2,      ///< W/(m s)
   derivative = 3,    ///< W s/m
   feedforward = 4,   ///< of the model's position, W/m
-  // θ of MRAC, Eq. (16): of ω's six signals in turn. Power and position are in watts at rest.
+  // θ of MRAC, Eq. (16): for ω's six signals in order. Power and position are in watts at rest.
   power_rate = 5,     ///< of s u/λ
   power = 6,          ///< of u/λ
   position_rate = 7,  ///< of s y/λ
@@ -23,7 +23,7 @@ enum class Gain : std::uint8_t {
   position = 9,       ///< of y
   reference = 10,     ///< of r: c0
   sigma = 11,         ///< σ of Eq. (16)
-  // Of the model's motion, beside `feedforward`.
+  // For the model's motion, in addition to `feedforward`.
   feedforward_velocity = 12,      ///< W s/m
   feedforward_acceleration = 13,  ///< W s²/m
   feedforward_jerk = 14,          ///< W s³/m
@@ -51,7 +51,7 @@ constexpr std::string_view name(Gain gain) {
   return gain_names[static_cast<std::size_t>(gain)];
 }
 
-/// One of a law's gains as it is now.
+/// The present value of one of a law's gains.
 struct GainValue {
   Gain gain = Gain::none;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< in the gain's unit

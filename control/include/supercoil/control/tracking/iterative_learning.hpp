@@ -1,4 +1,4 @@
-// What the feedback had to add at each time of a period is given ahead of time in the next.
+// Gives in the next period, ahead of time, what the feedback had to add in this one.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace supercoil::control {
 
-/// Iterative learning control for a reference that repeats itself. A period has 1024 slots. What
-/// the feedback added in one period, taken as much earlier as the muscle needs to answer, is added
-/// by half to what was given there, and both are averaged without phase: what a longer lag would
-/// make grow from period to period is averaged away.
+/// Iterative learning control for a reference that repeats itself. A period has 1024 slots. Half of
+/// what the feedback added in one period, shifted earlier by the time that the muscle needs to
+/// answer, is added to what was given there. A zero-phase average of both suppresses components
+/// that a longer lag would make grow from period to period.
 class IterativeLearning {
  public:
   /// Times are for a muscle with a thermal time constant of 1.95 s. Found by trials on `real` and
@@ -29,7 +29,7 @@ class IterativeLearning {
     set_period(s.period_s);
   }
 
-  /// Of the reference; 0: it does not repeat itself. One begins now, and nothing is learned.
+  /// Sets the reference's period; 0: it does not repeat itself. Implies reset().
   void set_period(double period_s) {
     settings_.period_s = period_s;
     phase_step_ = period_s > 0.0 ? step_s_ / period_s : 0.0;
@@ -38,7 +38,7 @@ class IterativeLearning {
     reset();
   }
 
-  /// A period begins now, and nothing is learned.
+  /// Begins a period, with nothing learned.
   void reset() {
     phase_ = 0.0;
     slot_ = 0;
@@ -46,14 +46,14 @@ class IterativeLearning {
     begin_slot();
     forget();
   }
-  /// Nothing is learned; the period goes on.
+  /// Forgets what was learned; the period goes on.
   void forget() {
     feedback_W_.fill(0.0F);
     for (Slots& given : given_W_)
       given.fill(0.0F);
   }
 
-  /// What to add at this tick.
+  /// The power to add at this tick.
   double power_W() const {
     if (phase_step_ == 0.0) return 0.0;
     const double place = phase_ * static_cast<double>(slots);
@@ -63,7 +63,7 @@ class IterativeLearning {
     return given_W[i] + (place - left) * (given_W[(i + 1) % slots] - given_W[i]);
   }
 
-  /// Ends the tick. feedback_W: what the feedback added; usable: it says something of the muscle.
+  /// Ends the tick. feedback_W: what the feedback added; usable: it is informative.
   void step(double feedback_W, bool usable) {
     if (phase_step_ == 0.0) return;
     sum_W_ += feedback_W;
@@ -100,7 +100,7 @@ class IterativeLearning {
     const float last_W = feedback_W_[(slot_ + slots - 1) % slots];
     const float mean_W = count_ > 0.0 ? static_cast<float>(sum_W_ / count_) : last_W;
     feedback_W_[slot_] = usable_ ? mean_W : 0.0F;
-    // The slots around this one are known by now; it may belong to the period before.
+    // The slots around the learned one are known by now; it may belong to the previous period.
     const std::size_t delay = ahead_ + half_width_;
     if (slot_ >= delay) {
       learn(slot_ - delay, period_);
@@ -114,7 +114,7 @@ class IterativeLearning {
     begin_slot();
   }
 
-  /// What the next period gives at this slot.
+  /// Computes what the next period gives at this slot.
   void learn(std::size_t slot, std::uint64_t period) {
     const Slots& given_W = given_W_[(period + 1) % 2];
     double sum_W = 0.0;
@@ -133,7 +133,7 @@ class IterativeLearning {
   std::size_t ahead_ = 0;
   std::size_t half_width_ = 0;
   Slots feedback_W_{};
-  std::array<Slots, 2> given_W_{};  // by period p: in the next one, and in p itself
+  std::array<Slots, 2> given_W_{};  // [p % 2]: for the period after p; the other one: for p
   double phase_ = 0.0;
   std::size_t slot_ = 0;
   std::uint64_t period_ = 0;

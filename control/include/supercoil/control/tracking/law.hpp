@@ -1,4 +1,4 @@
-// What every tracking law is given at a tick and answers, and the saturation of Eq. (19).
+// The inputs and outputs of every tracking law at a tick, and the saturation of Eq. (19).
 #pragma once
 
 #include <concepts>
@@ -9,11 +9,11 @@
 
 namespace supercoil::control {
 
-/// By which a law lowers its feedback's gains each time that its loop is seen to oscillate.
+/// The factor by which a law lowers its feedback's gains each time its loop is found to oscillate.
 inline constexpr double oscillation_gain_ratio = 0.7;
 
 /// Inputs of one tick. Positions are in watts at rest (metres over the muscle's DC gain), so that
-/// position, reference and power are of one size in every arithmetic.
+/// position, reference and power are of the same magnitude in every arithmetic.
 template <class Scalar>
 struct LawInput {
   Scalar reference{};         ///< r, this tick's
@@ -21,7 +21,7 @@ struct LawInput {
   ModelMotion<Scalar> model;  ///< where the reference model is at this tick
   Scalar model_jerk{};        ///< its third derivative from this tick on
   Scalar applied{};           ///< the power really applied since the last tick
-  bool limited = false;       ///< that power was not the one asked for
+  bool limited = false;       ///< that power was not the demanded one
 };
 
 /// Where a law takes over from another, or starts: the state of the muscle in the law's units.
@@ -30,12 +30,12 @@ struct LawStart {
   Scalar reference{};
   Scalar position{};
   ModelMotion<Scalar> model;
-  Scalar power{};     ///< that the muscle gets now
-  bool hold = false;  ///< the law's first power is to be that one; otherwise the law's own
+  Scalar power{};     ///< applied to the muscle now
+  bool hold = false;  ///< the law's first power must be that one; otherwise the law's own
 };
 
-/// step() gives the wanted power in watts; gains are published, gain(i) for i < gains. A law may
-/// also have learn(Estimate), retune(Theta) and slow_down(): of a loop that oscillates.
+/// step() gives the demanded power in watts; gain(i) for i < gains are published. A law may also
+/// have learn(Estimate), retune(Theta) and, for a loop that oscillates, slow_down().
 template <class Law, class Scalar>
 concept TrackingLaw = requires(Law law, const Law& running, const LawInput<Scalar>& input,
                                const LawStart<Scalar>& start, std::size_t i) {
@@ -52,7 +52,7 @@ struct PowerRange {
 
   /// The nearest power in the range.
   double clip(double power_W) const {
-    if (!(power_W > min_W)) return min_W;  // a NaN is cut to the least power
+    if (!(power_W > min_W)) return min_W;  // NaN becomes the minimum power
     return power_W < max_W ? power_W : max_W;
   }
 };

@@ -1,4 +1,4 @@
-// What each law states of itself, beside its equations: how it is named, set, made and checked.
+// What each law declares besides its equations: how it is named, set, made and checked.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@
 
 namespace supercoil::control {
 
-/// What is wrong with a law's settings by themselves.
+/// A problem of a law's own settings.
 struct LawProblem {
   const char* key;  ///< the setting, by its name in configurations
   const char* message;
-  bool premise = false;  ///< of the law's proof: it may run where that was accepted
+  bool premise = false;  ///< of the law's proof: the law may run if that is accepted
 };
 
 /// Up to 8 problems, without heap; further ones are dropped.
 class LawProblems {
  public:
-  /// Without effect when 8 are there.
+  /// Without effect when there are 8 already.
   void add(const LawProblem& problem) {
     if (count_ < all_.size()) all_[count_++] = problem;
   }
@@ -37,19 +37,19 @@ class LawProblems {
   std::size_t count_ = 0;
 };
 
-/// What a controller gives its law beside the law's own settings.
+/// What a controller gives its law besides the law's own settings.
 struct LawContext {
   const ReferenceModelSettings& model;
-  double dc_gain_m_per_W;  ///< metres that a watt at rest, the law's unit, stands for
+  double dc_gain_m_per_W;  ///< metres per watt at rest, the law's unit
 };
 
-/// What most laws state; a law's definition hides what is different.
+/// What most laws declare; a law's definition hides the members that differ.
 struct UsualLaw {
   static constexpr bool fixed_point = true;  ///< runs in q8.24, and has check_fit()
   static constexpr bool adapts = false;      ///< its feedback changes while it runs
   static constexpr std::string_view when_unstable = "lower its gains";
 
-  /// scale: of the channel's muscle. max_W: its greatest power, NaN while that is not known.
+  /// scale: of the channel's muscle. max_W: its maximum power, NaN while unknown.
   template <class Settings>
   static void set_nominal(Settings&, const RegressionScale& /*scale*/, double /*max_W*/) {}
 
@@ -58,7 +58,7 @@ struct UsualLaw {
   static void add_contradictions(LawProblems&, const Settings&, const LawContext&) {}
 };
 
-/// check_fit(): what q8.24 cannot hold, at a step in seconds, of signals up to a peak in watts.
+/// check_fit(): what q8.24 cannot hold, for a step in seconds and signals up to a peak in watts.
 template <class Definition>
 concept ChecksItsFit = requires(const typename Definition::Settings& settings,
                                 const LawContext& context, FixedPointFit& fit, double value) {
@@ -68,9 +68,9 @@ concept ChecksItsFit = requires(const typename Definition::Settings& settings,
 template <class Definition>
 concept ChecksFixedPoint = !Definition::fixed_point || ChecksItsFit<Definition>;
 
-/// In<Scalar>: the law. make(): it, for step_s > 0. fixed_law(): what it does to small errors with
-/// the gains that follow from a muscle, or with the parameters that match it; empty where none do.
-/// values: a range of SettingValue.
+/// In<Scalar>: the law. make(): makes it, for step_s > 0. fixed_law(): its action on small errors,
+/// with the gains that follow from a muscle or with the parameters that match it; empty when none
+/// match. values: a range of SettingValue.
 template <class Definition, class Law = typename Definition::template In<double>,
           class Value = SettingValue<typename Definition::Settings>>
 concept LawDefinition = TrackingLaw<Law, double> && ChecksFixedPoint<Definition> &&

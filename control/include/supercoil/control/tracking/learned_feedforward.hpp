@@ -1,4 +1,4 @@
-// Feedforward that learns what power its own motion takes, with a scheduled PID for the rest.
+// Feedforward that learns the power that its own motion takes, with a scheduled PID for the rest.
 #pragma once
 
 #include <algorithm>
@@ -21,29 +21,29 @@
 namespace supercoil::control {
 
 /// u = w̄ᵀψ + g (Kp e + Kd ė + Ki ∫e), e = xm − x, with ψ the MotionRegressors of the reference
-/// model's motion. w is learned by least squares from the power that was applied and the
-/// ErrorPower, all through 1/(s/ωf + 1)²: what the feedback had to add to one pass, the feedforward
-/// gives in the next. The model's motion is known exactly, so no noise is in ψ. w̄ follows the
-/// linear muscle and as much of what was learned beyond it as has proved itself (LearnedShare).
+/// model's motion. w is learned by least squares from the applied power and the ErrorPower, all
+/// filtered by 1/(s/ωf + 1)²: what the feedback had to add in one pass, the feedforward gives in
+/// the next. The model's motion is known exactly, so ψ is free of noise. w̄ follows the linear
+/// muscle plus as much of what was learned beyond it as has proved itself (LearnedShare).
 ///
 /// The PID's gains are those of FixedPid at the feedback bandwidth that the muscle allows. g
-/// follows the learned slope of power over velocity, since a cold muscle needs more power for a
-/// metre than a hot one, and BandwidthAdaptation where little but noise is left of the error. A
-/// ChangeDetector tells changes of stiffness, gain, load and cooling; along the one that it names,
-/// w is moved at once and learned anew. A change that has the direction of none of these leaves
-/// more residual than there ever was: then w is learned anew from where it is. Where the reference
-/// repeats itself, IterativeLearning adds what this leaves.
+/// follows the learned slope of power over velocity, since a cold muscle needs more power per metre
+/// than a hot one, and BandwidthAdaptation when little but noise is left in the error. A
+/// ChangeDetector detects changes of stiffness, gain, load and cooling; w is moved at once along
+/// the detected direction, and then learned again. A change in any other direction leaves a larger
+/// residual than ever before: w is then learned again from its present value. When the reference
+/// repeats itself, IterativeLearning adds what is still missing.
 struct LearnedFeedforwardSettings {
   RegressionScale scale;                      ///< of the nominal muscle
   double max_W = 4.5;                         ///< > 0: the scale of powers
-  double bandwidth_rad_per_s = 8.0;           ///< at most
+  double bandwidth_rad_per_s = 8.0;           ///< maximum
   double derivative_filter_rad_per_s = 80.0;  ///< of the error, twice this pole
   double follow_s = 0.5;                      ///< time constant with which w̄ follows
   double forgetting_s = 60.0;                 ///< in which an observation's weight falls to 1/e
   bool learn = true;                          ///< otherwise w stays that of the linear muscle
   double period_s = 0.0;        ///< in which the reference repeats itself; 0: it does not
-  bool find_period = false;     ///< where none is given
-  bool adapt_bandwidth = true;  ///< lower it where only noise is left of the error
+  bool find_period = false;     ///< when none is given
+  bool adapt_bandwidth = true;  ///< lower it when only noise is left in the error
 };
 
 /// The law of LearnedFeedforwardSettings, in float or double. Positions and powers are in watts at
@@ -57,10 +57,11 @@ class LearnedFeedforward {
 
   LearnedFeedforward(const LearnedFeedforwardSettings& s, double step_s);
 
-  /// The muscle was identified: w begins from its own θ again. For a law that does not run.
+  /// The muscle was identified: w begins again from its θ. Not while the law runs.
   void retune(const Theta& theta);
 
-  /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
+  /// Starts with the muscle moving like its model. To hold a power, the integral becomes that power
+  /// less the rest.
   void start(const LawStart<Scalar>& at);
 
   void slow_down() {
@@ -68,7 +69,7 @@ class LearnedFeedforward {
     bandwidth_.scale(oscillation_gain_ratio);
   }
 
-  /// Returns the wanted power.
+  /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in);
 
   static constexpr std::size_t gains = FixedPid<Scalar>::gains + 5;
@@ -76,7 +77,7 @@ class LearnedFeedforward {
 
   /// w̄: 1 for each θ of the linear muscle, the constant in W, 0 for all else.
   const Weights& weights() const { return followed_; }
-  /// Since construction, of the muscle.
+  /// Changes of the muscle since construction.
   std::int64_t changes() const { return changes_; }
 
  private:
@@ -97,7 +98,7 @@ class LearnedFeedforward {
   LearnedShare share() const;
   BandwidthAdaptation bandwidth() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
-  /// The number of updates that takes a time right for a typical muscle.
+  /// The number of updates in a time specified for a typical muscle, scaled to this one.
   std::int64_t updates_of(double usual_s) const {
     return std::llround(usual_s * slowness(theta_) / period_s());
   }
@@ -113,26 +114,26 @@ class LearnedFeedforward {
   void learn_anew();
   Weights along(int direction) const;
 
-  /// Of one update: the observation, the factoring in steps of three columns, the solution.
+  /// The units of one update: the observation, the factoring in steps of three columns, the
+  /// solution.
   static constexpr int columns_of_unit = 3;
   static constexpr int units = 2 + R::count / columns_of_unit;
   static_assert(R::count % columns_of_unit == 0);
   static constexpr double update_s = 0.01;
   static constexpr double regression_pole_rad_per_s = 3.0;
-  /// In which the filters forget where they began.
+  /// Time in which the filters forget their initial state.
   static constexpr double settle_s = 3.0;
-  /// In which they forget most of a motion that the muscle could not make.
+  /// Time in which they forget most of a motion that the muscle could not make.
   static constexpr double infeasible_s = 0.5;
   static constexpr double change_wait_s = 1.0;
-  /// With which the power of a period that has ended goes, for the integral to follow.
+  /// Time constant with which the power of an ended period fades, so that the integral can follow.
   static constexpr double fade_s = 1.0;
-  /// A change is quicker than this, most of what the model does not describe is slower.
+  /// A change is faster than this; most of the model's error is slower.
   static constexpr double change_trend_s = 0.7;
-  /// Weights that are judged are so old, and up to twice that.
+  /// The judged weights are this old, and up to twice as old.
   static constexpr double judged_after_s = 5.0;
-  /// After a change nothing is repeated and nothing is judged. With 10 s the feedback's work while
-  /// the weights were learned anew was repeated: 5.6 instead of 1.7 µm (a muscle believed 30 %
-  /// off).
+  /// For this time after a change nothing is repeated or judged. With 10 s the feedback's work
+  /// during relearning was repeated: 5.6 instead of 1.7 µm (a muscle believed 30 % off).
   static constexpr double upset_s = 30.0;
   static constexpr double recovery_s = 60.0;
 
@@ -147,7 +148,7 @@ class LearnedFeedforward {
   MismatchDetector mismatch_;  ///< of no direction
   IterativeLearning iterative_;
   PeriodFinder period_finder_;
-  double repeated_W_ = 0.0;  ///< of a period that has ended, which fades
+  double repeated_W_ = 0.0;  ///< of an ended period; fades
   LearnedShare share_;
   ErrorPower error_;
   BandwidthAdaptation bandwidth_;
@@ -166,15 +167,15 @@ class LearnedFeedforward {
   LowPass twice_;
   double feedforward_W_ = 0.0;       // of the last tick
   bool skip_ = false;                // the power was limited since the last update
-  std::int64_t upset_updates_ = 0;   // before the motion repeats itself again after a change
-  std::int64_t settle_updates_ = 0;  // before the filters hold the muscle's own motion
+  std::int64_t upset_updates_ = 0;   // until the motion is repeated again after a change
+  std::int64_t settle_updates_ = 0;  // until the filters hold the muscle's own motion
   int pending_ = -1;                 // the direction of a change that is being measured
   std::int64_t pending_updates_ = 0;
   std::int64_t tick_ = 0;
   int next_unit_ = units;
   std::int64_t changes_ = 0;
   double mean_square_W2_ = 0.0;        // of the residual
-  std::int64_t recovery_updates_ = 0;  // of those after a change that are left
+  std::int64_t recovery_updates_ = 0;  // left of those after a change
   typename Detector::Signals signal_trend_ = Detector::Signals::Zero();
   double residual_trend_W_ = 0.0;
 };

@@ -6,18 +6,18 @@
 
 namespace supercoil::control {
 
-/// As much as would have predicted the power no worse than nothing learned. z is what the muscle as
-/// believed leaves of the power, d what was learned some seconds before adds to it: of all shares s
-/// in [0, 1], the largest with E(z − s d)² ≤ E z², which is 2 E[z d]/E[d²]. Of both only what is
-/// quicker than trend_s counts, since the feedback's integral has the rest. No observation counts
-/// for much more than a usual one: the first seconds after a muscle has changed would else judge
-/// for minutes.
+/// The largest share that would have predicted the power no worse than nothing learned. z is the
+/// power that the believed muscle does not explain, d what the weights learned some seconds before
+/// add to it. The largest s in [0, 1] with E(z − s d)² ≤ E z² is 2 E[z d]/E[d²]. Only components of
+/// z and d faster than trend_s count, since the feedback's integral has the rest. No observation
+/// counts for much more than a usual one: otherwise the first seconds after a change of the muscle
+/// would dominate for minutes.
 class LearnedShare {
  public:
   /// All > 0.
   struct Settings {
     double period_s;         ///< between steps
-    double min_W;            ///< of a power that says anything
+    double min_W;            ///< of a power large enough to count
     double trend_s = 2.0;    ///< for a muscle with a thermal time constant of 1.95 s
     double memory_s = 60.0;  ///< the same
   };
@@ -29,10 +29,10 @@ class LearnedShare {
         memory_share_(s.period_s / (s.memory_s * slowness)),
         trusting_(1.0 / s.period_s) {}
 
-  /// All of it, until there are data.
+  /// Uses all of it, until there are data.
   void restart() { both_ = learned_ = 0.0; }
 
-  /// One observation; judge: it says something of the muscle.
+  /// One observation. judge: it says something about the muscle.
   void step(double left_W, double learned_W, bool judge) {
     left_trend_W_ += trend_share_ * (left_W - left_trend_W_);
     learned_trend_W_ += trend_share_ * (learned_W - learned_trend_W_);
@@ -56,7 +56,7 @@ class LearnedShare {
   double min_W2_;
   double trend_share_;
   double memory_share_;
-  double trusting_;  ///< observations of a second, in favour
+  double trusting_;  ///< one second of observations, in favour
   double left_trend_W_ = 0.0;
   double learned_trend_W_ = 0.0;
   double usual_W2_ = 0.0;

@@ -19,20 +19,20 @@ struct ControllerInput {
   double reference_power_W = 0.0;  ///< for open loop
   double position_m = 0.0;
   double applied_power_W = 0.0;  ///< really applied since the last tick
-  bool limited = false;          ///< that power was not the one wanted
-  PowerRange range{};            ///< that the muscle may get: for shaping
-  /// The model is led along a trajectory, by the reference under which it moves so. reference_m
-  /// says nothing then.
+  bool limited = false;          ///< that power was not the demanded one
+  PowerRange range{};            ///< allowed for the muscle, for shaping
+  /// Leads the model along a trajectory, by the reference under which it moves that way.
+  /// reference_m is then ignored.
   std::optional<TrajectoryPoint> trajectory{};
 };
 
-/// What a controller answers at a tick. The power is not yet saturated.
+/// A controller's output at a tick. The power is not yet saturated.
 struct ControllerOutput {
   double demanded_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
-  Infeasible infeasible = Infeasible::nothing;  ///< of the reference, which was shaped
-  /// Of the loop by itself, since the muscle is this one; the feedback is slower if it may be. 0:
-  /// it did not.
+  Infeasible infeasible = Infeasible::nothing;  ///< why the reference was shaped
+  /// Of an oscillation of the loop itself with the present muscle; the feedback has then been
+  /// slowed down if allowed. 0: it has not oscillated.
   double oscillation_period_s = 0.0;
 };
 
@@ -40,9 +40,9 @@ struct ControllerOutput {
 struct ControllerStart {
   double reference_m = 0.0;
   double position_m = 0.0;
-  double power_W = 0.0;          ///< that the muscle gets now
+  double power_W = 0.0;          ///< applied to the muscle now
   ModelMotion<double> motion{};  ///< of the reference model so far, in metres
-  bool hold = false;             ///< the first wanted power is that power
+  bool hold = false;             ///< the first demanded power is that power
 };
 
 /// Open loop: the reference is a power.
@@ -52,14 +52,14 @@ class OpenLoopPower {
   void start(const ControllerStart&) {}
   /// Nothing to learn: it has no model of the muscle.
   void learn(const Estimate&) {}
-  /// Nothing follows from the muscle.
+  /// Nothing depends on the muscle.
   void retune(const Theta&) {}
   /// Demands reference_power_W.
   ControllerOutput step(const ControllerInput& in) const {
     return {.demanded_power_W = in.reference_power_W};
   }
   ModelMotion<double> motion() const { return {}; }
-  /// It has none.
+  /// It has no gains.
   static GainValue gain(std::uint32_t) { return {}; }
 };
 
@@ -77,7 +77,7 @@ class ModelFollower {
         to_metres_(s.dc_gain_m_per_W),
         fading_(std::exp(-step_s / bridge_s)) {}
 
-  /// See Controller, as for what follows.
+  /// See Controller, here and below.
   void start(const ControllerStart& at) {
     model_.set({to<Scalar>(at.motion.position * to_watts_),
                 to<Scalar>(at.motion.velocity * to_watts_),
@@ -109,7 +109,7 @@ class ModelFollower {
     watch(in.position_m, static_cast<double>(input.model.position) * to_metres_);
     const auto demanded = static_cast<double>(law_.step(input));
     if (bridging_) {
-      // What the law itself could not take over is added, and fades.
+      // The part that the law itself could not take over is added, and fades.
       bridge_W_ = held_W_ - demanded;
       bridging_ = false;
     }
@@ -121,7 +121,7 @@ class ModelFollower {
 
   /// From now on references are made feasible first.
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
-  /// Passed on to the law where it has gains of the muscle; forgets an oscillation that was seen.
+  /// Passes θ on to a law whose gains depend on the muscle; forgets a detected oscillation.
   void retune(const Theta& theta) {
     if (tuned_for_ == theta) return;
     tuned_for_ = theta;
@@ -130,7 +130,7 @@ class ModelFollower {
     if constexpr (requires { law_.retune(theta); }) law_.retune(theta);
   }
 
-  /// Passed on to the shaper and to a law that has a model of the muscle.
+  /// Passes the estimate on to the shaper and to a law that has a model of the muscle.
   void learn(const Estimate& estimate) {
     if (shaper_) shaper_->learn(estimate);
     if constexpr (requires { law_.learn(estimate); }) law_.learn(estimate);
@@ -143,7 +143,7 @@ class ModelFollower {
             static_cast<double>(m.acceleration) * to_metres_};
   }
 
-  /// Gains come round as turn takes all values, whatever its step (see Controller).
+  /// All gains come round as selector takes all values, whatever its step (see Controller).
   GainValue gain(std::uint32_t selector) const {
     return law_.gain((std::uint64_t{selector} * Law::gains) >> 32U);
   }

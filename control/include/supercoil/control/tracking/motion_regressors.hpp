@@ -1,4 +1,4 @@
-// What the power of a muscle depends on when it moves as asked, beyond the linear equation.
+// What a muscle's power depends on along its reference motion, beyond the linear equation.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace supercoil::control {
 
 /// The regressors of P = wᵀψ, all in watts. x, v, a, j are position, velocity, acceleration and
 /// jerk, each times its θ, so that the linear muscle has w = [1 1 1 1 θ5 0 …]; m is the largest
-/// power. Squares and cubes stand for force, stiffness and heat transfer that depend on
-/// temperature; two plays of the position, each with its rate, for hysteresis.
+/// power. Squares and cubes model force, stiffness and heat transfer that depend on temperature;
+/// two plays of the position, each with its rate, model hysteresis.
 class MotionRegressors {
  public:
   enum : int {
@@ -44,13 +44,13 @@ class MotionRegressors {
     retune(scale.nominal);
   }
 
-  /// The muscle was found to be another one.
+  /// Rescales the regressors to another muscle.
   void retune(const Theta& theta) {
     units_ = theta * dc_gain_m_per_W_;
     units_[0] *= moving_mass_kg_;
   }
 
-  /// One tick. motion: in watts at rest (metres over the scale's DC gain) and by seconds.
+  /// One tick. motion: in watts at rest (metres over the scale's DC gain), derivatives by seconds.
   void step(const ModelMotion<double>& motion, double model_jerk) {
     const double x = units_[3] * motion.position;
     const double v = units_[2] * motion.velocity;
@@ -63,18 +63,18 @@ class MotionRegressors {
         rate(plays_[1], v);
   }
   const Values& values() const { return values_; }
-  /// θ in watts at rest, the first one times the moving mass.
+  /// θ in watts at rest; θ1 is multiplied by the moving mass.
   const Theta& units() const { return units_; }
 
-  /// What a metre per second more would need, over what the linear muscle needs for it.
+  /// The slope of power over velocity, relative to that of the linear muscle.
   double velocity_slope(const Values& weights) const {
     const double y = values_[position] * per_max_W_;
     return weights[velocity] + (weights[square_rate] + weights[cube_rate] * y) * y;
   }
 
  private:
-  /// Parts of the position that the largest power holds. Found by trials on hysteresis of 5 and
-  /// 15 %: 10 % and 30 % of the amplitude left twice the error.
+  /// Fractions of the position that the largest power holds. Found by trials with hysteresis of 5
+  /// and 15 %: 10 % and 30 % of the amplitude left twice the error.
   static constexpr double narrow_ratio = 0.01;
   static constexpr double wide_ratio = 0.15;
 

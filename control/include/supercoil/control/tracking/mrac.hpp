@@ -53,11 +53,11 @@ class Mrac {
     }
   }
 
-  /// The filters as if the muscle had long moved as it does. To hold a power, c0 becomes what makes
-  /// θᵀω that power: a pure feedforward. (Moving all of θ by as little as that takes adds positive
-  /// feedback, and rings for half a minute.)
+  /// Settles the filters as if the muscle had long moved as it does. To hold a power, c0 is set so
+  /// that θᵀω is that power: a pure feedforward. (The smallest change of the whole θ would add
+  /// positive feedback, and ring for half a minute.)
   void start(const LawStart<Scalar>& at) {
-    // Power, position and reference are in watts at rest: on a steady way they move alike.
+    // Power, position and reference are in watts at rest: in steady motion they move alike.
     const Scalar rate = at.model.velocity;
     power_filter_.settle(at.power, rate);
     position_filter_.settle(at.position, rate);
@@ -76,7 +76,7 @@ class Mrac {
     }
   }
 
-  /// Returns the wanted power.
+  /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in) {
     filter(in);
     const Wide epsilon = Wide(in.position - in.model.position) - estimated_error_;
@@ -114,7 +114,7 @@ class Mrac {
   /// The filtered signals that θ multiplies, and Eq. (16)'s r0 = u/((s+p0)(s+p1)) − θᵀφ.
   const WideParameters& phi() const { return second_bank_.state(); }
   double r0() const { return static_cast<double>(r0_); }
-  /// ε1 is the difference between this and y − ym.
+  /// ê1; ε1 = (y − ym) − ê1.
   double estimated_error() const { return static_cast<double>(estimated_error_); }
 
  private:

@@ -22,31 +22,30 @@ struct MracLeastSquaresSettings {
   double filter_rad_per_s = 10.0;      ///< λ = (s + this)²
   double regression_rad_per_s = 12.0;  ///< F = 1/(s/this + 1)²
   double forgetting_s = 30.0;          ///< in which an observation's weight falls to 1/e
-  double noise_W2 = 1e-4;              ///< R; what counts is how it stands to the prior
+  double noise_W2 = 1e-4;              ///< R; only its ratio to the prior matters
   double prior_variance = 1.0;         ///< of each θ over its scale; no variance grows beyond
-  /// The muscle has changed when the residual's mean square over 0.2 s exceeds this one's square.
+  /// The muscle has changed when the residual's mean square over 0.2 s exceeds the square of this.
   double change_W = 1e-3;
-  double boost = 0.1;     ///< added then to each variance
-  double hold_s = 6.0;    ///< after a change; the law uses the previous estimate
-  double follow_s = 1.0;  ///< time constant with which the law follows what is found
-  /// ωc of the fixed PID beside it: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle.
+  double boost = 0.1;     ///< then added to each variance
+  double hold_s = 6.0;    ///< after a change, the law uses the previous estimate
+  double follow_s = 1.0;  ///< time constant with which the law follows the estimate
+  /// ωc of the additional fixed PID: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle.
   double bandwidth_rad_per_s = 2.0;
   double derivative_filter_rad_per_s = 60.0;  ///< of the error, twice this pole
 };
 
-/// λ and α of the same law with constants of its own.
+/// This law's λ and α, as MracSettings.
 MracSettings filters_of(const MracLeastSquaresSettings& settings);
 
-/// θ* of the nominal muscle; any valid one has it. Its compensator may be unstable: see the docs.
+/// θ* of the nominal muscle; any valid one has a θ*. Its compensator may be unstable: see the docs.
 std::optional<MracMatching> match(const MracLeastSquaresSettings& settings,
                                   const ReferenceModelSettings& model);
 
-/// The plant is a muscle with the model's relative degree, so some θ* makes the loop its model:
+/// The plant is a muscle with the model's relative degree, so a θ* makes the loop equal its model:
 ///   u = θ*ᵀω + c0* r + d,  ω = [α/λ·u, α/λ·y, y],
-/// and then r = Wm⁻¹y whatever u is. Through Wm and F that is a regression in signals that are
-/// there,
+/// and then r = Wm⁻¹y for any u. Filtered by Wm and F this is a regression in available signals,
 ///   Wm F u = θ*ᵀ Wm F ω + c0* F y + d*,
-/// which holds in closed loop, limited or not, with whatever is added to u.
+/// which holds in closed loop, limited or not, whatever is added to u.
 template <class Scalar>
 class MracLeastSquares {
   static_assert(std::is_floating_point_v<Scalar>, "a covariance spans more than fixed point does");
@@ -56,7 +55,7 @@ class MracLeastSquares {
   static constexpr int size = 7;
   using Parameters = Vector<Scalar, size>;
 
-  /// model: the one that the reference goes through.
+  /// model: the reference model in use.
   /// step_s: the sampling period in seconds, > 0.
   MracLeastSquares(const MracLeastSquaresSettings& s, const ReferenceModelSettings& model,
                    double step_s)
@@ -86,11 +85,11 @@ class MracLeastSquares {
     follower_ = theta_;
   }
 
-  /// The muscle was identified: the PID's gains are its own. For a law that does not run.
+  /// The muscle was identified: tunes the PID to it. Not while the law runs.
   void retune(const Theta& theta) { pid_.retune(theta); }
 
-  /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
-  /// what the rest leaves of it.
+  /// Settles the filters as if the muscle had long moved as it does. To hold a power, the integral
+  /// becomes that power less the rest.
   void start(const LawStart<Scalar>& at) {
     const Scalar rate = at.model.velocity;
     power_.settle(at.power, rate);
@@ -106,7 +105,7 @@ class MracLeastSquares {
     pid_.hold(now, at.power, certain(now));
   }
 
-  /// Returns the wanted power.
+  /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in) {
     power_.step(in.applied);
     position_.step(in.position);
@@ -127,7 +126,7 @@ class MracLeastSquares {
     return pid_.gain(i - size);
   }
 
-  /// What the law uses.
+  /// The parameters that the law uses.
   Vector<double, size> theta() const {
     return follower_.cwiseProduct(scale_).template cast<double>();
   }
@@ -140,12 +139,12 @@ class MracLeastSquares {
   static constexpr int bias_at = 6;
   static constexpr double update_s = 0.01;
   static constexpr double mean_square_s = 0.2;  ///< over which a change shows
-  static constexpr double blind_s = 10.0;       ///< at first errors are the start's, not a change's
+  static constexpr double blind_s = 10.0;       ///< early errors are from the start, not a change
   static constexpr double change_every_s = 5.0;
   static constexpr double first_c0 = 0.2;  ///< a fifth of what the nominal muscle at rest needs
-  static constexpr double min_c0 = 0.3;    ///< of the nominal one; the law uses no smaller one
+  static constexpr double min_c0 = 0.3;    ///< of the nominal one; the smallest that the law uses
   static constexpr double max_c0 = 3.0;
-  static constexpr double min_scale = 0.05;  ///< a θ* of about 0 is not known to be 0
+  static constexpr double min_scale = 0.05;  ///< a θ* near 0 is not known to be 0
 
   /// |θ*| of the nominal muscle.
   static WideParameters scale_of(const MracLeastSquaresSettings& s,
@@ -168,7 +167,7 @@ class MracLeastSquares {
     return changes_ == 0 ? INFINITY : static_cast<double>(since_change_) * period_s_;
   }
 
-  /// Wm F u, and [Wm F ω, F y, 1] in the units of the scale.
+  /// Regresses Wm F u on [Wm F ω, F y, 1], in the units of the scale.
   void update() {
     tick_ = 0;
     ++updates_;
@@ -189,7 +188,7 @@ class MracLeastSquares {
     detect_change(error);
   }
 
-  /// Without excitation forgetting alone would let the covariance grow for ever.
+  /// Without excitation, forgetting alone would let the covariance grow without bound.
   void cap() {
     const Scalar largest = covariance_.max_variance(0);
     const auto most = to<Scalar>(settings_.prior_variance);
@@ -208,7 +207,7 @@ class MracLeastSquares {
     covariance_.inflate(to<Scalar>(settings_.boost));
   }
 
-  /// What was found, with c0 within its bounds.
+  /// The estimate, with c0 within its bounds.
   WideParameters clamped_parameters() const {
     WideParameters clamped_parameters = theta_;
     clamped_parameters[reference_at] =

@@ -17,11 +17,11 @@ struct MracMatching {
 
 /// (λ − θ1ᵀα)R − b3(θ2ᵀα + θ3 λ) = λ Rm, c0 = k/b3, solved for θ by comparing powers of s.
 /// plant: x/P in the law's units; for signals in watts at rest give b3 = b0.
-/// Empty when α has a zero in it or b3 is not positive.
+/// Empty when a coefficient of α is zero or b3 is not positive.
 std::optional<MracMatching> match(const TransferFunction& plant, const MracSettings& settings,
                                   const ReferenceModelSettings& model);
 
-/// The law with the feedback by θ* added. Empty where no θ matches.
+/// The law with the feedback of θ* added. Empty when no θ matches.
 std::optional<FixedLaw> add_matched(FixedLaw law, const MracSettings& filters,
                                     const LawContext& context, const PhysicalParameters& muscle);
 

@@ -28,7 +28,7 @@ struct MracPremises {
   std::array<const char*, count> failures() const;
 };
 
-/// Of any settings; what is not finite fails.
+/// Takes any settings; values that are not finite fail.
 MracPremises check_premises(const MracSettings& settings, const ReferenceModelSettings& model);
 
 }  // namespace supercoil::control

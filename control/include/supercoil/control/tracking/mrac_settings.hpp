@@ -21,14 +21,14 @@ struct MracSettings {
   double p0_rad_per_s = 4.0;
   double p1_rad_per_s = 5.0;
   double q0_rad_per_s = 0.8;
-  Parameters gain{6.0, 6.0, 6.0, 7.0, 2.0, 3.0};  ///< diagonal of Π, but for adaptation_scale
-  double sigma_gain = 4.0;                        ///< ν, but for adaptation_scale
+  Parameters gain{6.0, 6.0, 6.0, 7.0, 2.0, 3.0};  ///< diagonal of Π before adaptation_scale
+  double sigma_gain = 4.0;                        ///< ν before adaptation_scale
   double adaptation_scale = 1.0;                  ///< Π and ν are the two above multiplied by it
   double damping = 3.0;                           ///< α0 of Eq. (17); 0 leaves ua = θ̇ᵀφ1
   Parameters initial = Parameters::Zero();        ///< θ(0)
   double initial_sigma = 0.0;                     ///< σ(0)
 
-  bool freeze_when_limited = true;  ///< θ and σ rest while the power is not the one asked for
+  bool freeze_when_limited = true;  ///< θ and σ rest while the power is not the demanded one
   double sigma_modification = 0.0;  ///< leak of θ towards θ(0): θ̇ −= this·Π(θ − θ(0))
   double dead_zone_W = 0.0;         ///< θ and σ rest while |ε1| is smaller
   std::optional<Box<double, 6>> bounds;  ///< θ is projected onto it
@@ -40,7 +40,7 @@ struct MracSettings {
   MracSettings scaled(double factor) const;
 };
 
-/// The presets' names, and what each is, for lists.
+/// The presets' names, each with a description for lists.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> mrac_presets{{
     {"printed", "the paper's constants (Sec. 5.2); adaptation_scale = 10 tracks better"},
     {"a", "the best of the paper's own laws: faster filters, gains x 20 (default)"},

@@ -1,4 +1,4 @@
-// Tells a loop that oscillates by itself from one that follows badly, and from noise.
+// Distinguishes a loop that oscillates by itself from poor tracking and from noise.
 #pragma once
 
 #include <algorithm>
@@ -7,17 +7,17 @@
 
 namespace supercoil::control {
 
-/// A sustained oscillation of the tracking error: ten half periods in a row, each as long as the
-/// others within 30 % and as large within a factor of two, faster than `slow` and slower than
-/// `fast`, while the reference model itself moves by less than half of it at such frequencies.
-/// Noise has no such order; a reference that oscillates moves the model.
+/// Detects a sustained oscillation of the tracking error: ten half periods in a row, alike in
+/// length within 30 % and in amplitude within a factor of two, faster than `slow` and slower than
+/// `fast`, while the reference model moves by less than half as much at such frequencies. Noise is
+/// not that regular; a reference that oscillates moves the model.
 class OscillationDetector {
  public:
   /// Which oscillations count; slow < fast.
   struct Settings {
     double slow_rad_per_s = 2.0;
     double fast_rad_per_s = 40.0;
-    double min_amplitude_m = 50e-6;  ///< five times the position noise that is expected
+    double min_amplitude_m = 50e-6;  ///< five times the expected position noise
     int half_periods = 10;
   };
 
@@ -29,7 +29,7 @@ class OscillationDetector {
         fast_share_(-std::expm1(-s.fast_rad_per_s * step_s)),
         slow_share_(-std::expm1(-s.slow_rad_per_s * step_s)) {}
 
-  /// The error's past is another law's.
+  /// Forgets the error's past, which belongs to another law.
   void restart() {
     error_ = model_ = {};
     sign_ = 0;
@@ -37,7 +37,7 @@ class OscillationDetector {
     start_counting();
   }
 
-  /// One tick: error of tracking and position of the reference model. True once for each ten half
+  /// One tick: tracking error, and position of the reference model. True once for every ten half
   /// periods of an oscillation.
   bool step(double error_m, double model_m) {
     const double error = error_.step(error_m, fast_share_, slow_share_);
@@ -56,11 +56,11 @@ class OscillationDetector {
     return found;
   }
 
-  /// Of the oscillation that was told last; 0: none was.
+  /// Period of the last oscillation detected; 0: none yet.
   double period_s() const { return period_s_; }
 
  private:
-  /// What passes between the slow and the fast limit, to first order.
+  /// First-order band-pass between the slow and the fast limit.
   struct Band {
     double fast_m = 0.0;
     double slow_m = 0.0;
@@ -102,8 +102,8 @@ class OscillationDetector {
   Band error_;
   Band model_;
   int sign_ = 0;
-  int count_ = 0;         // of half periods that were alike
-  double usual_s_ = 0.0;  // of them
+  int count_ = 0;         // of half periods alike, in a row
+  double usual_s_ = 0.0;  // of those
   double usual_m_ = 0.0;
   double half_s_ = 0.0;  // of the present half period
   double max_m_ = 0.0;

@@ -27,7 +27,7 @@ class PdFeedforward {
         derivative_(to<Scalar>(settings.derivative_Ws_per_m * dc_gain_m_per_W)),
         feedforward_(to<Scalar>(settings.feedforward_W_per_m * dc_gain_m_per_W)) {}
 
-  /// The muscle moves as its model does: a filter that started at rest would see a jump of speed.
+  /// Starts with the model's velocity: a filter that started at rest would see a jump of speed.
   void start(const LawStart<Scalar>& at) { filter_.settle(at.position, at.model.velocity); }
 
   void slow_down() {
@@ -37,7 +37,7 @@ class PdFeedforward {
     derivative_ = derivative_ * to<Scalar>(oscillation_gain_ratio);
   }
 
-  /// Returns the wanted power.
+  /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in) {
     filter_.step(in.position);
     const auto velocity = to<Scalar>(filter_.state()[1] * filter_gain_);

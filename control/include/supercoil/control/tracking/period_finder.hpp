@@ -1,4 +1,4 @@
-// Whether a reference repeats itself, and how often.
+// Whether a reference repeats itself, and with which period.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace supercoil::control {
 
-/// Remembers the reference by 1024 samples, twice as coarse whenever they are full, and the last
-/// times at which it rose through the middle of its range. The time between two of them may be the
-/// period. It is, when the reference has been the same for that long before each: to a hundredth of
-/// its range, a sample earlier or later. That is compared a few samples a tick. From then on each
-/// new sample is compared, and the first ones that differ end it.
+/// Remembers the reference as 1024 samples, twice as coarse whenever they are full, and the last
+/// times at which it rose through the middle of its range. The time between two such rises is the
+/// period if the reference was the same for that long before each: to a hundredth of its range, a
+/// sample earlier or later. A few samples are compared each tick. Once a period is found each new
+/// sample is compared, and the first ones that differ end the period.
 class PeriodFinder {
  public:
   static constexpr double min_period_s = 2.0;
@@ -42,7 +42,7 @@ class PeriodFinder {
     ++ticks_;
   }
 
-  /// 0: none is known.
+  /// 0 when none is known.
   double period_s() const { return period_s_; }
 
  private:
@@ -58,7 +58,7 @@ class PeriodFinder {
   float range() const { return max_ - min_; }
 
   void remember(float value) {
-    // A period fits in half of the samples: once it is known, the oldest may go.
+    // A period fits in half of the samples: once it is known, the oldest samples may go.
     if (period_s_ == 0.0 && count_ == samples) halve();
     if (ticks_ % sample_ticks_ != 0) return;
     if (count_ == 0) min_ = max_ = value;
@@ -92,7 +92,7 @@ class PeriodFinder {
     if (period_s_ == 0.0) propose(1);
   }
 
-  /// The time since the rise that was this many before the last one, or one further back.
+  /// Proposes the time since the rise that was `back` before the last one, or since an earlier one.
   void propose(std::int64_t back) {
     for (candidate_ = 0; back < rises_; ++back) {
       const double time_s = rise_s_[0] - rise_s_[static_cast<std::size_t>(back)];
@@ -121,7 +121,7 @@ class PeriodFinder {
     }
   }
 
-  /// The sample is among those of a period before.
+  /// True when the sample lies within those of one period before.
   bool alike(std::int64_t sample) const {
     const double before = static_cast<double>(sample) - lag_;
     const auto left = static_cast<std::int64_t>(std::floor(before));
@@ -152,7 +152,7 @@ class PeriodFinder {
   std::int64_t count_ = 0;  ///< of samples
   float min_ = 0.0F;
   float max_ = 0.0F;
-  bool armed_ = false;  ///< it was well below the middle
+  bool armed_ = false;  ///< the reference was well below the middle
   std::int64_t rises_ = 0;
   std::array<double, times> rise_s_{};  ///< the last one first
   std::int64_t candidate_ = 0;          ///< rises back; 0: none

@@ -17,13 +17,13 @@ struct PiSettings {
 template <class Scalar>
 class Pi {
  public:
-  /// dc_gain_m_per_W: metres that a watt of the law's own unit stands for.
+  /// dc_gain_m_per_W: metres per watt of the law's own unit.
   Pi(const PiSettings& settings, double dc_gain_m_per_W, double step_s)
       : settings_(settings),
         proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
         integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
 
-  /// The integral is what the error leaves of the power.
+  /// To hold a power, the integral becomes that power less the proportional term.
   void start(const LawStart<Scalar>& at) {
     demanded_ = at.hold ? at.power : Scalar{};
     integral_ = Accumulator<Scalar>(demanded_ - (at.model.position - at.position) * proportional_);
@@ -37,7 +37,7 @@ class Pi {
     integral_step_ = integral_step_ * Accumulator<Scalar>(oscillation_gain_ratio);
   }
 
-  /// Returns the wanted power. The integrator holds while the power is limited, unless the error
+  /// Returns the demanded power. The integrator holds while the power is limited, unless the error
   /// leads out of the limit.
   Scalar step(const LawInput<Scalar>& in) {
     const Scalar error = in.model.position - in.position;

@@ -1,4 +1,4 @@
-// The motion that a controller is asked to make the muscle follow.
+// The motion that a controller makes the muscle follow.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace supercoil::control {
 
-/// The model's motion at one tick; position and its derivatives by time in the reference's unit.
+/// The model's motion at one tick; position and its time derivatives in the reference's unit.
 template <class Scalar>
 struct ModelMotion {
   Scalar position{};
@@ -18,26 +18,26 @@ struct ModelMotion {
   Scalar acceleration{};
 };
 
-/// Where a trajectory is at a time.
+/// A trajectory's motion at a time.
 struct TrajectoryPoint {
   ModelMotion<double> motion;  ///< m, m/s, m/s²
   double jerk = 0.0;           ///< m/s³
 };
 
-/// Wm(s) = gain/denominator, third order, of relative degree three as the muscle is.
+/// Wm(s) = gain/denominator, third order, of relative degree three like the muscle.
 struct ReferenceModelSettings {
   Polynomial<3> denominator;  ///< monic, Hurwitz, ascending
   double gain;                ///< > 0; equal to denominator[0] for a DC gain of 1
-  /// Where the poles are real: at −poles_rad_per_s[i]. NaN: complex.
+  /// Real poles are at −poles_rad_per_s[i]; NaN when they are complex.
   std::array<double, 3> poles_rad_per_s{NAN, NAN, NAN};
 
   /// The default model by itself would need seconds to come back to a trajectory.
   static constexpr double min_leading_rad_per_s = 5.0;
 
   double dc_gain() const { return gain / denominator[0]; }
-  /// The reference, in m, under which a model that moves so goes on to a motion, and along it. What
-  /// it is off by fades with three poles at min_leading_rad_per_s, or at its own if these are
-  /// faster.
+  /// The reference, in m, under which a model in this motion converges to another one and then
+  /// follows it. The deviation decays with three poles at min_leading_rad_per_s, or at the model's
+  /// own if these are faster.
   double reference_for(const TrajectoryPoint& to, const ModelMotion<double>& model) const {
     const Polynomial<3>& a = denominator;
     const double pole = std::fmax(min_leading_rad_per_s, std::cbrt(a[0]));
@@ -62,14 +62,14 @@ ReferenceModelSettings poles_model(const std::array<double, 3>& poles);
 std::optional<ReferenceModelSettings> reference_model_named(std::string_view name);
 
 /// The model in one arithmetic, exactly discretised for a reference held over each tick. It starts
-/// at rest in zero.
+/// at rest at zero.
 template <class Scalar>
 class ReferenceModel {
  public:
   ReferenceModel(const ReferenceModelSettings& settings, double step_s)
       : filter_(settings.denominator, step_s), gain_(settings.gain) {}
 
-  /// Goes on from a motion that another model had.
+  /// Continues from another model's motion.
   void set(const ModelMotion<Scalar>& motion) {
     using Wide = Accumulator<Scalar>;
     const typename decltype(filter_)::State state{Wide(motion.position) / gain_,

@@ -1,5 +1,5 @@
-// The fastest motion towards a reference that a muscle can make: heat is limited, and it cools by
-// itself.
+// The fastest motion towards a reference that a muscle can make: heating is limited, and cooling is
+// passive.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,32 @@
 
 namespace supercoil::control {
 
-/// What a muscle cannot do that a reference asks of it.
+/// Why a muscle cannot follow a reference.
 enum class Infeasible : std::uint8_t {
   nothing,
   cooling,  ///< it would have to be cooled
-  heating,  ///< it would need more than the greatest power
+  heating,  ///< it would need more than the maximum power
 };
 
-/// The reference that a muscle can follow, and why it is not the one that was asked for.
+/// The reference that a muscle can follow, and why it is not the demanded one.
 struct FeasibleReference {
   double reference_m = 0.0;
   Infeasible what = Infeasible::nothing;
 };
 
 /// Under a reference r the model's motion has the jerk x⃛ = g r − a2 ẍ − a1 ẋ − a0 x, and a muscle
-/// needs P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x + θ5 to move so. P rises with r: where it leaves the range,
-/// the r at the range's end is taken instead. The model then moves as the muscle with just that
-/// power, and goes on to the reference as itself as soon as it can.
+/// needs P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x + θ5 to move like that. P rises with r: when P leaves the
+/// range, the r at the end of the range is used instead. The model then moves like the muscle with
+/// exactly that power, and resumes its own motion to the reference as soon as it can.
 class ReferenceShaper {
  public:
-  /// model: the one that the reference goes through. muscle: until retune().
+  /// model: the reference model in use. muscle: used until retune().
   ReferenceShaper(const ReferenceModelSettings& model, const RegressionScale& muscle)
       : model_(model), theta_(muscle.nominal), moving_mass_kg_(muscle.moving_mass_kg) {}
 
-  /// The muscle was identified. What else pulls at it is not the muscle's.
+  /// The muscle was identified. The bias stays: external loads do not belong to the muscle.
   void retune(const Theta& theta) { theta_ = theta; }
-  /// Goes by the estimate while that is trusted, then by the last that was.
+  /// Uses the estimate while it is trusted, then the last trusted one.
   void learn(const Estimate& estimate) {
     if (!estimate.trusted) return;
     theta_ = estimate.theta;
@@ -54,7 +54,7 @@ class ReferenceShaper {
     return {shaped_m, needed_W < given_W ? Infeasible::cooling : Infeasible::heating};
   }
 
-  /// What the muscle needs for the model's motion under a reference.
+  /// The power that the muscle needs for the model's motion under a reference.
   double power_W(double reference_m, const ModelMotion<double>& at) const {
     const Polynomial<3>& a = model_.denominator;
     const double jerk = model_.gain * reference_m - a[2] * at.acceleration - a[1] * at.velocity -

@@ -5,8 +5,8 @@
 
 namespace supercoil::control {
 
-/// Of the loop's poles, for each tick: it is stable below 1. step_s: > 0; delay_s: >= 0, a delay of
-/// more than 16 ticks to within 1 %. Allocates.
+/// Largest magnitude of the loop's poles, per tick; stable below 1. step_s: > 0; delay_s: >= 0,
+/// accurate to 1 % above 16 ticks. Allocates.
 double spectral_radius(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s);
 

@@ -13,13 +13,13 @@ namespace supercoil::control {
 /// Sums the regression P/Λ = θᵀ[m̂s³X, s²X, sX, X]/Λ + bias over an experiment, block by block, and
 /// solves it at the end: every sample counts alike, and nothing has to converge.
 ///
-/// It is an instrumental-variable fit: the noise of the measured position is in the regressors, so
-/// they are correlated with those of a simulated muscle, the believed one under the same power,
-/// which has no noise. Noise then widens the result and does not bend it. How far off the belief is
-/// matters little: it only weighs the samples.
+/// It is an instrumental-variable fit: the regressors contain the noise of the measured position,
+/// so they are correlated with those of a simulation of the believed muscle under the same power,
+/// which has no noise. Noise then widens the result but does not bias it. Errors of the believed
+/// muscle matter little: it only weights the samples.
 ///
 /// The deviation of each parameter is the jackknife's over the blocks (Efron and Stein, 1981): how
-/// much the result depends on which part of the experiment is left out. So it has the noise in it
+/// much the result depends on which part of the experiment is left out. So it includes the noise,
 /// and as much of the model's own error as varies during the experiment.
 class BatchLeastSquares {
   static constexpr int size = 5;  ///< θ and the bias
@@ -27,48 +27,48 @@ class BatchLeastSquares {
 
  public:
   static constexpr std::size_t max_blocks = 16;
-  /// Less than these leave nothing to judge the fit by.
+  /// Fewer would leave nothing to judge the fit by.
   static constexpr std::size_t min_blocks = 3;
 
-  /// What the experiment says of the muscle.
+  /// What the experiment says about the muscle.
   struct Fit {
     Theta theta;      ///< in θ's own units, from all blocks
     double bias_W;    ///< constant power beside them: a load, a wrong zero
     Theta deviation;  ///< standard, relative to theta
-    /// How far the fit of the last third, which the fit of the rest has not seen, is from that,
-    /// relative to it.
+    /// Distance of the last third's fit from the fit of the rest, which has not seen the last
+    /// third, relative to the latter.
     Theta unseen_difference;
-    /// Of the filtered power's variance in the last third: what the fit of the rest does not
-    /// explain there.
+    /// Fraction of the filtered power's variance in the last third that the fit of the rest does
+    /// not explain.
     double unexplained_ratio;
   };
 
   /// step_s: between ticks. believed: a valid muscle.
   BatchLeastSquares(const PhysicalParameters& believed, double step_s);
 
-  /// Forgets all. The muscle is at rest at this position, without power.
+  /// Forgets everything. The muscle is at rest at this position, without power.
   void start(double position_m);
 
-  /// Begins another experiment, which the motion goes on into.
+  /// Begins another experiment while the motion continues.
   void start_anew();
 
-  /// One tick: this tick's position, and the power applied since the last one. block: which it
-  /// counts to, below max_blocks; empty: to none, while the filters settle.
+  /// One tick: this tick's position, and the power applied since the last one. block: which one the
+  /// tick counts to, below max_blocks; empty while the filters settle.
   void step(double position_m, double applied_power_W, std::optional<std::size_t> block);
 
-  /// So many blocks have begun.
+  /// The number of blocks that have begun.
   std::size_t blocks() const { return blocks_; }
 
   /// Empty when there are too few blocks or the motion was not rich enough for a solution. The
   /// last block counts as complete.
   std::optional<Fit> fit() const;
 
-  /// What a fit needs of an experiment.
+  /// The sums that a fit needs of an experiment.
   class Sums {
     friend BatchLeastSquares;
     Matrix<double, size> instrumental = Matrix<double, size>::Zero();
     Regressors correlation = Regressors::Zero();
-    // What judges a solution.
+    // To judge a solution.
     Matrix<double, size> information = Matrix<double, size>::Zero();
     Regressors projection = Regressors::Zero();
     double energy = 0.0;
@@ -82,10 +82,10 @@ class BatchLeastSquares {
     }
   };
 
-  /// All of the experiment, by which a fit to another one can be judged.
+  /// The sums of the whole experiment, to judge a fit to another one.
   Sums experiment() const { return sum(0, blocks_); }
-  /// Of the filtered power's variance in that experiment of this muscle: what theta, beside the
-  /// constant power that suits it best, does not explain. NaN: of no sample.
+  /// Fraction of the filtered power's variance in that experiment with this muscle that theta, with
+  /// the best constant power, does not explain. NaN without samples.
   double unexplained_ratio(const Sums& experiment, const Theta& theta) const;
 
  private:

@@ -1,4 +1,4 @@
-// Tells a muscle that has changed from a model that is not quite right.
+// Distinguishes a change of the muscle from a model that is not quite right.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace supercoil::control {
 
 /// How slow a muscle is: θ3/θ4, its thermal time constant, over that of the paper's muscle, on
-/// which times of filters and detectors were found.
+/// which the times of filters and detectors were tuned.
 inline double slowness(const Theta& theta) {
   constexpr double typical_thermal_s = 1.945;
   return theta[2] / theta[3] / typical_thermal_s;
@@ -20,12 +20,12 @@ inline double slowness(const Theta& theta) {
 
 /// A directional likelihood ratio. A change moves the parameters along a known direction d, and so
 /// the residual e along s = dᵀψ: over a short window, g = E[s e]²/E[s²] is how much of the
-/// residual's power that explains. What the model does not describe also leaves residuals, but
-/// those return with the motion: g must exceed a multiple of the largest it has been before.
+/// residual's power the change explains. Model error also leaves residuals, but those recur with
+/// the motion: g must exceed a multiple of its largest earlier value.
 ///
 /// 3 false changes in 24 runs of 1000 s of random steps over twelve kinds of simulated muscles
 /// (docs/muscles.md), two of them where heat transfer alone depends on temperature. With a ratio of
-/// 6 a softening by a quarter is missed at two of eight phases on the hardest.
+/// 6 a softening by a quarter is missed at two of eight phases on the hardest muscle.
 template <int Directions>
 class ChangeDetector {
  public:
@@ -34,12 +34,12 @@ class ChangeDetector {
   /// Times are for a muscle with a thermal time constant of 1.95 s.
   struct Settings {
     double period_s;           ///< between steps
-    double floor_rms;          ///< that g must exceed in any case, squared; in the residual's unit
+    double floor_rms;          ///< g must always exceed its square; in the residual's unit
     double window_s = 0.7;     ///< of the expectations
     double delay_s = 2.5;      ///< before g counts as past
-    double memory_s = 1000.0;  ///< with which the largest g is forgotten
-    double ratio = 5.0;        ///< to the largest g before
-    double settle_s = 15.0;    ///< first errors are the start's
+    double memory_s = 1000.0;  ///< in which the largest g is forgotten
+    double ratio = 5.0;        ///< to the largest earlier g
+    double settle_s = 15.0;    ///< earlier errors come from the start
     double blind_s = 90.0;     ///< no change is reported before
     double repeat_s = 5.0;     ///< between changes
 
@@ -77,11 +77,11 @@ class ChangeDetector {
     return best;
   }
 
-  /// How far along a direction the parameters have moved, by the last window.
+  /// How far along a direction the parameters have moved, according to the last window.
   double amount(int direction) const {
     return square_[direction] > 0.0 ? correlation_[direction] / square_[direction] : 0.0;
   }
-  /// The parameters were moved: what the window holds is of the past.
+  /// Call after moving the parameters, which makes the window's contents obsolete.
   void forget_window() {
     correlation_.setZero();
     square_.setZero();

@@ -1,4 +1,4 @@
-// Watches a muscle for changes with the estimator's own equation, through quicker filters.
+// Watches a muscle for changes with the estimator's own equation, through faster filters.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace supercoil::control {
 
-/// Λ(s) = (s + 18)⁵. A change moves the muscle at once, while what the linear equation does not
-/// describe comes as slowly as the motion: the quicker the filters, the better the two are told
-/// apart. On the muscle `real_hard` (15 % of hysteresis) a quarter less stiffness is found within
-/// 0.32 s at all of 16 phases of the sine; with poles at 8 rad/s it was missed at 5. Beyond 20 the
+/// Λ(s) = (s + 18)⁵. A change moves the muscle at once, while the error of the linear equation
+/// comes as slowly as the motion: the faster the filters, the better the two are told apart. On the
+/// muscle `real_hard` (15 % of hysteresis) a stiffness lower by a quarter is detected within 0.32 s
+/// at all of 16 phases of the sine; with poles at 8 rad/s it was missed at 5. Beyond 20 the
 /// position's noise shows on slow muscles.
 inline constexpr double watch_pole_rad_per_s = 18.0;
 
@@ -38,7 +38,7 @@ class ChangeWatch {
     weights_ = Theta{units[0] * scale.moving_mass_kg, units[1], units[2], units[3]} * gain_;
   }
 
-  /// The muscle is heated anew after a pause.
+  /// The muscle is heated again after a pause.
   void restart(Scalar position_W) {
     power_.settle(Scalar{});
     position_.settle(position_W);
@@ -52,7 +52,7 @@ class ChangeWatch {
     position_.step(position_W);
   }
 
-  /// Whether the muscle has changed, θ being what is known of it.
+  /// Whether the muscle has changed from what is known of it, theta.
   bool update(const Parameters& theta) {
     if (settling_ > 0) {
       --settling_;
@@ -81,9 +81,9 @@ class ChangeWatch {
  private:
   using Detector = ChangeDetector<directions>;
 
-  /// What a change must leave, over max_W.
+  /// Residual (rms) that a change must exceed, over max_W.
   static constexpr double floor_ratio = 0.0027;
-  /// In which the filters forget where they began.
+  /// Time in which the filters forget their initial state.
   static constexpr double settling_s = 3.0;
 
   static constexpr Polynomial<5> lambda() {
@@ -99,7 +99,7 @@ class ChangeWatch {
                                   .window_s = 0.4,
                                   .ratio = 6.0};  // the measured motion is noisy
     s.stretch(slow);
-    // Motions are no quicker on a quick muscle than on the usual one.
+    // Motions are no faster on a fast muscle than on the usual one.
     s.memory_s *= std::max(1.0, slow);
     s.blind_s *= std::max(1.0, slow);
     return s;

@@ -11,18 +11,19 @@
 
 namespace supercoil::control {
 
-/// The thermal time constant ψ/η from power and position. Heat is taken for linear, τq̇ = P − q with
-/// q the power that the muscle loses, and its motion for any curve of q with hysteresis, inertia,
+/// The thermal time constant ψ/η from power and position. Heat is assumed linear, τq̇ = P − q with
+/// q the power that the muscle loses, and its motion any curve of q with hysteresis, inertia,
 /// damping and a drift:
 ///   x + a₁ẋ + a₂ẍ = c₀ + c₁u + c₂u² + c₃u³ + c₄ play(u; r₁) + c₅ play(u; r₂) + c₆ t,  u = q/max_W.
-/// That is linear in all but τ, so it is fitted for each of a row of them; the one that leaves the
-/// least is found. A fit that takes the motion for linear as well gets τ wrong by a factor of up
+/// That is linear in all but τ, so it is fitted for each of a series of τ; the one with the
+/// smallest residual is found. A fit that assumes linear motion as well gets τ wrong by a factor of
+/// up
 /// to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
 class CoolingFit {
  public:
-  /// What is possible of the muscle; all > 0.
+  /// The muscle's possible range; all > 0.
   struct Settings {
-    double fastest_s = 0.5;  ///< time constants that are possible
+    double fastest_s = 0.5;  ///< possible time constants
     double slowest_s = 6.0;
     double max_W = 4.5;
   };
@@ -33,30 +34,30 @@ class CoolingFit {
   };
 
   static constexpr double max_unexplained = 0.01;  ///< of the position's variance
-  static constexpr double settle_s = 6.0;          ///< not used: filters and muscle start anew
+  static constexpr double settle_s = 6.0;          ///< not used, while filters and muscle settle
 
   /// step_s > 0. Allocates nothing.
   CoolingFit(const Settings& settings, double step_s);
 
-  /// Forgets all; the next step is the first.
+  /// Forgets everything; the next step is the first.
   void start();
   /// One tick: this tick's position, and the power applied since the last one.
   void step(double position_m, double power_W);
-  /// Empty: no τ explains the motion, or too many do.
+  /// Empty when no τ explains the motion, or too many do.
   std::optional<Found> found() const;
 
  private:
   static constexpr std::size_t candidates = 40;
   static constexpr int terms = 9;
-  static constexpr int filtered = 7;  ///< of them, through the low-pass
+  static constexpr int filtered = 7;  ///< of these, through the low-pass
   static constexpr double wanted_step_s = 0.01;
   static constexpr double corner_rad_per_s = 4.0;  ///< of two equal low-passes
-  static constexpr double margin = 1.3;            ///< beside what is possible
+  static constexpr double margin = 1.3;            ///< around the possible range
   static constexpr double min_used_s = 20.0;
   static constexpr double fine_play = 0.03;  ///< of max_W
   static constexpr double coarse_play = 0.12;
-  static constexpr std::size_t aside = 4;  ///< all candidates so far from the best, or farther,
-  static constexpr double min_sharpness = 1.7;  ///< leave this many times more
+  static constexpr std::size_t aside = 4;       ///< all candidates at least this far from the best
+  static constexpr double min_sharpness = 1.7;  ///< leave at least this many times its residual
   static constexpr double ridge = 1e-10;
 
   struct Fit {
@@ -78,7 +79,7 @@ class CoolingFit {
 
   void take(double position_m, double power_W);
   void take(Fit& fit, double x, double power_W, bool used) const;
-  /// Of the position's variance.
+  /// Unexplained fraction of the position's variance.
   double unexplained(const Fit& fit) const;
   double used_s() const;
 

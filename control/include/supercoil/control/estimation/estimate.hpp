@@ -17,7 +17,7 @@ struct Estimate {
   /// θ is near enough to be used, even when not yet trusted: see each estimator.
   bool settled = false;
   double bias_W = 0.0;  ///< of the power, constant; the gradient law has none
-  /// Standard deviations from least squares; infinity where the law has none.
+  /// Standard deviations from least squares; infinity when the law has none.
   Theta deviation = Theta::Constant(INFINITY);
   double bias_deviation_W = INFINITY;
 };

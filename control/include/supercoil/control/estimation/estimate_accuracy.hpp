@@ -1,17 +1,17 @@
-// How far off recursive least squares is, when the noise that it sees is white position noise.
+// The error of recursive least squares when its noise is white position noise.
 #pragma once
 
 #include "supercoil/control/estimation/filtered_regression.hpp"
 
 namespace supercoil::control {
 
-/// The covariance that recursive least squares carries is right for white residuals. Ours are
-/// position noise v through A(s)/Λ', A = θ1 m̂s³ + θ2 s² + θ3 s + θ4: correlated over seconds. With
-/// H = Σφφᵀ (forgotten) and v white with density S, the covariance of θ is
+/// The covariance that recursive least squares carries is right for white residuals. These are
+/// position noise v through A(s)/Λ', A = θ1 m̂s³ + θ2 s² + θ3 s + θ4, so correlated over seconds.
+/// With H = Σφφᵀ (with forgetting) and v white with density S, the covariance of θ is
 ///   H⁻¹ (S Σ φ'φ'ᵀ + M) H⁻¹,  φ' = φ filtered by A/Λ' (forgotten twice as fast).
-/// M is what is known without data: H at the prior's information gives the prior's variance.
-/// S follows from the residuals' mean square over ∫h², h being A/Λ's impulse response. Where the
-/// model is not right, more than noise is in them: see EstimateDrift.
+/// M is the knowledge without data: H at the prior's information gives the prior's variance.
+/// S follows from the residuals' mean square over ∫h², h being the impulse response of A/Λ'. When
+/// the model is not right, they contain more than noise: see EstimateDrift.
 /// All in double, 100 times a second; it decides nothing.
 class EstimateAccuracy {
  public:
@@ -29,16 +29,16 @@ class EstimateAccuracy {
     double noise_m2_per_Hz;  ///< expected density of the position's noise (rms² · tick)
     double counted_W2;       ///< R: what least squares takes the residual's variance for
     double forgetting;       ///< of an update
-    /// Of the last five, to which their variances grow where nothing excites them.
+    /// Of the last five: to these their variances grow when nothing excites them.
     Vector<double, 5> unexcited;
   };
   explicit EstimateAccuracy(const Settings& settings);
 
   /// The regression's filters start at rest.
   void restart_filters();
-  /// Nothing is known of θ but these variances.
+  /// Nothing is known of θ except these variances.
   void forget(const Parameters& variances);
-  /// Nothing is known of the first parameters but these variances.
+  /// Nothing is known of the first parameters except these variances.
   void forget_first(const Vector<double, free>& variances);
 
   /// What one regression showed.
@@ -48,28 +48,28 @@ class EstimateAccuracy {
     Derivatives of_impulse;  ///< FilteredRegression's
     Derivatives of_one;
     double residual_W;
-    double scale;  ///< of the counted covariance to a true one, of what nothing excites
+    double scale;  ///< counted covariance over a true one, for unexcited parameters
   };
   /// One regression, every update_s.
   void step(const Seen& seen);
 
-  /// The muscle has changed: so much more may be true of the last five. before, after: the counted
-  /// covariance of the last five; after must be regular.
+  /// The muscle has changed: `added` is added to the covariance of the last five. before, after:
+  /// their counted covariance; after must be regular.
   void spread(const Matrix<double, 5>& before, const Matrix<double, 5>& after,
               const Matrix<double, 5>& added);
 
-  /// Of the residual, in W².
+  /// Mean square of the residual, in W².
   double mean_square() const { return mean_square_W2_; }
-  /// A covariance of θ1…θ4 over nominal and of the bias in W.
+  /// The parts of a covariance of θ1…θ4 over nominal and of the bias in W.
   struct Parts {
     Matrix<double, 5> noise;  ///< from the residuals, as if they were position noise
     Matrix<double, 5> prior;
   };
   /// covariance: as counted.
   Parts parts(const Square& covariance, const Parameters& theta) const;
-  /// A covariance that was scaled up, within twice the deviations of what nothing excites.
+  /// Limits a scaled-up covariance to twice the deviations of unexcited parameters.
   Matrix<double, 5> bounded(const Matrix<double, 5>& covariance) const;
-  /// The residuals are larger than the expected noise makes them, twice in rms.
+  /// True when the residuals' rms is more than twice what the expected noise makes it.
   bool model_errs(const Parameters& theta) const {
     return mean_square_W2_ > 4.0 * settings_.noise_m2_per_Hz * noise_gain(theta);
   }
@@ -85,7 +85,7 @@ class EstimateAccuracy {
   Filter impulse_;
   Filter one_;
   Vector<double, 4> weights_;  // of 1, s, s², s³ in A
-  Matrix<double, 4> gram_;     // ∫ of the impulse responses of [1, s, s², s³]/Λ', two by two
+  Matrix<double, 4> gram_;     // ∫ of the impulse responses of [1, s, s², s³]/Λ', pairwise
   double mean_square_W2_;
   Square prior_ = Square::Zero();  // M
   Square scores_ = Square::Zero();

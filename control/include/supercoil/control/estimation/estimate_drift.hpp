@@ -8,10 +8,10 @@
 
 namespace supercoil::control {
 
-/// A model that is not quite right fits a little otherwise wherever the muscle is, and no
-/// covariance that is computed from residuals predicts by how much. So θ is compared with itself a
-/// while ago, in the metric of the covariance that it had then: δᵀD⁻¹δ over the number of
-/// directions in which anything was known.
+/// A model that is not quite right fits slightly differently wherever the muscle is, and no
+/// covariance computed from residuals predicts by how much. So θ is compared with its own earlier
+/// value, in the metric of its covariance at that time: δᵀD⁻¹δ over the number of directions in
+/// which anything was known.
 class EstimateDrift {
  public:
   static constexpr int size = 5;
@@ -21,7 +21,7 @@ class EstimateDrift {
   /// All > 0.
   struct Settings {
     double update_s;       ///< between steps
-    double lag_s;          ///< between what is compared: so that the data are others
+    double lag_s;          ///< between compared estimates, so that their data differ
     double memory_s;       ///< in which a comparison's weight falls to 1/e
     Parameters unexcited;  ///< variances of what nothing excites
   };
@@ -29,9 +29,9 @@ class EstimateDrift {
 
   /// One estimate with its covariance, every update_s.
   void step(const Parameters& theta, const Square& covariance);
-  /// The muscle has changed: θ is compared with nothing before.
+  /// The muscle has changed: θ is not compared with earlier values.
   void forget_past();
-  /// Mean of the comparisons; about 1 where the model is right, 0 before there was one.
+  /// Mean of the comparisons; about 1 when the model is right, 0 before the first.
   double mean_square() const { return mean_square_; }
 
  private:

@@ -10,11 +10,11 @@
 
 namespace supercoil::control {
 
-/// The numbers go over CAN: a new one comes last.
+/// The numbers are sent over CAN: a new one comes last.
 enum class EstimatorKind { none, gradient, least_squares };
 
-/// What an Estimator is made of. Of the estimators' own settings only those of kind count. Nothing
-/// is checked here: see supported() and check_fit().
+/// What an Estimator is made of. Of the estimators' own settings only those of `kind` are used.
+/// Nothing is checked here: see supported() and check_fit().
 struct EstimatorSettings {
   EstimatorKind kind = EstimatorKind::gradient;
   Arithmetic arithmetic = Arithmetic::float64;
@@ -22,9 +22,9 @@ struct EstimatorSettings {
   LeastSquaresSettings least_squares;
   ExcitationMonitor::Settings excitation;
 
-  /// The muscle from which each begins. max_W: of its channel; NaN while that is not known.
+  /// Sets the muscle from which each begins. max_W: of its channel; NaN while unknown.
   void set_nominal(const PhysicalParameters& muscle, double max_W);
-  /// Each begins at this muscle's θ; its nominal one, the scale, stays.
+  /// Each begins at this muscle's θ; the nominal muscle, the scale, stays.
   void begin_at(const PhysicalParameters& muscle);
 };
 
@@ -44,7 +44,7 @@ constexpr bool supported(EstimatorKind kind, Arithmetic arithmetic) {
   return runs_in<Estimators>(kind, arithmetic);
 }
 
-/// What q8.24 cannot hold of the settings (see controller_settings.hpp).
+/// The first setting that q8.24 cannot hold (see controller_settings.hpp).
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
 
 /// The gradient law or least squares, or none. Positions in metres, powers in watts, one step()
@@ -55,7 +55,7 @@ class Estimator {
   Estimator(const EstimatorSettings& settings, double step_s);
   /// One tick: this tick's position, and the power really applied since the last one.
   void step(double position_m, double applied_power_W);
-  /// After a pause in which it was not stepped: signals start at rest, what was learned stays.
+  /// Call after a pause without steps: signals start at rest, what was learned stays.
   void restart();
   /// Empty for "none".
   const std::optional<Estimate>& estimate() const { return estimate_; }

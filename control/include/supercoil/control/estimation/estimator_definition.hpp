@@ -1,4 +1,4 @@
-// What each estimator states of itself, beside its equations.
+// What each estimator declares besides its equations.
 #pragma once
 
 #include <concepts>
@@ -19,11 +19,11 @@ concept ParameterEstimator = requires(Running running, Scalar scalar) {
   running.restart();
 };
 
-/// In<Scalar>: the estimator, made of its settings and step_s. watch(): each tick after step(), for
-/// those whose trust hangs on excitation. tells_anew(): whether estimate() may be another after
-/// this tick. estimate(): what it tells, and whether that is trusted, by the nominal θ and the
-/// greatest relative error. set_nominal(): max_W is NaN while not known. values: a range of
-/// SettingValue. Where it runs in fixed_point, check_fit(fit, settings, step_s).
+/// In<Scalar>: the estimator, made from its settings and step_s. watch(): each tick after step(),
+/// for estimators whose trust depends on excitation. tells_anew(): whether estimate() may have
+/// changed in this tick. estimate(): its result, and whether that is trusted, given the nominal θ
+/// and the maximum relative error. set_nominal(): max_W is NaN while unknown. values: a range of
+/// SettingValue. If it runs in fixed_point, check_fit(fit, settings, step_s).
 template <class Definition, class Running = typename Definition::template In<double>,
           class Value = SettingValue<typename Definition::Settings>>
 concept EstimatorDefinition = ParameterEstimator<Running, double> &&

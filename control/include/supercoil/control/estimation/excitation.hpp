@@ -13,12 +13,12 @@ namespace supercoil::control {
 /// excitation), and how well the *present* θ predicts the whole window: E = ∫(z − θᵀφ)²dt, from the
 /// window's ∫zφdt and ∫z²dt. Whatever θ° fits the window best, E ≥ (θ − θ°)ᵀM(θ − θ°), so |θ − θ°|
 /// ≤ √(E/λmin), in the units of the regressors' scale, where every nominal parameter is 1. (The
-/// running error ε = z − θᵀφ will not do in E's place: while θ moves, adaptation keeps ε small
-/// wherever θ is.) θ° is the muscle but for noise: noise excites too, but it enters E in the same
+/// running error ε = z − θᵀφ cannot replace E: while θ moves, adaptation keeps ε small wherever θ
+/// is.) θ° is the muscle apart from noise: noise excites too, but it enters E in the same
 /// proportion, so that without motion the bound stays near 1.
 class ExcitationMonitor {
  public:
-  /// The window, and what is asked of it.
+  /// The window, and the bound that makes an estimate trusted.
   struct Settings {
     double window_s = 20.0;
     /// The bound below which an estimate is trusted.
@@ -43,7 +43,8 @@ class ExcitationMonitor {
   /// λmin in W²s over the last whole window; 0 until one has passed.
   double min_eigenvalue() const { return min_eigenvalue_; }
   /// The largest distance of θ from the window's best fit, relative to the nominal parameters;
-  /// infinity until a window has passed. It judges θ as it was at the last sixteenth of a window.
+  /// infinity until a window has passed. It judges θ as it was at the end of the last sixteenth of
+  /// a window.
   double error_bound() const { return error_bound_; }
   bool trusted() const { return error_bound_ <= trusted_error_; }
 

@@ -6,16 +6,15 @@
 namespace supercoil::control {
 
 /// Λ'(s) = (s³ + 6s² + 9s + 10)(s/8 + 1)², made monic by its gain of 64. Two poles more than the
-/// paper's Λ: the regressor of θ1, s³X/Λ, is otherwise as noisy as the position.
+/// paper's Λ: otherwise the regressor of θ1, s³X/Λ, is as noisy as the position.
 inline constexpr Polynomial<5> steep_lambda{640.0, 736.0, 538.0, 169.0, 22.0, 1.0};
 inline constexpr double steep_lambda_gain = 64.0;
 
 /// z = P/Λ' = θᵀφ with, in this order,
 ///   φ = [free responses of s², s, 1 over Λ'; m̂s³X/Λ', s²X/Λ', sX/Λ', X/Λ'; 1/Λ']
 /// in the units of its scale. The free responses are what the muscle's motion *before* the filters
-/// started leaves in them: the derivatives' initial values come in as a polynomial of second
-/// degree. The last regressor carries a constant power bias in watts, and settles at 1/Λ'(0) =
-/// 1/10.
+/// started leaves in them: the derivatives' initial values enter as a polynomial of second degree.
+/// The last regressor carries a constant power bias in watts, and settles at 1/Λ'(0) = 1/10.
 template <class Scalar>
 class FilteredRegression {
  public:
@@ -24,7 +23,7 @@ class FilteredRegression {
   using Regressors = Vector<Scalar, size>;
   using Derivatives = Vector<double, 5>;
 
-  /// step_s: between ticks; update_s: between regressions, a multiple of it.
+  /// step_s: between ticks; update_s: between regressions, a multiple of step_s.
   FilteredRegression(const RegressionScale& scale, double step_s, double update_s)
       : power_(steep_lambda, step_s),
         position_(steep_lambda, step_s),
@@ -36,7 +35,7 @@ class FilteredRegression {
             .template cast<Accumulator<Scalar>>();
   }
 
-  /// The filters start at rest while the muscle, which is at this position, perhaps moves.
+  /// Starts the filters at rest. The muscle is at this position, and may be moving.
   void restart(Scalar position_W) {
     power_.settle(Scalar{});
     bias_.settle(Scalar{});

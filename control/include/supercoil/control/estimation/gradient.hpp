@@ -15,7 +15,7 @@ struct GradientSettings {
   Theta gain{0.6e7, 0.4e7, 0.7e7, 0.09e7};  ///< diagonal of Γ, > 0
   Theta initial{0.1, 5.0, 30.0, 20.0};      ///< θ(0)
   RegressionScale scale;
-  /// θ is kept inside, when given (in θ's own units).
+  /// When given, θ is kept inside (in θ's own units).
   std::optional<Box<double, 4>> bounds;
   /// Divides ε by 1 + normalisation · φᵀ(Γ·step)φ; 0 is the paper's law. From 0.5 on every Euler
   /// step shrinks the error along φ, whatever the gain and the signals' size.
@@ -58,7 +58,7 @@ class GradientEstimator {
     if (bounds_) theta_ = project(theta_, *bounds_);
   }
 
-  /// The muscle is heated anew after a pause: the filters start at rest, θ stays.
+  /// The muscle is heated again after a pause: the filters start at rest, θ stays.
   void restart() {
     model_.restart();
     error_ = Scalar{};
@@ -83,7 +83,7 @@ class GradientEstimator {
   Scalar error_{};
 };
 
-/// Trusted, and settled, by its ExcitationMonitor.
+/// Trusted and settled according to its ExcitationMonitor.
 struct GradientEstimation {
   using Settings = GradientSettings;
   template <class Scalar>

@@ -10,8 +10,8 @@ namespace supercoil::control {
 
 /// Minimises Σ λᵃ (z − wᵀψ)²/R + (w − w₀)ᵀP₀⁻¹(w − w₀) over w, a being an observation's age in
 /// updates and R its variance: in information form, M ← λM + ψψᵀ/R + (1 − λ)P₀⁻¹. A covariance that
-/// grows where nothing excites it has to be capped as a whole, and learning starves; here such a
-/// direction goes back to w₀ while the others learn. Factoring M costs N/3 times as much as all the
+/// grows without excitation has to be capped as a whole, and learning starves; here an unexcited
+/// direction returns to w₀ while the others learn. Factoring M costs N/3 times as much as all the
 /// rest, so the caller may spread it over ticks: add(), factor() for all columns in order, then
 /// solve().
 template <int N>
@@ -23,7 +23,7 @@ class LeakyLeastSquares {
   struct Settings {
     Weights prior;                    ///< w₀
     Weights deviation;                ///< √ of the diagonal P₀, > 0
-    double forgetting;                ///< λ, of an update, in (0, 1]
+    double forgetting;                ///< λ, per update, in (0, 1]
     double kept_after_change = 0.03;  ///< of the information
   };
 
@@ -32,7 +32,7 @@ class LeakyLeastSquares {
     reset(s.prior);
   }
 
-  /// Nothing is known but the prior; weights: to begin and end with.
+  /// Nothing is known but the prior. weights: the initial ones, and the new prior.
   void reset(const Weights& weights) {
     settings_.prior = weights;
     weights_ = weights;
@@ -53,7 +53,7 @@ class LeakyLeastSquares {
               leak * prior_information_.cwiseProduct(settings_.prior);
   }
 
-  /// Cholesky's columns [first, last) of the information; those before are done.
+  /// Computes Cholesky's columns [first, last) of the information, after all earlier columns.
   void factor(int first, int last) {
     for (int j = first; j < last; ++j) {
       double pivot = information_(j, j);
@@ -71,7 +71,7 @@ class LeakyLeastSquares {
     }
   }
 
-  /// The weights of what was added before the factoring began.
+  /// Computes the weights from what was added before the factoring began.
   void solve() {
     for (int i = 0; i < N; ++i) {
       double sum = moment_[i];
@@ -87,7 +87,7 @@ class LeakyLeastSquares {
     }
   }
 
-  /// The muscle has changed, nobody knows how: w stays, and little of the information is kept.
+  /// The muscle has changed in an unknown way: w stays, and little of the information is kept.
   void forget() {
     const double kept = settings_.kept_after_change;
     information_ = (information_ * kept).eval();
@@ -95,8 +95,8 @@ class LeakyLeastSquares {
     moment_ = information_.template selfadjointView<Eigen::Lower>() * weights_;
   }
 
-  /// The muscle has changed by `amount` along `direction`: w goes there, the information along it
-  /// is gone, and little of the rest is kept.
+  /// The muscle has changed by `amount` along `direction`: w is moved there, the information along
+  /// it is lost, and little of the rest is kept.
   void move(const Weights& direction, double amount) {
     weights_ += amount * direction;
     forget();

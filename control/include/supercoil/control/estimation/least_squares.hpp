@@ -23,27 +23,27 @@ struct LeastSquaresSettings {
   RegressionScale scale;
   Theta initial = scale.nominal;  ///< θ(0)
   double forgetting_s = 30.0;     ///< time in which an observation's weight falls to 1/e
-  /// √R, what the residual counts for, over max_W; what counts is how it stands to the prior.
+  /// √R, the residual's assumed deviation, over max_W; only its ratio to the prior matters.
   double residual_ratio = 7e-5;
   double prior_variance = 100.0;  ///< C(0), of each θ over its nominal
-  /// Of each θ over its nominal: so sure of `initial` where nothing excites it.
+  /// Of each θ over its nominal, from `initial`, when nothing excites it.
   double unexcited_deviation = 0.5;
-  double min_ratio = 0.2;  ///< θ is kept between these parts of its nominal
+  double min_ratio = 0.2;  ///< θ over its nominal is kept between these
   double max_ratio = 5.0;
   double max_bias_W = 3.0;
   double max_W = 4.5;               ///< > 0, the largest power: the scale of changes
   double position_noise_m = 10e-6;  ///< expected, rms; see EstimateAccuracy
-  bool detects_changes = true;      ///< else it only forgets: to compare
+  bool detects_changes = true;      ///< otherwise it only forgets; for comparison
 };
 
-/// A ChangeWatch tells changes from the model's own error. After one, θ may be anywhere along the
-/// directions in which muscles change, and is otherwise known as before; the filters start anew, so
-/// that no motion of the old muscle is in them. Meanwhile the SimplestChange that explains it is
-/// told, and until there is one, θ as it was.
+/// A ChangeWatch tells changes from the model's own error. After a change θ may be anywhere along
+/// the directions in which muscles change, and is otherwise known as before; the filters restart,
+/// so that they hold no motion of the old muscle. Meanwhile the estimator reports the
+/// SimplestChange that explains the data, and until there is one, θ from before.
 ///
-/// What nothing excites returns to `initial` while the rest learns: else model errors make it drift
-/// to the bounds, and its covariance would grow for ever. Real muscles leave residuals far above R
-/// that last for seconds; whatever is added to the covariance is weighed by how far.
+/// Unexcited parameters return to `initial` while the others learn: otherwise model errors make
+/// them drift to the bounds, and their covariance grows without bound. Real muscles leave residuals
+/// far above R that last for seconds; everything added to the covariance is scaled by how far.
 template <class Scalar>
 class LeastSquaresEstimator {
   static_assert(std::is_floating_point_v<Scalar>, "a covariance spans more than fixed point does");
@@ -75,26 +75,26 @@ class LeastSquaresEstimator {
     if (++tick_ == ticks_per_update_) update(position_W);
   }
 
-  /// The muscle is heated anew after a pause: the filters start at rest, what was learned stays.
+  /// The muscle is heated again after a pause: the filters start at rest, what was learned stays.
   void restart() { begins_ = true; }
 
-  /// What it reports may be another since the last tick.
+  /// True when the reported estimate may have changed in the last tick.
   bool updated() const { return updated_; }
-  /// Within the bounds. Only the output is projected: a θ moved under the recursion would no
-  /// longer be what its covariance says (after changes it then did not converge at all).
+  /// Within the bounds. Only the output is projected: a θ moved within the recursion would no
+  /// longer match its covariance (after changes it then did not converge at all).
   const Parameters& parameters() const { return reported_; }
   const Parameters& standard_deviations() const { return deviations_; }
-  /// Whose diagonal they are the roots of; zero at first.
+  /// The deviations are the roots of its diagonal; zero at first.
   const Matrix<double, 5>& covariance() const { return reported_covariance_; }
   /// ε = z − θᵀφ of the last update, in watts through 1/Λ'.
   double error() const { return static_cast<double>(error_); }
-  /// Since it began or began anew, and since the last detected change (infinity before any).
+  /// Time since the start or restart, and since the last detected change (infinity before any).
   double running_s() const { return static_cast<double>(updates_) * period_s_; }
   double since_change_s() const {
     return changes_ == 0 ? INFINITY : static_cast<double>(since_change_) * period_s_;
   }
   std::int64_t changes() const { return changes_; }
-  /// θ predicts what the muscle does, in the direction of its motion at least.
+  /// True when θ predicts the muscle, at least in the direction of its motion.
   bool settled() const {
     return running_s() > settled_s && since_change_s() > (errs_ ? free_s : resettled_s);
   }
@@ -112,19 +112,20 @@ class LeastSquaresEstimator {
   static constexpr double resettled_s = 6.0;
   /// Λ's slowest poles decay with 0.755/s: by then 3·10⁻⁷ is left of a free response.
   static constexpr double free_s = 20.0;
-  /// How far from rest a muscle may be that changes, over max_W.
+  /// How far from rest the muscle may be when it changes, over max_W.
   static constexpr double change_span = 2.2;
-  /// Standard deviations of a change: of a load over max_W, and of each θ over its nominal besides
-  /// what it moves along the directions, which may be as much as θ itself.
+  /// Standard deviations of a change: of a load over max_W, and of each θ over its nominal in
+  /// addition to its move along the directions, which may be as large as θ.
   static constexpr double load_deviation = 0.25;
   static constexpr double other_deviation = 0.05;
-  /// Of the bias over max_W, where nothing excites it.
+  /// Deviation of the bias over max_W, when nothing excites it.
   static constexpr double unexcited_bias = 0.2;
-  /// So long a model's error lasts on the usual muscle.
+  /// How long a model error lasts on the usual muscle.
   static constexpr double error_lasts_s = 0.5;
   static constexpr std::int64_t updates_per_accuracy = 10;
-  /// Of the drift's mean square in the covariance, and what it remembers over the lag. Over random
-  /// muscles (muscles_study) the best fit of the next minute is then within two deviations in
+  /// Share of the drift's mean square in the covariance, and the drift's memory over its lag. Over
+  /// random muscles (muscles_study) the best fit of the next minute is then within two deviations
+  /// in
   /// 90 to 99 of 100 cases.
   static constexpr double drift_share = 0.06;
   static constexpr double drift_memory = 30.0;
@@ -173,8 +174,8 @@ class LeastSquaresEstimator {
     return deviations.cwiseAbs2();
   }
 
-  /// Filters start at rest. What the muscle's motion leaves in them is estimated along; span_W, how
-  /// far from rest it may be (position over the DC gain), gives the prior.
+  /// Starts the filters at rest. What the muscle's motion leaves in them is estimated as well;
+  /// span_W, how far from rest it may be (position over the DC gain), gives the prior.
   void start_filters(Scalar position_W, Scalar span_W) {
     regression_.restart(position_W);
     accuracy_.restart_filters();
@@ -222,7 +223,7 @@ class LeastSquaresEstimator {
     publish_estimate();
   }
 
-  /// What the model's error adds is learned from how θ has moved.
+  /// Learns from how θ has moved what the model's error adds.
   void judge() {
     const Vector<double, size> theta = theta_.template cast<double>();
     const auto parts = accuracy_.parts(covariance_.template matrix<double>(), theta);
@@ -234,7 +235,7 @@ class LeastSquaresEstimator {
     deviations_ = reported_covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
 
-  /// What has changed may still be told from the rest.
+  /// True while the change may still be explained.
   bool explains() const { return since_change_s() < explains_s_; }
 
   void publish_estimate() {
@@ -248,8 +249,8 @@ class LeastSquaresEstimator {
       reported_ = project<5>(reported_, bounds_, counted_covariance());
   }
 
-  /// As if each θ in its turn had been seen at its initial value, with as little weight as leaves
-  /// it the deviation of what nothing excites.
+  /// Acts as if one parameter after the other were observed at its initial value, with just the
+  /// weight that leaves it the deviation of an unexcited one.
   void return_unexcited() {
     selector_ = (selector_ + 1) % 5;
     const double variance = unexcited_[selector_] * scale_;
@@ -261,12 +262,12 @@ class LeastSquaresEstimator {
     theta_ += gain.template cast<Wide>() * off;
   }
 
-  /// Of θ1 … θ4 and the bias.
+  /// The covariance of θ1 … θ4 and the bias.
   Matrix<double, 5> counted_covariance() const {
     return covariance_.template matrix<double>().template bottomRightCorner<5, 5>();
   }
 
-  /// Of the counted covariance to a true one, as the residuals have it.
+  /// Counted covariance over a true one, according to the residuals.
   double counted_scale() const {
     return counted_W2() / (accuracy_.mean_square() * counted_updates_);
   }
@@ -311,8 +312,8 @@ class LeastSquaresEstimator {
   EstimateAccuracy accuracy_;
   EstimateDrift drift_;
   Scalar forgetting_;
-  double counted_updates_;  ///< per this many a model's error counts once
-  double explains_s_;       ///< so long after a change
+  double counted_updates_;  ///< a model error counts once per this many
+  double explains_s_;       ///< for this time after a change
   SimplestChange change_;
   double change_scale_ = 1.0;  ///< counted_scale() at the last change
   UdCovariance<Scalar, size> covariance_;
@@ -325,22 +326,22 @@ class LeastSquaresEstimator {
 
   bool begins_ = true;
   bool updated_ = false;
-  bool errs_ = false;  ///< the model, visibly
-  int first_ = 0;  ///< of the parameters that are estimated: 0 with, 3 without the free responses
+  bool errs_ = false;  ///< the model's error is visible
+  int first_ = 0;      ///< first parameter estimated: 0 with, 3 without the free responses
   std::int64_t tick_ = 0;
   std::int64_t updates_ = 0;
   std::int64_t since_start_ = 0;  ///< of the filters, in updates
   std::int64_t since_change_ = 0;
   std::int64_t changes_ = 0;
   int selector_ = 0;    ///< of the parameters in return_unexcited()
-  double scale_ = 1.0;  ///< of the counted covariance to a true one, for what is added to it
+  double scale_ = 1.0;  ///< counted covariance over a true one, for what is added to it
   Scalar error_{};
 };
 
-/// Of θ1…θ4 together, by least squares' standard deviations over nominal.
+/// Bound for θ1…θ4 together, from least squares' standard deviations over nominal.
 double relative_error_bound(const Vector<double, 5>& deviations);
 
-/// Trusted by its standard deviations.
+/// Trusted according to its standard deviations.
 struct LeastSquaresEstimation {
   using Settings = LeastSquaresSettings;
   template <class Scalar>

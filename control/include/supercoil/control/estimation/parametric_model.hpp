@@ -6,9 +6,9 @@
 
 namespace supercoil::control {
 
-/// What the regressors are measured in. Position is taken in watts at rest (divided by the muscle's
-/// DC gain) and every regressor is multiplied by its nominal parameter, so that all unknowns are
-/// near 1 and fixed point has its whole resolution.
+/// The units of the regressors. Position is taken in watts at rest (divided by the muscle's DC
+/// gain) and every regressor is multiplied by its nominal parameter, so that all unknowns are near
+/// 1 and fixed point has its full resolution.
 struct RegressionScale {
   Theta nominal{18.837, 38.606, 322.09, 165.58};  ///< the paper's θ*, docs/paper.md
   double dc_gain_m_per_W = 0.0060393;             ///< the paper's actuator
@@ -31,7 +31,7 @@ class ParametricModel {
                    .template cast<Accumulator<Scalar>>();
   }
 
-  /// position_W: this tick's position over the DC gain. applied_power_W: what the muscle really got
+  /// position_W: this tick's position over the DC gain. applied_power_W: the power really applied
   /// since the last tick.
   void step(Scalar position_W, Scalar applied_power_W) {
     power_.step(applied_power_W);
@@ -44,7 +44,7 @@ class ParametricModel {
     phi_[3] = to<Scalar>(x[0] * weights_[3]);
   }
 
-  /// All signals as if nothing had ever moved.
+  /// Resets all signals as if nothing had ever moved.
   void restart() {
     power_.settle(Scalar{});
     position_.settle(Scalar{});

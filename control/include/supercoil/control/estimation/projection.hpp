@@ -15,7 +15,7 @@ struct Box {
   Vector<Scalar, N> lower;
   Vector<Scalar, N> upper;
 
-  /// Bounds included; false with a NaN.
+  /// Bounds included; false for NaN.
   bool contains(const Vector<Scalar, N>& value) const {
     return (value.array() >= lower.array()).all() && (value.array() <= upper.array()).all();
   }
@@ -28,9 +28,10 @@ Vector<Scalar, N> project(const Vector<Scalar, N>& value, const Box<Scalar, N>& 
   return value.cwiseMax(box.lower).cwiseMin(box.upper);
 }
 
-/// Into the box along what is likely: the value that is most standard deviations outside goes to
-/// its bound and the others to what they then are likely to be, until all are inside. Element by
-/// element, what the data do contain (how the values go together) would be lost.
+/// Into the box along the covariance: the value that is the most standard deviations outside goes
+/// to its bound and the others to their likeliest values given that, until all are inside.
+/// Projecting element by element would lose what the data do contain: how the values are
+/// correlated.
 template <int N>
 Vector<double, N> project(Vector<double, N> value, const Box<double, N>& box,
                           Matrix<double, N> covariance) {

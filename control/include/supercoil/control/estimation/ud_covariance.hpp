@@ -17,14 +17,14 @@ class UdCovariance {
   /// Nothing is known of any parameter beyond these variances.
   explicit UdCovariance(const Vector<Scalar, N>& variances) { reset(variances); }
 
-  /// As made anew: a diagonal of these variances, each >= 0.
+  /// As constructed: a diagonal of these variances, each >= 0.
   void reset(const Vector<Scalar, N>& variances) {
     u_.setIdentity();
     d_ = variances;
   }
 
   /// Takes z = θᵀφ + noise into account, forgets, and returns the gain K = Cφ/(noise + φᵀCφ). Only
-  /// parameters from `first` on take part; those before must be known. noise > 0; forgetting
+  /// parameters from `first` on take part; the earlier ones must be known. noise > 0; forgetting
   /// in (0, 1].
   Vector<Scalar, N> update(const Vector<Scalar, N>& phi, Scalar noise, Scalar forgetting,
                            int first) {
@@ -49,8 +49,8 @@ class UdCovariance {
     return gain / explained;
   }
 
-  /// The first parameters become independent of all others, with these variances; 0 says that they
-  /// are known. What is believed of the others stays: being last, they do not lean on the first.
+  /// The first parameters become independent of all others, with these variances; 0 means that they
+  /// are known. The covariance of the others stays: being last, they do not depend on the first.
   template <int Count>
   void renew_first(const Vector<Scalar, Count>& variances) {
     u_.template topRows<Count>().setZero();
@@ -58,10 +58,10 @@ class UdCovariance {
     d_.template head<Count>() = variances;
   }
 
-  /// Of the whole covariance. factor: >= 0.
+  /// Scales the whole covariance. factor: >= 0.
   void scale(Scalar factor) { d_ *= factor; }
 
-  /// Adds a covariance, positive semidefinite. The sum is factored anew, last column first.
+  /// Adds a covariance, positive semidefinite. The sum is factored again, last column first.
   void add(const Matrix<Scalar, N>& more) {
     Matrix<Scalar, N> rest = matrix() + more;
     for (int j = N - 1; j >= 0; --j) {
@@ -76,7 +76,7 @@ class UdCovariance {
     }
   }
 
-  /// Adds to the variance of each parameter (>= 0); what leans on what stays.
+  /// Adds to the variance of each parameter (>= 0); their covariances stay.
   void inflate(Scalar variance) { add(Matrix<Scalar, N>::Identity() * variance); }
 
   /// The largest variance of parameters first to N - 1; 0 when there are none.

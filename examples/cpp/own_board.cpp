@@ -1,5 +1,5 @@
-// The firmware's loop over a board of one's own: the interfaces of supercoil/hal, here with a
-// muscle behind them that is computed. On a real board each call goes to the device instead, and
+// The firmware's loop on a board of your own: it implements the interfaces of supercoil/hal, here
+// with a simulated muscle behind them. On a real board each call goes to the device instead, and
 // wait_until() sleeps.
 #include <cmath>
 #include <cstdio>
@@ -47,7 +47,7 @@ struct Converter final : hal::AdcChannel {
   hal::Sample sample;
 };
 
-/// The devices, and what they are wired to. Waiting for the next tick lets the muscle go on.
+/// The devices, and what they are wired to. Waiting for the next tick advances the muscle.
 class Board final : public hal::Clock {
  public:
   Board() { convert(); }
@@ -70,7 +70,7 @@ class Board final : public hal::Clock {
 
  private:
   void advance() {
-    // A charge pump lets power through while the heartbeat goes on.
+    // A charge pump lets power through while the heartbeat keeps toggling.
     pumped_s_ = heartbeat_.changed ? 0.0 : pumped_s_ + step_s;
     heartbeat_.changed = false;
     const bool on = enable_.level && pumped_s_ < 0.015;
@@ -138,7 +138,7 @@ int main() {
   const Channel& channel = loop->channel(0);
   for (int tick = 0; channel.state().state() != State::fault && tick < 90'000; ++tick) {
     executive.run_tick();
-    // What the threads of CAN and recorder do on a board.
+    // On a board the CAN and recorder threads do this.
     loop->health().telemetry_heartbeats.fetch_add(1);
     Row row;
     while (loop->take(row)) {
@@ -151,7 +151,7 @@ int main() {
                     std::string(name(answer.refusal)).c_str());
       }
     }
-    // An operator: arms once the muscle must be cold, and renews where it is to be.
+    // The operator arms once the muscle must be cold, then renews the position command.
     if (tick == 30'000) loop->send({.verb = Verb::arm});
     if (tick > 31'000 && tick % 50 == 0)
       loop->send({.verb = Verb::position, .value = 0.010 - 0.005 * std::cos(0.5e-3 * tick)});

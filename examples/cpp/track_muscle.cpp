@@ -9,7 +9,7 @@ using namespace supercoil::control;
 
 int main() {
   constexpr double step_s = 0.001;
-  const PhysicalParameters muscle;  // the one of the paper; yours: docs/setup.md
+  const PhysicalParameters muscle;  // the paper's; for yours see docs/setup.md
   ControllerSettings settings{.kind = ControllerKind::learned_ff};
   settings.set_nominal(muscle, 4.5);
   Controller controller(settings, step_s);

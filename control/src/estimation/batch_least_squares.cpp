@@ -8,9 +8,9 @@ namespace supercoil::control {
 
 namespace {
 
-/// Λ = (s + 10)⁵. Two poles more than s³X needs keep noise out; at 10 rad/s they pass what a
-/// muscle's mechanics show and little of what its heat does between two samples. 8 to 14 rad/s find
-/// the same muscles.
+/// Λ = (s + 10)⁵. Two poles more than s³X needs keep noise out; at 10 rad/s they pass the muscle's
+/// mechanics, and little of what its heat does between two samples. 8 to 14 rad/s identify the same
+/// muscles.
 constexpr double pole_rad_per_s = 10.0;
 constexpr Polynomial<2> two_poles{pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
 constexpr Polynomial<5> lambda =
@@ -104,7 +104,7 @@ BatchLeastSquares::Regressors BatchLeastSquares::solve(const Sums& sums) {
 double BatchLeastSquares::unexplained_ratio(const Sums& experiment, const Theta& theta) const {
   Regressors solution;
   solution << theta.cwiseQuotient(nominal_), 0.0;
-  // The column of ones tells the mean of what is left.
+  // The column of ones gives the mean of the residual.
   solution[4] =
       (experiment.projection[4] - experiment.information.row(4).dot(solution)) / experiment.count;
   return std::fmax(experiment.missed(solution), 0.0) / experiment.variance();

@@ -8,10 +8,10 @@ namespace supercoil::control {
 
 namespace {
 
-/// A residual of more standard deviations shows a change of the muscle, and not noise.
+/// A residual of more standard deviations comes from a change of the muscle, not from noise.
 constexpr double max_deviations = 3.0;
 
-/// Of the impulse responses of [1, s, s², s³]/Λ', which have ended after 30 s.
+/// ∫ of the impulse responses of [1, s, s², s³]/Λ', which have decayed after 30 s, pairwise.
 Matrix<double, 4> gram_of_impulses() {
   constexpr double step_s = 2e-3;
   StateVariableFilter<double, 5, Hold::zero_order> filter(steep_lambda, step_s);
@@ -101,7 +101,8 @@ void EstimateAccuracy::step(const Seen& seen) {
   prior_.diagonal().tail<5>() +=
       settings_.unexcited.cwiseInverse() * ((1.0 - kept) * counted * counted);
 
-  // It begins at what is expected: while θ is found, residuals are smaller than the noise.
+  // The mean square begins at its expected value: while θ is found, residuals are smaller than the
+  // noise.
   const double max_W2 = max_deviations * max_deviations * mean_square_W2_;
   const double share = settings_.update_s / settings_.averaging_s;
   mean_square_W2_ +=
@@ -118,7 +119,7 @@ EstimateAccuracy::Parts EstimateAccuracy::parts(const Square& covariance,
 }
 
 Matrix<double, 5> EstimateAccuracy::bounded(const Matrix<double, 5>& covariance) const {
-  // As two independent observations go together.
+  // Combined like two independent observations.
   const Matrix<double, 5> most = (4.0 * settings_.unexcited).asDiagonal();
   const Matrix<double, 5> both = covariance + most;
   return covariance * both.inverse() * most;

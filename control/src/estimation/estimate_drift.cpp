@@ -24,7 +24,7 @@ void EstimateDrift::step(const Parameters& theta, const Square& covariance) {
     comparisons_ = std::min(comparisons_ + 1.0, settings_.memory_s / slot_s);
     mean_square_ += (square - mean_square_) / comparisons_;
   }
-  // Of a direction in which nothing is known, the variance is the prior's.
+  // In a direction in which nothing is known, the variance is the prior's.
   const double unknown = covariance.diagonal().cwiseQuotient(settings_.unexcited).sum();
   past = {.known = true,
           .theta = theta,

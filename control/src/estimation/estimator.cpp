@@ -8,7 +8,7 @@ namespace supercoil::control {
 
 namespace {
 
-/// How many standard deviations make least squares' bound.
+/// The error bound of least squares, in standard deviations.
 constexpr double deviations_of_bound = 3.0;
 
 RegressionScale scale_of(const EstimatorSettings& settings) {

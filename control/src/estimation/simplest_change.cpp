@@ -24,8 +24,8 @@ void SimplestChange::begin(const Parameters& theta, const Square& covariance,
   all_ = all;
 }
 
-/// θ's move δ has the covariance of θ before and after together, and of the change itself: one
-/// direction more is a matrix of rank one more.
+/// The covariance of θ's move δ is the sum of those of θ before and after, and of the change
+/// itself: one more direction adds a matrix of rank one.
 std::optional<SimplestChange::Parameters> SimplestChange::explained(
     const Parameters& theta, const Square& covariance) const {
   const Parameters moved = theta - theta_;
@@ -52,7 +52,7 @@ std::optional<SimplestChange::Parameters> SimplestChange::explained(
   int best = 0;
   const double most = log_likelihood.maxCoeff(&best);
   const double share = 1.0 / (log_likelihood.array() - most).exp().sum();
-  // Not a number is not decided either.
+  // NaN decides nothing either.
   if (!(share > sure)) return std::nullopt;
   return candidates.col(best);
 }

@@ -7,8 +7,8 @@
 
 #include "supercoil/control/linear/matrix_functions.hpp"
 
-// Sums are in the order of Eigen 3.4 without vectors, for matrices of fixed size; where that has
-// several orders, it is said. matrix_exponential_test compares with Eigen's own.
+// Sums are in the order of Eigen 3.4 without vectorisation, for matrices of fixed size; comments
+// say where Eigen has several orders. matrix_exponential_test compares with Eigen's own.
 namespace supercoil::control {
 namespace {
 
@@ -28,7 +28,7 @@ struct SquareMatrix {
   }
 };
 
-/// Of terms first to first + count: each half by itself, as Eigen adds what it unrolls.
+/// Sums terms first to first + count, each half by itself, as Eigen does in unrolled loops.
 template <typename Term>
 double sum_in_halves(const Term& term, int first, int count) {
   if (count == 1) return term(first);
@@ -44,7 +44,7 @@ double sum_in_turn(const Term& term, int first, int count) {
   return sum;
 }
 
-/// Of eight terms the even ones and the odd ones by themselves, then the rest.
+/// Sums the even and the odd ones of the first eight terms by themselves, then adds the rest.
 template <typename Term>
 double sum_even_and_odd(const Term& term, int count) {
   double even = 0.0;
@@ -170,8 +170,8 @@ double norm_1(const SquareMatrix& a) {
   return norm;
 }
 
-/// In place: the upper triangle with the pivots, below it the factors; the rows of `other` are
-/// exchanged alike.
+/// In place: the upper triangle with the pivots, below it the factors. The rows of `other` are
+/// exchanged in the same way.
 void factorise(SquareMatrix& a, SquareMatrix& other) {
   const int size = a.size;
   for (int k = 0; k < size - 1; ++k) {
@@ -193,7 +193,7 @@ void factorise(SquareMatrix& a, SquareMatrix& other) {
   }
 }
 
-/// Four unknowns at a time, as in Eigen: what they take from the others is summed before it is
+/// Four unknowns at a time, as in Eigen: their contributions to the others are summed before being
 /// subtracted.
 inline constexpr int panel = 4;
 

@@ -6,28 +6,28 @@ namespace supercoil::control {
 
 namespace {
 
-/// Standard deviations of w before anything was learned.
+/// Standard deviations of w before anything is learned.
 constexpr double linear_deviation = 0.2;
 constexpr double other_deviation = 0.3;
 constexpr double constant_ratio = 0.67;  ///< of max_W
-/// The least standard deviation of an observation, over max_W.
+/// The minimum standard deviation of an observation, over max_W.
 constexpr double residual_ratio = 0.0022;
-/// Of the residual's mean square over so long, an observation's variance.
+/// An observation's variance over the residual's mean square of the last variance_s.
 constexpr double variance_ratio = 0.15;
 constexpr double variance_s = 4.0;
-/// What a change must leave, over max_W.
+/// Residual (rms) that a change must exceed, over max_W.
 constexpr double floor_ratio = 0.004;
-/// The residual's mean square over 4 s is compared with the largest it was more than 10 s before.
-/// 2 to 8 times that find the same changes (k - 25 % on real_hard at 12 phases); above 4 the
-/// wandering of hysteresis on random steps is not taken for one. November 2026.
+/// The residual's mean square over 4 s is compared with its largest value more than 10 s before.
+/// Ratios of 2 to 8 find the same changes (k - 25 % on real_hard at 12 phases); above 4 the
+/// wandering of hysteresis on random steps is not taken for a change. November 2026.
 constexpr double mismatch_s = 4.0;
 constexpr double mismatch_delay_s = 10.0;
 constexpr double mismatch_ratio = 8.0;
 constexpr double mismatch_floor_ratio = 0.002;  ///< rms, over max_W
-/// The schedule may lower and raise the feedback by so much.
+/// Limits of the factor by which the schedule may lower and raise the feedback.
 constexpr double min_slope = 0.4;
 constexpr double max_slope = 3.0;
-/// What one change may be, of the weights along it.
+/// Limits of one change, relative to the weights along it.
 constexpr double min_amount = -0.6;
 constexpr double max_amount = 1.5;
 
@@ -167,7 +167,7 @@ void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
 
 template <class Scalar>
 Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
-  // The power that acted belongs to the motion of the last tick.
+  // The applied power belongs to the motion of the last tick.
   if (settings_.learn) {
     sum_ += regressors_.values();
     sum_W_ += static_cast<double>(in.applied);
@@ -179,7 +179,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
         learn(next_unit_++);
       next_unit_ = 0;
     }
-    // Spread over the ticks, so that none of them is long.
+    // Spread over the ticks, so that no tick is long.
     const auto due = static_cast<int>((tick_ + 1) * units / ticks_per_update_);
     while (next_unit_ < std::min(due, units))
       learn(next_unit_++);
@@ -190,7 +190,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
   if (settings_.learn) {
     const Weights change = (goal_ - followed_) * follow_step_;
     followed_ += change;
-    // What the feedforward takes over, the integral has held until now.
+    // The feedforward takes this power over from the integral.
     pid_.hand_over_to_feedforward(change.dot(psi));
     slope_ = std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope);
   }
@@ -205,7 +205,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
   return demanded;
 }
 
-/// What was given for a period that has ended, or is found again, is taken away slowly.
+/// When a period has ended, or is found again, the power given for it fades out slowly.
 template <class Scalar>
 void LearnedFeedforward<Scalar>::follow_period(double reference_W) {
   const double before_s = period_finder_.period_s();
@@ -216,8 +216,8 @@ void LearnedFeedforward<Scalar>::follow_period(double reference_W) {
   iterative_.set_period(period_finder_.period_s());
 }
 
-/// Nothing is learned from a limited tick. When the feedforward alone asked for more than the limit
-/// allows, the muscle cannot make the model's motion: what follows teaches nothing about it.
+/// Nothing is learned from a limited tick. When the feedforward alone exceeds the limit, the muscle
+/// cannot make the model's motion, and what follows says nothing about the muscle.
 template <class Scalar>
 void LearnedFeedforward<Scalar>::note_limit(const LawInput<Scalar>& in) {
   skip_ = true;
@@ -264,7 +264,7 @@ void LearnedFeedforward<Scalar>::observe() {
   watch_for_change(twice_.power_W - predicted_W);
 }
 
-/// What was learned, by what it says of the power some seconds later.
+/// Judges what was learned by how it predicts the power some seconds later.
 template <class Scalar>
 void LearnedFeedforward<Scalar>::judge(double power_W) {
   const double linear_W = linear_muscle().dot(twice_.regressors);
@@ -274,8 +274,8 @@ void LearnedFeedforward<Scalar>::judge(double power_W) {
   judged_ = std::exchange(judged_next_, least_squares_.weights());
 }
 
-/// What the model does not describe counts for less where there is much of it, lest the weights fit
-/// one wander of a sticking muscle after the other. After a change all is to be learned anew.
+/// Observations count for less when the model's error is large, so that the weights do not follow
+/// each wander of a sticking muscle. After a change everything must be learned again.
 template <class Scalar>
 double LearnedFeedforward<Scalar>::variance_W2(double residual_W) {
   const double min_W = residual_ratio * settings_.max_W;
@@ -308,7 +308,7 @@ typename LearnedFeedforward<Scalar>::Weights LearnedFeedforward<Scalar>::along(
   return d;
 }
 
-/// After a change that was found, and until it is learned, more residual is no news.
+/// After a detected change, and until it is learned, a larger residual is expected.
 template <class Scalar>
 void LearnedFeedforward<Scalar>::watch_for_mismatch(double residual_W) {
   const auto found = mismatch_.step(MismatchDetector::Signals::Ones(), std::abs(residual_W));

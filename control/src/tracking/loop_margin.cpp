@@ -11,9 +11,9 @@ namespace supercoil::control {
 
 namespace {
 
-/// Of a law and a muscle at one frequency: in continuous time, with half a tick for the hold.
+/// A law and a muscle at one frequency: in continuous time, with half a tick for the hold.
 struct FrequencyResponse {
-  std::complex<double> law_W_per_m;  ///< power by a position that is too low
+  std::complex<double> law_W_per_m;  ///< power over how far the position is too low
   std::complex<double> loop;         ///< L: with the muscle and the delay
 };
 
@@ -39,7 +39,7 @@ FrequencyResponse response(const FixedLaw& law, const PhysicalParameters& muscle
   return {acts, acts / needs * late};
 }
 
-/// Frequencies up to that of a tick, each with its part of them, both in rad/s.
+/// Visits frequencies up to π/step_s, each with the width of its interval, both in rad/s.
 template <class Visit>
 void for_each_frequency(double step_s, const Visit& visit) {
   constexpr double min_rad_per_s = 0.01;
@@ -71,7 +71,7 @@ PhysicalParameters corner_of(const PhysicalParameters& nominal, double span, int
 
 constexpr int corners = 1 << physical_ranges.size();
 
-/// margin_of: what a muscle's loop has.
+/// margin_of: gives the margin of a muscle's loop.
 template <class Margin>
 WorstCorner worst_of_corners(const PhysicalParameters& nominal, double span,
                              const Margin& margin_of) {
@@ -97,7 +97,7 @@ WorstCorner worst_of_corners(const PhysicalParameters& nominal, double span,
 LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s) {
   LoopMargin margin{spectral_radius(law, muscle, step_s, delay_s), 0.0};
-  // Where it is unstable the distance from -1 is on the wrong side.
+  // When the loop is unstable, it passes -1 on the wrong side.
   if (margin.stable()) margin.modulus = modulus(law, muscle, step_s, delay_s);
   return margin;
 }

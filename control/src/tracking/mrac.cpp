@@ -48,8 +48,7 @@ void MracLaw::check_fit(FixedPointFit& fit, const Settings& s, const LawContext&
   constexpr double state = FixedPointFit::state;
   fit.at_most("lambda", std::max(std::abs(s.lambda[0]), std::abs(s.lambda[1])), state);
   fit.at_most("alpha", std::max(s.alpha[0], s.alpha[1]), state);
-  // The largest that ω1 and ω2 become for a signal of peak_W: at rest, and at the filter's
-  // middle.
+  // The largest values of ω1 and ω2 for a signal of peak_W: at rest, and at the filter's middle.
   fit.at_most("alpha", peak_W * std::abs(s.alpha[1] / s.lambda[0]), signal);
   fit.at_most("alpha", peak_W * std::abs(s.alpha[0] / s.lambda[1]), signal);
   for (const double gain : s.scaled_gain())
@@ -60,7 +59,7 @@ void MracLaw::check_fit(FixedPointFit& fit, const Settings& s, const LawContext&
   fit.at_most("initial_sigma", s.initial_sigma, state);
   fit.at_most("damping", s.damping, state);
   if (!s.bounds) return;
-  // θ is used in 8 bits: bounds beyond them would not bound.
+  // θ is used with 8 integer bits: bounds beyond those would have no effect.
   for (const double value : s.bounds->lower)
     fit.at_most("lower", std::max(value, -signal), signal);
   for (const double value : s.bounds->upper)

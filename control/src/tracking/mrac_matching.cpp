@@ -34,7 +34,7 @@ std::optional<MracMatching> match(const TransferFunction& plant, const MracSetti
   return result;
 }
 
-// The laws have positions in watts at rest.
+// The laws take positions in watts at rest.
 std::optional<FixedLaw> add_matched(FixedLaw law, const MracSettings& filters,
                                     const LawContext& context, const PhysicalParameters& muscle) {
   TransferFunction plant = transfer_function_from(muscle);

@@ -12,7 +12,7 @@ namespace {
 using DynamicMatrix = Eigen::MatrixXd;
 using DynamicVector = Eigen::VectorXd;
 
-/// What the muscle becomes within a part of a tick; nothing in no time.
+/// The muscle's transition over part of a tick; the identity when that is zero.
 ZeroOrderHold<3, 2> part_of_tick(const PhysicalParameters& muscle, double time_s) {
   const auto system = state_space(muscle);
   if (time_s > 0.0) return zero_order_hold<3, 2>(system.a, system.b, time_s);
@@ -20,8 +20,8 @@ ZeroOrderHold<3, 2> part_of_tick(const PhysicalParameters& muscle, double time_s
 }
 
 /// One tick of the closed loop. States: three of the muscle, two of the derivative filter, its last
-/// input, the integral, two each of the filtered power and position, and the powers that were asked
-/// for, the newest first.
+/// input, the integral, two each of the filtered power and position, and the demanded powers, the
+/// newest first.
 class SampledLoop {
  public:
   SampledLoop(const FixedLaw& law, const PhysicalParameters& muscle, double step_s, double delay_s)
@@ -43,7 +43,7 @@ class SampledLoop {
 
   DynamicVector step(const DynamicVector& x) const {
     DynamicVector next = DynamicVector::Zero(size());
-    // Until the delay of the newest power but `ticks` is over, the one before it acts.
+    // The older power acts until the delay's fraction of a tick is over, then the next one.
     Vector<double, 3> muscle =
         before_.transition * x.head<3>() + before_.held.col(0) * x[powers + ticks_ + 1];
     muscle = (after_.transition * muscle + after_.held.col(0) * x[powers + ticks_]).eval();
@@ -70,8 +70,8 @@ class SampledLoop {
     return filter.transition * state + filter.start * start + filter.end * end;
   }
 
-  /// Steps the filters of power and position, and tells what the law adds by them. It hears of the
-  /// power that acted in this tick.
+  /// Steps the filters of power and position, and returns what the law adds through them. The power
+  /// filter takes the power that acted in this tick.
   double filtered(const DynamicVector& x, DynamicVector& next) const {
     const FilteredFeedback& law = *law_.filtered;
     const double position = next[1];
@@ -93,7 +93,7 @@ class SampledLoop {
 
   FixedLaw law_;
   double step_s_;
-  int ticks_;  ///< whole ones, of the delay
+  int ticks_;  ///< whole ticks of the delay
   ZeroOrderHold<3, 2> before_;
   ZeroOrderHold<3, 2> after_;
   FirstOrderHold<2, 1> slope_;
@@ -102,8 +102,8 @@ class SampledLoop {
 };
 
 /// Scales states by powers of two until each row's norm is near its column's, which changes no
-/// eigenvalue: positions in metres beside powers in watts cost five digits of them (Parlett and
-/// Reinsch 1969).
+/// eigenvalue (Parlett and Reinsch 1969). Otherwise positions in metres beside powers in watts cost
+/// five digits.
 void balance(DynamicMatrix& a) {
   constexpr int max_rounds = 100;
   bool goes_on = true;
@@ -128,8 +128,8 @@ struct Sampling {
   double delay_s;
 };
 
-/// A delay of many ticks is taken in longer ones: each tick of it is a state, and eigenvalues cost
-/// their cube. Delay and hold together stay what they are.
+/// Uses longer ticks for a delay of many: each tick of delay is a state, and eigenvalues cost the
+/// cube of their number. The sum of delay and hold stays the same.
 Sampling affordable(double step_s, double delay_s) {
   constexpr int max_ticks = 16;
   if (delay_s <= max_ticks * step_s) return {step_s, delay_s};
@@ -139,8 +139,8 @@ Sampling affordable(double step_s, double delay_s) {
 
 }  // namespace
 
-/// Without an integral its state stays where it is, whatever the rest does: a pole at 1 that is
-/// nobody's.
+/// Without an integral term the integral's state is constant: a pole at 1 that is not the loop's,
+/// so it is removed.
 double spectral_radius(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s) {
   const Sampling sampling = affordable(step_s, delay_s);

@@ -10,7 +10,7 @@ QuinticPiece::QuinticPiece(const End& from, const End& to)
   const double v1 = to.knot.velocity_m_per_s * t;
   const double a0 = from.acceleration_m_per_s2 * t * t;
   const double a1 = to.acceleration_m_per_s2 * t * t;
-  // Of time over the duration.
+  // In powers of time over the duration.
   coefficient_ = {from.knot.position_m,
                   v0,
                   0.5 * a0,
@@ -40,7 +40,7 @@ void Trajectory::start(double position_m) {
   ends_[0] = {{0.0, position_m, 0.0}, 0.0};
 }
 
-/// 0 where the way to the last knot is begun, or there is no knot before it.
+/// 0 when the piece to the last knot has begun, or there is no knot before it.
 double Trajectory::acceleration_at_last(const Knot& next) const {
   const bool settled = count_ == 1 || (count_ == 2 && begun_);
   if (settled) return end(count_ - 1).acceleration_m_per_s2;

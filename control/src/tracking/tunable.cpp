@@ -16,7 +16,8 @@ constexpr bool follows_model(const Settings& s) {
   return s.kind != Kind::power;
 }
 
-/// Function: takes one SettingValue by its name, of the law or estimator in use, and its settings.
+/// Calls function(SettingValue, its settings) for the value of that name of the law or estimator in
+/// use.
 template <class List, class SomeSettings, class Function>
 void with_value(SomeSettings& settings, std::string_view name, Function function) {
   with_chosen<List>(settings, [&](auto definition, auto& own) {
@@ -73,7 +74,7 @@ double model_of(const Settings& s) {
   return 0.0;
 }
 
-/// 0: a model with complex poles gets three equal real ones, whose product is the same.
+/// 0: a model with complex poles gets three equal real ones with the same product.
 void set_model(Settings& s, double value) {
   if (value > 0.0) {
     s.model = *reference_model_named(tunable_models[static_cast<std::size_t>(value) - 1]);
@@ -83,7 +84,7 @@ void set_model(Settings& s, double value) {
   }
 }
 
-/// Of what is no law's: how it is read and set.
+/// How the settings outside the laws are read and set.
 constexpr Law common_kind{[](const Settings& s) { return static_cast<double>(s.kind); },
                           [](Settings& s, double value) { s.kind = static_cast<Kind>(value); }};
 constexpr Law common_shaping{[](const Settings& s) {
@@ -97,7 +98,7 @@ constexpr Law common_slowing{
     },
     [](Settings& s, double value) { s.slow_when_oscillating = value != 0.0; }};
 
-/// Of what is no estimator's.
+/// The same for the settings outside the estimators.
 constexpr Estimation common_estimator_kind{
     [](const EstimatorSettings& s) { return static_cast<double>(s.kind); },
     [](EstimatorSettings& s, double value) { s.kind = static_cast<EstimatorKind>(value); }};
@@ -168,7 +169,7 @@ constexpr std::array<Tunable, tunable_count> all{{
     {"adapt_bandwidth", TunableType::flag, 0.0, 1.0},
 }};
 
-/// What a law or an estimator calls a value must stand above.
+/// Every name that a law or an estimator gives a value must be listed above.
 template <class List>
 constexpr bool all_listed() {
   const auto listed = [](auto one) {

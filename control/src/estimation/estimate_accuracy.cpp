@@ -101,8 +101,7 @@ void EstimateAccuracy::step(const Seen& seen) {
   prior_.diagonal().tail<5>() +=
       settings_.unexcited.cwiseInverse() * ((1.0 - kept) * counted * counted);
 
-  // The mean square begins at its expected value: while θ is found, residuals are smaller than the
-  // noise.
+  // It begins at its expected value: while θ is found, residuals are smaller than the noise.
   const double max_W2 = max_deviations * max_deviations * mean_square_W2_;
   const double share = settings_.update_s / settings_.averaging_s;
   mean_square_W2_ +=

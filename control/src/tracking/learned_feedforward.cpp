@@ -12,7 +12,7 @@ constexpr double other_deviation = 0.3;
 constexpr double constant_ratio = 0.67;  ///< of max_W
 /// The minimum standard deviation of an observation, over max_W.
 constexpr double residual_ratio = 0.0022;
-/// An observation's variance over the residual's mean square of the last variance_s.
+/// An observation's variance over the residual's mean square, averaged over variance_s.
 constexpr double variance_ratio = 0.15;
 constexpr double variance_s = 4.0;
 /// Residual (rms) that a change must exceed, over max_W.

@@ -16,8 +16,7 @@ constexpr bool follows_model(const Settings& s) {
   return s.kind != Kind::power;
 }
 
-/// Calls function(SettingValue, its settings) for the value of that name of the law or estimator in
-/// use.
+/// Calls function(SettingValue, its settings) for this name in the law or estimator in use.
 template <class List, class SomeSettings, class Function>
 void with_value(SomeSettings& settings, std::string_view name, Function function) {
   with_chosen<List>(settings, [&](auto definition, auto& own) {

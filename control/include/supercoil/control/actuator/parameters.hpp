@@ -41,8 +41,7 @@ struct TransferFunction {
   double b3;
 };
 
-/// The allowed range of a parameter, wide enough for muscles from the size of a hair to that of a
-/// rope.
+/// The allowed range of a parameter: holds any muscle of thread, from a hair's size to a rope's.
 struct PhysicalRange {
   const char* name;  ///< as in the code and in configurations
   double PhysicalParameters::*member;

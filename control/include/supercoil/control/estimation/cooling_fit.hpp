@@ -17,8 +17,7 @@ namespace supercoil::control {
 ///   x + a₁ẋ + a₂ẍ = c₀ + c₁u + c₂u² + c₃u³ + c₄ play(u; r₁) + c₅ play(u; r₂) + c₆ t,  u = q/max_W.
 /// That is linear in all but τ, so it is fitted for each of a series of τ; the one with the
 /// smallest residual is found. A fit that assumes linear motion as well gets τ wrong by a factor of
-/// up
-/// to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
+/// up to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
 class CoolingFit {
  public:
   /// The muscle's possible range; all > 0.

@@ -43,8 +43,7 @@ class ExcitationMonitor {
   /// λmin in W²s over the last whole window; 0 until one has passed.
   double min_eigenvalue() const { return min_eigenvalue_; }
   /// The largest distance of θ from the window's best fit, relative to the nominal parameters;
-  /// infinity until a window has passed. It judges θ as it was at the end of the last sixteenth of
-  /// a window.
+  /// infinity until a window has passed. It judges θ as it was at the last sixteenth of a window.
   double error_bound() const { return error_bound_; }
   bool trusted() const { return error_bound_ <= trusted_error_; }
 

@@ -125,8 +125,7 @@ class LeastSquaresEstimator {
   static constexpr std::int64_t updates_per_accuracy = 10;
   /// Share of the drift's mean square in the covariance, and the drift's memory over its lag. Over
   /// random muscles (muscles_study) the best fit of the next minute is then within two deviations
-  /// in
-  /// 90 to 99 of 100 cases.
+  /// in 90 to 99 of 100 cases.
   static constexpr double drift_share = 0.06;
   static constexpr double drift_memory = 30.0;
 

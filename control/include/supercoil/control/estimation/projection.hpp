@@ -29,9 +29,8 @@ Vector<Scalar, N> project(const Vector<Scalar, N>& value, const Box<Scalar, N>& 
 }
 
 /// Into the box along the covariance: the value that is the most standard deviations outside goes
-/// to its bound and the others to their likeliest values given that, until all are inside.
-/// Projecting element by element would lose what the data do contain: how the values are
-/// correlated.
+/// to its bound and the others to their likeliest values given that, until all are inside. Element
+/// by element, the correlations in the data would be lost.
 template <int N>
 Vector<double, N> project(Vector<double, N> value, const Box<double, N>& box,
                           Matrix<double, N> covariance) {

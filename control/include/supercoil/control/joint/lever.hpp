@@ -20,8 +20,8 @@ class Lever {
   /// radius_m > 0.
   explicit Lever(double radius_m) : radii_m_{radius_m} {}
 
-  /// radii_m: 2 to max_points, each > 0, at angles evenly spaced from first_rad <= 0 to last_rad >=
-  /// 0; linear between two points, and constant beyond.
+  /// radii_m: 2 to max_points, each > 0, at evenly spaced angles from first_rad <= 0 to
+  /// last_rad >= 0; linear between two points, and constant beyond.
   Lever(double first_rad, double last_rad, std::span<const double> radii_m)
       : first_rad_(first_rad),
         spacing_rad_((last_rad - first_rad) / static_cast<double>(radii_m.size() - 1)),

@@ -22,7 +22,7 @@ struct FirstOrderHold {
 
 /// ẋ = A x + B u, step in seconds (> 0). The exponential of [[A, B], [0, 0]] (Van Loan 1978).
 /// Instantiated in discretize.cpp, for the sizes named there: the matrix exponential takes half a
-/// minute to compile, and every user of a filter would compile it.
+/// minute to compile, and otherwise every user of a filter would compile it.
 template <int N, int Inputs>
 ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
                                          const Matrix<double, N, Inputs>& b, double step_s);

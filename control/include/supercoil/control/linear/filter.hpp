@@ -55,7 +55,7 @@ class StateVariableFilter {
   /// with first-order hold it is the sample of *this* tick.
   void step(Scalar input) {
     const Accumulator<Scalar> now(input);
-    // Lazy, so computed in place: g++ 12 calls Eigen's usual product, and waits for its result.
+    // Lazy: computed in place. g++ 12 would call Eigen's usual product, and wait for its result.
     State next = transition_.lazyProduct(state_);
     if constexpr (hold == Hold::zero_order) {
       next += start_ * now;

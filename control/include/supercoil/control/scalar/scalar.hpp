@@ -20,9 +20,8 @@ struct AccumulatorOf<Fixed<I, F>> {
 };
 }  // namespace detail
 
-/// The 64-bit type in which states are accumulated. At 1 kHz a state moves in a tick by a
-/// thousandth or less of its change over a time constant: in 32 bits, rounding that increment costs
-/// 2 µm of position.
+/// The 64-bit type in which states are accumulated. At 1 kHz a state's increment is a thousandth or
+/// less of its change over a time constant: rounded to 32 bits, 2 µm of position.
 template <class Scalar>
 using Accumulator = typename detail::AccumulatorOf<Scalar>::type;
 

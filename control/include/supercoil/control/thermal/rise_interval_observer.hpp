@@ -11,10 +11,9 @@
 
 namespace supercoil::control {
 
-/// Bounds on η while the rise is between from_K and to_K. Below from_K, η may be smaller, and above
-/// to_K larger, in proportion to the cube root of the rise. Free convection never changes faster,
-/// nor does its sum with radiation while radiation is less than a third (docs/safety.md). η never
-/// falls with the rise.
+/// Bounds on η while the rise is between from_K and to_K. Below from_K η may be smaller, above to_K
+/// larger, as the cube root of the rise. Free convection never changes faster, nor does radiation
+/// with it while that is less than a third (docs/safety.md). η never falls with the rise.
 struct TransferSpan {
   double min_W_per_K = 0.0;
   double max_W_per_K = INFINITY;
@@ -90,9 +89,8 @@ class RiseIntervalObserver {
   static constexpr std::size_t bands = 100;
   static constexpr double band_K = 2.0;
 
-  /// The bounds with the largest thermal mass that, with this minimum heat transfer, keeps ψ/η
-  /// within its bound. A muscle with more mass also has more heat transfer, and cools no slower
-  /// (docs/safety.md).
+  /// Limits the mass so that this minimum heat transfer keeps ψ/η within its bound. A muscle with
+  /// more mass has more heat transfer too, and cools no slower (docs/safety.md).
   static ThermalBounds no_slower(ThermalBounds bounds, double lowest_W_per_K) {
     bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
                                          bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);

@@ -9,8 +9,8 @@ namespace supercoil::identification {
 namespace {
 
 constexpr std::size_t min_rows = 50;
-/// Longer than this many ordinary intervals is a gap; one of this many intervals and this long is
-/// refused.
+/// A gap exceeds gap_intervals usual intervals. It is refused if it exceeds both refused_intervals
+/// of them and refused_gap_s.
 constexpr double gap_intervals = 3.0;
 constexpr double refused_intervals = 10.0;
 constexpr double refused_gap_s = 0.1;

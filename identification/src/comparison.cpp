@@ -16,16 +16,17 @@ constexpr std::array addable{Effect::drift,        Effect::force,      Effect::h
                              Effect::heated_air,   Effect::hysteresis, Effect::creep,
                              Effect::lonely_stroke};
 constexpr std::size_t max_effects = 4;
-/// An effect must take so much off the error, and so much of the stroke.
+/// An effect must lower the error by this ratio, and by this much of the stroke.
 constexpr double worth_ratio = 0.1;
 constexpr double worth_stroke_ratio = 0.001;
-/// And so much off the error of all of the motion, where that is not within worth_stroke_ratio.
+/// It must also lower the error of the whole motion, if above worth_stroke_ratio, by this ratio.
 constexpr double worth_of_all_ratio = 0.03;
 
-/// A shape-memory wire's model must be so much better than all others, and these worse than this.
+/// A wire's model must be better than all others by this ratio, and these worse than the next
+/// value.
 constexpr double much_better = 0.6;
 constexpr double well_explained = 0.005;
-/// Of the stroke, on unseen data: no model explains it.
+/// Error on unseen data over the stroke, above which no model explains the motion.
 constexpr double unexplained = 0.15;
 
 double explained_of(const Samples& samples, double rms_m, Span span) {
@@ -63,17 +64,17 @@ Judged judged(Fit fit, const Samples& samples, const Parts& parts) {
   return result;
 }
 
-/// Over both parts, as if they were of one length.
+/// Over both parts, as if they were equally long.
 double both_rms(const Judged& model) {
   return std::hypot(model.fitted_rms_m, model.unseen_rms_m) / std::sqrt(2.0);
 }
 
-/// How far off a model is where it was not fitted.
+/// A model's error on data to which it was not fitted.
 double unseen_error(const Judged& model) {
   return std::hypot(model.fit.cross_validated_m, model.unseen_rms_m);
 }
 
-/// Each of these models, from one start.
+/// Fits each of these models from the same start.
 std::vector<Judged> each_of(const std::vector<Effects>& models, const Muscle& start,
                             const Samples& samples, const Parts& parts) {
   std::vector<std::future<Judged>> started;
@@ -96,9 +97,8 @@ std::vector<Judged>::iterator best_of(std::vector<Judged>& models) {
   });
 }
 
-/// Whether a model is worth an effect more than another: in what it has not seen, and in all of the
-/// motion. The first alone would see a difference between two models that are both within the
-/// noise.
+/// Whether a model is worth one more effect than another, on unseen data and over the whole motion.
+/// The first alone would see a difference between two models that are both within the noise.
 bool worth_more(const Judged& larger, const Judged& smaller, double stroke_m) {
   const double error_m = unseen_error(smaller);
   const double min_m = worth_stroke_ratio * stroke_m;
@@ -108,7 +108,7 @@ bool worth_more(const Judged& larger, const Judged& smaller, double stroke_m) {
   return unseen && all;
 }
 
-/// Appends what was better than all before, in the first round all; the index of the best.
+/// Appends models better than all before, in the first round all. Returns the index of the best.
 std::size_t add_effects_to(std::vector<Judged>& models, const Samples& samples, const Parts& parts,
                            double stroke_m) {
   std::size_t best = 0;
@@ -133,7 +133,7 @@ std::size_t add_effects_to(std::vector<Judged>& models, const Samples& samples, 
   return best;
 }
 
-/// What was added early may have stood in for what came later.
+/// An effect that was added early may have stood in for a later one.
 std::size_t take_effects_from(std::vector<Judged>& models, std::size_t best, const Samples& samples,
                               const Parts& parts, double stroke_m) {
   while (true) {

@@ -10,11 +10,11 @@ namespace supercoil::identification {
 namespace {
 
 constexpr int blocks = 5;
-/// Of the jackknife's variance. Fits of simulated muscles with effects that the model lacks, to two
-/// minutes one after the other, then differ by less than two deviations in 96 % (deviations_test
-/// has a part of them).
+/// Factor on the jackknife's variance. With it, fits of simulated muscles with effects that the
+/// model lacks, to two consecutive minutes, differ by less than two deviations in 96 %
+/// (deviations_test has a part of them).
 constexpr double jackknife_factor = 2.0;
-/// Where a model explains a simulation to the last digit.
+/// For models that explain a simulation to the last digit.
 constexpr double min_variance = 1e-12;
 
 }  // namespace
@@ -24,7 +24,7 @@ double correlated_samples(const Eigen::VectorXd& residual) {
   const double power = residual.squaredNorm();
   double sum = 1.0;
   if (!(power > 0.0)) return sum;
-  // Lags in steps that grow: the sum over 100,000 samples need not look at each.
+  // The lag steps grow: the sum over 100,000 samples does not need every lag.
   Eigen::Index stride = 1;
   for (Eigen::Index lag = 1; lag < n / 10; lag += stride) {
     const double alike = residual.head(n - lag).dot(residual.tail(n - lag)) / power;
@@ -50,7 +50,7 @@ Accuracy accuracy_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& res
       jacobian.transpose() * jacobian / variance + Eigen::MatrixXd(weight.asDiagonal());
   const Eigen::VectorXd slope =
       jacobian.transpose() * residual / variance + weight.cwiseProduct(numbers);
-  // What a search that stopped early left; all solutions are taken relative to it.
+  // The remaining step of a search that stopped early; all solutions are relative to it.
   const Eigen::VectorXd rest = all.ldlt().solve(-slope);
 
   Accuracy result;

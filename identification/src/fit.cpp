@@ -13,10 +13,10 @@ namespace supercoil::identification {
 
 namespace {
 
-/// In percent of the stroke, squared: what a sample counts for before anything is fitted.
+/// Variance per sample before anything is fitted, in squared percent of the stroke.
 constexpr double first_variance = 50.0;
 
-/// In percent of the stroke; the parameters' own numbers last, over their prior deviations.
+/// In percent of the stroke; last come the parameters' numbers over their prior deviations.
 class Residuals {
  public:
   using Scalar = double;
@@ -33,7 +33,7 @@ class Residuals {
   Eigen::Index data() const { return static_cast<Eigen::Index>(rows_.size()); }
   Eigen::Index values() const { return data() + inputs(); }
 
-  /// What a sample counts for against the priors.
+  /// Variance per sample, which weighs the data against the priors.
   void set_variance(double variance) { variance_ = variance; }
 
   int operator()(const Eigen::VectorXd& numbers, Eigen::VectorXd& residual) const {
@@ -46,7 +46,7 @@ class Residuals {
     for (Eigen::Index i = 0; i < inputs(); ++i)
       residual[data() + i] =
           numbers[i] / parameters_[static_cast<std::size_t>(i)].deviation * std::sqrt(variance_);
-    // A step too far is a bad one, and no end of the search.
+    // A step too far counts as a bad one and does not end the search.
     if (!residual.allFinite()) residual.setConstant(1e6);
     return 0;
   }

@@ -12,7 +12,7 @@ namespace supercoil::identification {
 namespace {
 
 constexpr int plays = 5;
-/// A muscle is heated above this share of full power.
+/// Above this share of full power a muscle counts as heated.
 constexpr double heated_share = 0.02;
 
 control::FirstOrderHold<2, 1> mechanics(const Muscle& m, double step_s) {
@@ -22,7 +22,7 @@ control::FirstOrderHold<2, 1> mechanics(const Muscle& m, double step_s) {
   return control::first_order_hold<2, 1>(a, control::Vector<double, 2>{0.0, w * w}, step_s);
 }
 
-/// Heat, plays and what is asked of the mechanics.
+/// Heat, plays and the input of the mechanics.
 class Drive {
  public:
   Drive(const Muscle& muscle, double full_W, double step_s)
@@ -49,7 +49,7 @@ class Drive {
       play.step(u_);
   }
 
-  /// Where it would come to rest, without the rest length.
+  /// Where it would come to rest, relative to the rest length.
   double position_m() const {
     double u = u_;
     if (m_.play_ratio > 0.0) {
@@ -84,7 +84,7 @@ class Drive {
   double step_s_;
   double u_;
   double last_transfer_ = 0.0;
-  double kept_ = 0.0;  // of the difference from rest, over a step
+  double kept_ = 0.0;  // share of the difference from rest that is left after a step
   double heat_J_ = 0.0;
   double hottest_W_ = 0.0;
   std::array<control::Play, plays> play_{};

@@ -10,12 +10,12 @@ namespace supercoil::identification {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Neither a fit nor a start goes further, in prior deviations.
+/// Limit of fits and starts, in prior deviations.
 constexpr double farthest = 3.0;
-/// Some of the force comes without a play, and of the motion at least half without creep.
+/// Part of the force comes without play, and at least half of the motion without creep.
 constexpr double max_share = 0.9;
 constexpr double max_creep = 0.5;
-/// Radians a sample: mechanics that are faster cannot be seen.
+/// Radians per sample: faster mechanics cannot be seen.
 constexpr double fastest_rad = 1.5;
 
 double limited(const Parameter& parameter, double number) {
@@ -101,7 +101,7 @@ Eigen::VectorXd numbers_from(const std::vector<Parameter>& parameters, const Mus
     const Parameter& p = parameters[i];
     const double ratio = muscle.*p.member / p.unit;
     double number = ratio;
-    // What the muscle has not yet begins in the middle.
+    // A parameter that the muscle does not have yet starts in the middle.
     if (p.logarithmic) number = ratio > 0.0 ? std::log(ratio) : 0.0;
     numbers[static_cast<Eigen::Index>(i)] = limited(p, number);
   }

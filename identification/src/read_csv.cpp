@@ -22,7 +22,7 @@ std::string list_of(const Fields& names) {
   return result;
 }
 
-/// What it is called in messages and options, and in files: what is more likely comes first.
+/// A quantity's name in messages and options, and its usual names in files, the likeliest first.
 struct Wanted {
   Quantity quantity;
   const char* name;
@@ -37,7 +37,7 @@ constexpr Wanted wanted_power{
 
 struct Found {
   std::size_t index;
-  double size;  ///< of one in the file, in SI
+  double size;  ///< of one unit of the file, in SI
   std::string name;
 };
 

@@ -13,7 +13,7 @@ constexpr double max_samples = 10000.0;
 /// Positions further apart than this many steps are not interpolated.
 constexpr double bridged_steps = 3.0;
 
-/// The mean power from one time to another; `row` is the last row at or before from_s, and moves.
+/// The mean power from one time to another; `row`, the last row at or before from_s, advances.
 double mean_power(const Recording& r, std::size_t& row, double from_s, double to_s) {
   while (row + 1 < r.size() && r.time_s[row + 1] <= from_s)
     ++row;
@@ -66,7 +66,7 @@ Samples resample(const Recording& r) {
   const double duration_s = r.time_s.back() - r.time_s.front();
   const double mean_interval_s = duration_s / static_cast<double>(r.size() - 1);
   const double wanted_s = std::max(step_wanted_s, duration_s / max_samples);
-  // Whole intervals, so that samples meet rows where the rate is constant.
+  // Whole intervals, so that samples coincide with rows if the recording's rate is constant.
   const double intervals = std::max(1.0, std::round(wanted_s / mean_interval_s));
   Samples samples;
   samples.start_s = r.time_s.front();

@@ -23,8 +23,8 @@ struct Parts {
   Span unseen;
 };
 
-/// From the last time that the muscle is heated out of rest on, where there are two such times or
-/// more and it is after three tenths of the recording; else the last third.
+/// The unseen part begins when the muscle is last heated out of rest, if that happens at least
+/// twice and the last time is after three tenths of the recording; otherwise it is the last third.
 Parts default_parts(const Samples& samples);
 
 struct Comparison {
@@ -32,25 +32,25 @@ struct Comparison {
   Parts parts{};
   double unseen_stroke_ratio =
       0.0;                     ///< of the whole stroke: a part that stands still judges nothing
-  std::vector<Judged> models;  ///< linear, each effect alone, then the way to the chosen one
+  std::vector<Judged> models;  ///< linear, each effect alone, then the steps to the chosen one
   std::size_t chosen = 0;      ///< of models
   Judged transformation;       ///< how a shape-memory wire would move
-  std::string not_a_muscle;    ///< why; empty where a model explains it
+  std::string not_a_muscle;    ///< why not; empty: a model explains the motion
 
   const Judged& best() const { return models[chosen]; }
 };
 
-/// Effects are added one at a time: that which lowers the error on data that was not fitted most,
-/// while it does by a tenth and by 0.1 % of the stroke, four at most. Then those that are no longer
-/// worth as much are taken out. That error is the unseen part's rms and the fitted part's
+/// Adds at most four effects, one at a time: the one that lowers the error on data that was not
+/// fitted the most, while it does by a tenth and by 0.1 % of the stroke. Then removes those that
+/// are no longer worth as much. That error is the unseen part's rms and the fitted part's
 /// cross-validated one, added in squares.
 Comparison compare(const Samples& samples, const Parts& parts);
 
-/// What of a model a linear controller can use: the linear model and what moves the rest length.
+/// What a linear controller can use of a model: the linear model and what moves the rest length.
 Effects linear_effects(const Effects& effects);
 
-/// How far apart two fits of the same model say a parameter is, in the first one's deviations, with
-/// its index in the fit; the largest of gain and time constant.
+/// The difference between two fits of the same model in gain or time constant, whichever is larger
+/// in the first fit's deviations. parameter: its index in the fit.
 struct Change {
   std::size_t parameter;
   double ratio;       ///< second/first value

@@ -8,20 +8,20 @@
 
 namespace supercoil::identification {
 
-/// Fields are separated by what the first line has of semicolon, tab and comma, in this order, or
-/// else by spaces. Empty lines and lines that begin with # are skipped; spaces and quotes around a
-/// field are no part of it.
+/// The separator is the first of semicolon, tab and comma that the first line contains, or else
+/// spaces. Empty lines and lines that begin with # are skipped; spaces and quotes around a field
+/// are removed.
 class CsvLines {
  public:
   /// text outlives it.
   explicit CsvLines(std::string_view text);
 
-  /// The next line. False: there is none.
+  /// Reads the next line. False: there is none.
   bool next();
-  /// Of this line, from 1; of all that were skipped too.
+  /// The number of this line, from 1; skipped lines count too.
   std::size_t number() const { return number_; }
   const std::vector<std::string_view>& fields() const { return fields_; }
-  /// NaN for an empty field and for "nan"; empty for what is no number. With a decimal comma where
+  /// NaN for an empty field and for "nan"; empty if it is not a number. Takes a decimal comma where
   /// semicolons separate.
   std::optional<double> number_in(std::string_view field) const;
 

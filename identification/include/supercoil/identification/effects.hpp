@@ -1,4 +1,4 @@
-// What a muscle may do beside the linear model.
+// Effects of a muscle beyond the linear model.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ enum class Effect : std::uint8_t {
   drift,           ///< the rest length moves with time and with heat
   force,           ///< force per kelvin rises with temperature
   heat_transfer,   ///< heat transfer rises with temperature
-  heated_air,      ///< heat transfer is another one while it is heated (a heat gun's draught)
+  heated_air,      ///< heat transfer differs while it is heated (a heat gun's draught)
   hysteresis,      ///< force lags behind temperature by plays
   creep,           ///< a part of the motion follows slowly
-  lonely_stroke,   ///< the first heating moves the rest length for good
-  transformation,  ///< all of the stroke within a range of temperature: no super-coiled polymer
+  lonely_stroke,   ///< the first heating moves the rest length permanently
+  transformation,  ///< the whole stroke is within a range of temperature: no super-coiled polymer
 };
 
 inline constexpr std::size_t effect_count = 8;

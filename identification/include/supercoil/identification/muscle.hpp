@@ -9,8 +9,8 @@
 
 namespace supercoil::identification {
 
-/// Temperature is counted in the power that would keep it: u in W, τ u̇ = P − h(u, P) u. What of an
-/// effect is not in the model stays at its neutral value, which is the default.
+/// Temperature is expressed as the power that would maintain it: u in W, τ u̇ = P − h(u, P) u.
+/// Parameters of effects that are not in the model stay at their neutral values, the defaults.
 struct Muscle {
   double gain_m_per_W = 0.0;                  ///< of position at rest
   double time_constant_s = 1.0;               ///< τ, of heat
@@ -24,9 +24,9 @@ struct Muscle {
   double heated_ratio = 1.0;        ///< of h while heated
   double play_ratio = 0.0;          ///< share of force that comes from plays
   double play_range_W = 1.0;        ///< of the widest of five
-  double creep_ratio = 0.0;         ///< share of the motion that comes late
+  double creep_ratio = 0.0;         ///< share of the motion that is delayed
   double creep_s = 20.0;
-  double lonely_stroke_m = 0.0;   ///< of the rest length, longer
+  double lonely_stroke_m = 0.0;   ///< by which the rest length grows
   double lonely_stroke_W = 1.0;   ///< at which it is complete
   double transformation_W = 0.0;  ///< where half of the stroke is done
   double transformed_W = 0.0;     ///< scale of the range; 0: no transformation
@@ -34,11 +34,11 @@ struct Muscle {
   // Of the recording, not of the muscle:
   double rest_m = 0.0;          ///< position when cold, at its first row
   double start_W = 0.0;         ///< u at its first row
-  double start_offset_m = 0.0;  ///< from where it would be at rest with that u
+  double start_offset_m = 0.0;  ///< from the rest position at that u
   double start_m_per_s = 0.0;
 };
 
-/// Position at the first `count` samples. full_W > 0: the power at which ratios count.
+/// Position at the first `count` samples. full_W > 0: the power that the ratios refer to.
 std::vector<double> motion(const Muscle& muscle, const Samples& samples, double full_W,
                            std::size_t count);
 

@@ -1,4 +1,4 @@
-// The parameters of a model as the numbers that a fit moves.
+// A model's parameters, and the numbers that a fit varies.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace supercoil::identification {
 
-/// What the recording's own size makes of a parameter's unit.
+/// Sizes of the recording, which set the parameters' units.
 struct Sizes {
   double stroke_m;    ///< highest less lowest position
   double full_W;      ///< highest power
@@ -19,19 +19,19 @@ struct Sizes {
   double step_s;      ///< between samples
 };
 
-/// One number that is fitted, near 0 and of size 1: value = middle·exp(number), highest at most, or
+/// One fitted number, near 0 and of size 1: value = middle·exp(number), at most `highest`, or
 /// unit·number.
 struct Parameter {
   std::string_view name;  ///< Muscle's, with its unit
   double Muscle::*member;
   bool logarithmic;
-  double unit;       ///< middle, where it is logarithmic
-  double highest;    ///< value
-  double deviation;  ///< of the number, before any data
-  bool of_muscle;    ///< else of the recording
+  double unit;       ///< the middle if logarithmic
+  double highest;    ///< of the value
+  double deviation;  ///< prior, of the number
+  bool of_muscle;    ///< otherwise of the recording
 };
 
-/// Those of a model, the recording's own last.
+/// The parameters of a model; those of the recording come last.
 std::vector<Parameter> parameters_of(const Effects& effects, const Sizes& sizes);
 
 Muscle muscle_from(const std::vector<Parameter>& parameters, const Eigen::VectorXd& numbers);

@@ -1,4 +1,4 @@
-// What a fit says in the terms of control: θ, and a muscle's physical parameters.
+// A fit in terms of control: θ, and a muscle's physical parameters.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace supercoil::identification {
 
-/// What position and power cannot determine. Heat capacity, heat transfer and force per kelvin
-/// times any factor move alike; so do mass, damping, stiffness and force. None of it changes how
-/// the muscle is controlled; the first decides how hot it is taken to be.
+/// What position and power cannot determine. Scaling heat capacity, heat transfer and force per
+/// kelvin alike leaves the motion unchanged; so does scaling mass, damping, stiffness and force.
+/// Neither changes how the muscle is controlled; the first decides how hot it is assumed to be.
 struct Assumed {
   double thermal_mass_J_per_K = control::PhysicalParameters{}.thermal_mass_J_per_K;
   double stiffness_N_per_m = control::PhysicalParameters{}.stiffness_N_per_m;
-  /// Given, it takes the place of the stiffness, which then follows from the natural frequency.
+  /// If given, replaces the stiffness, which then follows from the natural frequency.
   std::optional<double> moving_mass_kg;
 };
 

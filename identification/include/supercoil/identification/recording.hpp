@@ -1,4 +1,4 @@
-// What a laboratory recorded: rows of time, position and power, as they were written.
+// A laboratory recording: rows of time, position and power, as written.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace supercoil::identification {
 
-/// What is wrong with a file; line 0: with all of it.
+/// What is wrong with a file; line 0: the whole file.
 struct Problem {
   std::size_t line = 0;
   std::string text;
@@ -30,23 +30,23 @@ struct Recording {
   std::size_t size() const { return time_s.size(); }
 };
 
-/// Which column holds a quantity, and in what.
+/// Which column holds a quantity, and in which unit.
 struct Column {
-  std::string name;    ///< or its number, from 1; empty: found by its name
-  std::string unit;    ///< e.g. "ms"; empty: by the column's name, else SI
-  double scale = 1.0;  ///< times the value in its unit
+  std::string name;    ///< or its number, from 1; empty: a usual name
+  std::string unit;    ///< e.g. "ms"; empty: from the column's name, else SI
+  double scale = 1.0;  ///< factor on the value in its unit
 };
 
 struct Columns {
   Column time;
   Column position;
   Column power;
-  int channel = 0;  ///< of a file with a column `channel`; 0: it must have one only
+  int channel = 0;  ///< of a file with a column `channel`; 0: it must have only one
 };
 
 /// Reads CSV with a line of names: fields separated by comma, semicolon, tab or spaces; lines that
-/// begin with # are skipped; a decimal comma where semicolons separate. Position and nothing else
-/// may be empty or NaN. The error is the first.
+/// begin with # are skipped; a decimal comma where semicolons separate. Only the position may be
+/// empty or NaN. Returns the first error.
 tl::expected<Recording, Problem> read_csv(std::string_view text, const Columns& columns);
 
 enum class Gaps { refuse, bridge };
@@ -56,11 +56,11 @@ enum class Gaps { refuse, bridge };
 /// to the recording.
 tl::expected<void, Problem> check(Recording& recording, Gaps gaps);
 
-/// Only the rows within the span.
+/// Keeps only the rows within the span.
 void cut(Recording& recording, Span span);
 
-/// A checked recording at a constant rate: 50 Hz, less where the recording has less, and at most
-/// 10,000 samples. Position is averaged around each sample, power over the time until the next.
+/// A checked recording at a constant rate: 50 Hz, or the recording's if lower, and at most 10,000
+/// samples. Position is averaged around each sample, power over the time until the next.
 Samples resample(const Recording& recording);
 
 }  // namespace supercoil::identification

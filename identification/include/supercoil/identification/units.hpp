@@ -1,4 +1,4 @@
-// Units that a laboratory writes.
+// Units in laboratory recordings.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@ namespace supercoil::identification {
 
 enum class Quantity { time, position, power };
 
-/// How much one of this unit is in SI; empty for a unit of another quantity.
+/// The size of this unit in SI; empty: not a unit of this quantity.
 std::optional<double> unit_size(Quantity quantity, std::string_view unit);
 /// "s, ms, us, min"
 std::string units_of(Quantity quantity);
@@ -18,7 +18,7 @@ std::string units_of(Quantity quantity);
 /// "position" and "mm".
 struct NameAndUnit {
   std::string name;
-  std::string unit;  ///< empty: none that is known
+  std::string unit;  ///< empty: no known unit
 };
 NameAndUnit split_name(Quantity quantity, std::string_view name);
 

@@ -19,11 +19,12 @@ constexpr std::size_t max_effects = 4;
 /// An effect must lower the error by this ratio, and by this much of the stroke.
 constexpr double worth_ratio = 0.1;
 constexpr double worth_stroke_ratio = 0.001;
-/// It must also lower the error of the whole motion, if above worth_stroke_ratio, by this ratio.
+/// It must also lower the error of the whole motion by this ratio. An error within
+/// worth_stroke_ratio needs no effect.
 constexpr double worth_of_all_ratio = 0.03;
 
-/// A wire's model must be better than all others by this ratio, and these worse than the next
-/// value.
+/// It is a shape-memory wire if that model's error is below this ratio of the best other model's,
+/// and the latter above well_explained.
 constexpr double much_better = 0.6;
 constexpr double well_explained = 0.005;
 /// Error on unseen data over the stroke, above which no model explains the motion.

@@ -1,4 +1,4 @@
-// What can be asked of a running board, and what it answers.
+// Commands to a running board, and its answers.
 #pragma once
 
 #include <array>
@@ -19,28 +19,27 @@ namespace supercoil {
 
 enum class Verb : std::uint8_t {
   none = 0,
-  arm = 1,              ///< probes the heater; armed when that went well
-  disarm = 2,           ///< cold, from everywhere, for everybody
-  reset = 3,            ///< leaves `fault` when its cause is gone
-  position = 4,         ///< follow a position: value in m; renews
-  power = 5,            ///< open loop: value in W; renews
-  renew = 6,            ///< the last command to heat still holds
-  rest = 7,             ///< active → armed
-  identify = 8,         ///< learn the muscle; renewed like every command to heat
-  calibrate = 9,        ///< cold zero and cold resistance
-  scale = 10,           ///< value: the true position now, in m
-  controller = 11,      ///< value: place in the configuration
-  estimator = 12,       ///< value: place in the configuration
-  store = 13,           ///< value: 1 keeps the trusted estimates for the next start, 0 forgets the
-                        ///< muscle that is kept; 2 keeps the tuning that is in use, and which
-                        ///< controller and estimator are chosen; 3 forgets that
-  compare_supply = 14,  ///< value: what a meter shows at the supply, in V; 0 forgets the comparison
-  compare_current = 15,  ///< value: what a meter shows in the channel's line, in A
-  compare_rise = 16,  ///< value: how much warmer than the air a thermometer shows the muscle, in K;
-                      ///< 0 forgets what was read
-  tune = 17,          ///< value: place of what gets its prepared values (Tuner)
-  knot = 18,          ///< value: m; the next knot of a trajectory (Playback); renews
-  start = 19,         ///< value: on the board's clock, in s; plays the trajectory from then on
+  arm = 1,               ///< probes the heater, then armed if the probe succeeded
+  disarm = 2,            ///< makes the channel cold, from any state, for any sender
+  reset = 3,             ///< leaves `fault` when its cause is gone
+  position = 4,          ///< follow a position: value in m; renews
+  power = 5,             ///< open loop: value in W; renews
+  renew = 6,             ///< keeps the last command to heat valid
+  rest = 7,              ///< active → armed
+  identify = 8,          ///< learn the muscle; renewed like every command to heat
+  calibrate = 9,         ///< cold zero and cold resistance
+  scale = 10,            ///< value: the true position now, in m
+  controller = 11,       ///< value: place in the configuration
+  estimator = 12,        ///< value: place in the configuration
+  store = 13,            ///< value: 1 stores the trusted estimates for the next start, 0 clears the
+                         ///< stored muscle; 2 stores the tuning in use, and which controller and
+                         ///< estimator are chosen; 3 clears that
+  compare_supply = 14,   ///< value: a meter's reading of the supply, in V; 0 clears the comparison
+  compare_current = 15,  ///< value: a meter's reading in the channel's line, in A
+  compare_rise = 16,     ///< value: the muscle's rise by a thermometer, in K; 0 clears the reading
+  tune = 17,             ///< value: place of what takes its prepared values (Tuner)
+  knot = 18,             ///< value: m; the next knot of a trajectory (Playback); renews
+  start = 19,            ///< value: on the board's clock, in s; the trajectory begins then
 };
 
 inline constexpr std::array<std::string_view, 20> verb_names{
@@ -48,15 +47,15 @@ inline constexpr std::array<std::string_view, 20> verb_names{
     "renew",     "rest",  "identify",       "calibrate",       "scale",        "controller",
     "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune",
     "knot",      "start"};
-/// Those that have all of their meaning in their value: the rest are of trajectories.
+/// Verbs that need no more than their value; the others belong to trajectories.
 inline constexpr auto plain_verb_names = std::span(verb_names).first<18>();
 static_assert(verb_names[plain_verb_names.size()] == "knot");
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }
 
-/// A verb without a value is refused with any other than 0: who sends one means something that this
-/// firmware does not know. But for disarm, which is obeyed however it comes.
+/// A verb without a value is refused unless its value is 0: the sender may mean something that this
+/// firmware does not know. Disarm is always obeyed.
 constexpr bool takes(Verb verb, double value) {
   switch (verb) {
     case Verb::arm:
@@ -71,22 +70,22 @@ constexpr bool takes(Verb verb, double value) {
   }
 }
 
-/// The Tuner gives it what the loop needs for it, and is told the answer.
+/// Whether the Tuner adds what the loop needs to this command, and receives its answer.
 constexpr bool is_tuning(Verb verb) {
   return verb == Verb::tune || verb == Verb::store;
 }
 
-/// Places of what is tuned: a controller's is its own, an estimator's has this much added.
+/// In `tune`, an estimator's place has this added; a controller's place is used as it is.
 inline constexpr std::size_t first_estimator_place = 8;
 
 /// Values of Verb::store for the tuning.
 inline constexpr double store_tuning = 2.0;
 inline constexpr double clear_tuning = 3.0;
 
-/// Who asked: the answer goes back there.
+/// The source of a command, to which its answer returns.
 enum class Source : std::uint8_t { local, can };
 
-/// Over CAN a value is a float: a limit itself, too, may come as a little more than it is.
+/// CAN carries a value as float, so that a limit may arrive as slightly more than it is.
 inline constexpr double float_rounding = 1.0 + std::numeric_limits<float>::epsilon();
 
 struct Command {
@@ -94,23 +93,23 @@ struct Command {
   Verb verb = Verb::none;
   double value = 0.0;
   Source source = Source::local;
-  std::uint32_t id = 0;  ///< chosen by whoever asks; the answer has it
+  std::uint32_t id = 0;  ///< chosen by the sender, repeated in the answer
   // Of `knot`.
-  float after_s = 0.0F;  ///< the one before it
+  float after_s = 0.0F;  ///< time since the knot before it
   float velocity_m_per_s = 0.0F;
-  // From the Tuner, which owns them until the answer.
-  // Of `tune`: one of them, exchanged for the one in use.
+  // Owned by the Tuner until the answer. `tune` has one of the first two, swapped with the one in
+  // use.
   control::Controller* tuned_controller = nullptr;
   control::Estimator* tuned_estimator = nullptr;
   const board::StoredTuning* tuning = nullptr;  ///< of `store`
 };
 
-/// How a channel takes a command.
+/// A channel's reply to a command.
 struct Reply {
   Reply(Refusal why, double instead = NAN) : refusal(why), nearest(instead) {}
 
   Refusal refusal;
-  /// Of what is out of range: the nearest value that would have been obeyed; NaN: none is known.
+  /// For a value out of range, the nearest one that would have been obeyed; NaN: none is known.
   double nearest;
 };
 

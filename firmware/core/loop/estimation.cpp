@@ -9,7 +9,7 @@ namespace supercoil {
 
 namespace {
 
-/// Infinity is an estimator's word for what it cannot tell.
+/// Estimators return infinity for a deviation that they cannot determine.
 double nan_if_infinite(double deviation) {
   return std::isfinite(deviation) ? deviation : std::nan("");
 }

@@ -1,4 +1,4 @@
-// The estimators of a muscle: one is at work, and tells what it knows.
+// The estimators of one muscle; only the chosen one runs.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@ namespace supercoil {
 
 class Estimation {
  public:
-  /// At least one estimator. Allocates; nothing after it does.
+  /// At least one estimator. Allocates; later calls do not.
   Estimation(const std::vector<control::EstimatorSettings>& estimators, double step_s);
 
   std::size_t estimators() const { return estimators_.size(); }
   void choose(std::size_t place);
-  /// The one at this place becomes another, which begins, and the other way round.
+  /// Swaps the estimator at this place with another; if it is the chosen one, it restarts.
   void exchange(std::size_t place, control::Estimator& estimator);
   std::size_t chosen() const { return chosen_; }
-  /// The muscle was not driven for a while.
+  /// Call this after the muscle was not driven for a while.
   void restart() { estimators_[chosen_].restart(); }
   /// One tick: this tick's position, and the power applied since the last one.
   void step(double position_m, double applied_W) {
     estimators_[chosen_].step(position_m, applied_W);
   }
 
-  /// As it is now; empty: this estimator tells nothing yet.
+  /// The current estimate; empty: none yet.
   const std::optional<control::Estimate>& estimate() const {
     return estimators_[chosen_].estimate();
   }
   bool trusted() const { return estimate() && estimate()->trusted; }
-  /// Empty: no estimate is trusted, or it is no muscle's. What theta does not tell is as known.
+  /// Empty: no trusted estimate, or theta is not physical. `known` supplies what theta leaves open.
   std::optional<control::PhysicalParameters> trusted_muscle(
       const control::PhysicalParameters& known) const;
-  /// selector: of a full turn, chooses the value that is told beside theta.
+  /// selector over 2³² chooses the value that is published beside theta.
   void publish(std::uint32_t selector, Snapshot& s) const;
 
  private:

@@ -14,8 +14,8 @@ namespace supercoil {
 
 namespace {
 
-/// The steady power at which derating leaves just that power: the hottest that the muscle may be
-/// rises with it, and the limiter falls from max_W at derate_from_C to none at derate_to_C.
+/// The steady power at which derating allows just that power: the hottest that the muscle may be
+/// rises with it, and the limiter falls from max_W at derate_from_C to 0 at derate_to_C.
 double derated_W(const ChannelSettings& c, const BoardSettings& board, double max_W,
                  double warmest_C) {
   const LimiterSettings& l = c.limiter;
@@ -32,14 +32,14 @@ struct Held {
   LimitedBy by = LimitedBy::maximum;
 };
 
-/// In air of which the board knows that it is no warmer.
+/// In air that is known to be no warmer than warmest_C.
 Held held_in(const ChannelSettings& c, const BoardSettings& board, double max_W, double warmest_C) {
   Held held{max_W};
   const auto bound = [&](double power_W, LimitedBy by) {
     if (power_W < held.power_W) held = {power_W, by};
   };
   bound(derated_W(c, board, max_W, warmest_C), LimitedBy::temperature);
-  // Colder air proves nothing sooner.
+  // Colder air does not help the proof.
   if (c.supervision.proof_of_response) {
     bound(plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz).provable_W,
           LimitedBy::unproven);
@@ -55,7 +55,7 @@ void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibilit
   f.held_by = held.by;
 }
 
-/// How far this much power holds it for good.
+/// How far this power holds the muscle indefinitely.
 double held_travel_m(const ChannelSettings& c, double power_W) {
   const double max_m = c.supervision.max_travel_m;
   if (c.joint.weighs()) return HangingArm(c.joint, c.muscle).held_m(power_W, max_m);
@@ -67,22 +67,22 @@ double holding_power_W(const ChannelSettings& c, double position_m) {
   return (position_m + load_m(c)) / c.muscle.dc_gain_m_per_W();
 }
 
-/// Rise and fall are the heat's: the spring and the load follow it.
+/// Heat alone determines rise and fall: the spring and the load follow it.
 void find_motion(const ChannelSettings& c, Feasibility& f) {
   const double tau_s = -1.0 / c.muscle.thermal_pole_rad_per_s();
   f.travel_m = held_travel_m(c, f.held_W);
-  // Of what max_W leads to: by the load alone, and from there to the top.
+  // As fractions of max_W: the power for the load, and from there to the top.
   const double load_ratio = load_m(c) / c.muscle.dc_gain_m_per_W() / f.max_W;
   const double travel_ratio = holding_power_W(c, f.travel_m) / f.max_W - load_ratio;
   f.rise_s = tau_s * std::log((1.0 - load_ratio - 0.1 * travel_ratio) /
                               (1.0 - load_ratio - 0.9 * travel_ratio));
   f.fall_s = tau_s * std::log(9.0);
-  // P = (x + τẋ)/gain must not fall below 0: an amplitude of half the mean leaves (ωτ)² = 3. Above,
-  // max_W leaves at least as much.
+  // P = (x + τẋ)/gain must not fall below 0: an amplitude of half the mean gives (ωτ)² = 3. The
+  // room below max_W is at least as large.
   f.half_travel_period_s = 2.0 * std::numbers::pi * tau_s / std::numbers::sqrt3;
   if (load_ratio == 0.0 || travel_ratio == 0.0) return;
-  // A load is power at rest: more to fall with, and less to rise with. One that lifts may hold the
-  // muscle above where it would fall to.
+  // A load takes power at rest, which leaves more to fall with and less to rise with. A load that
+  // lifts may keep the muscle from falling that far.
   const double lowest = load_ratio + 0.1 * travel_ratio;
   f.fall_s = lowest > 0.0 ? tau_s * std::log((load_ratio + 0.9 * travel_ratio) / lowest) : INFINITY;
   const double middle = load_ratio + 0.5 * travel_ratio;
@@ -91,7 +91,7 @@ void find_motion(const ChannelSettings& c, Feasibility& f) {
       room > 1.0 ? 2.0 * std::numbers::pi * tau_s / std::sqrt(room * room - 1.0) : INFINITY;
 }
 
-/// The coldest air draws it down, and leaves it the more power where a sensor tells of it.
+/// The coldest air lowers the muscle, but allows it more power if a sensor measures the air.
 double cold_travel_m(const ChannelSettings& c, const BoardSettings& board, const Feasibility& f) {
   const board::AirSettings& air = c.thermal.air;
   double warmest_C = air.warmest_C;
@@ -105,7 +105,7 @@ void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility
   const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
   f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
   f.cold_travel_m = cold_travel_m(c, board, f);
-  // The sensor's range is as it reads, before the calibration.
+  // The sensor's range refers to its reading before calibration.
   const double rest_m =
       c.calibration.position_offset_m - f.air_shift_m / c.calibration.position_scale;
   f.rest_seen = rest_m >= c.supervision.min_position_m;

@@ -43,16 +43,16 @@ void Joint::observe() {
   antagonist_.limit_pull(known.max_antagonist_W);
 }
 
-/// What each muscle needs, less what the effort gives it: its heat tells that more smoothly than
-/// the controller. A demand for co-contraction hardly moves the joint, so this asks for no more.
+/// What each muscle needs beyond its share of the effort, which its heat shows more smoothly than
+/// the controller. Co-contraction hardly moves the joint, so it does not raise this need.
 double Joint::taut_W(double gain_ratio) const {
   const double half_W = 0.5 * (agonist_.heat_W() - gain_ratio * antagonist_.heat_W());
   const double wanted_W =
       std::max(agonist_.taut_W() - half_W, gain_ratio * antagonist_.taut_W() + half_W);
-  return wanted_W > 0.0 ? wanted_W : 0.0;  // or it is NaN
+  return wanted_W > 0.0 ? wanted_W : 0.0;  // also 0 for NaN
 }
 
-/// The antagonist's reference is what it is to pull with while the joint asks for no effort.
+/// The antagonist's reference is its power while the joint asks for no effort.
 void Joint::follow_co_contraction(bool active, double gain_ratio) {
   if (!active) {
     nearly_W_ = co_contraction_W_ = 0.0;
@@ -61,15 +61,15 @@ void Joint::follow_co_contraction(bool active, double gain_ratio) {
   }
   was_active_ = active;
   if (!active) return;
-  // What was commanded may be more than the limit once the muscles are known better.
+  // A command may exceed the limit once the muscles are known better.
   const double wanted_W =
       std::min(std::max(gain_ratio * antagonist_.reference(), taut_W(gain_ratio)), max_W_);
   nearly_W_ += lag_ratio_ * (wanted_W - nearly_W_);
   co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
 }
 
-/// Each muscle by itself. What was commanded may be more than the limit once the muscles are known
-/// better.
+/// For muscles that are driven separately. A command may exceed the limit once the muscles are
+/// known better.
 void Joint::limit_each(double max_antagonist_W) {
   const double agonist_W = agonist_.demanded_W();
   double antagonist_W = antagonist_.demanded_W();
@@ -88,7 +88,7 @@ void Joint::limit() {
   const double effort_W = agonist_.demanded_W();
   control::PairPower power = allocation.divide(
       effort_W, co_contraction_W_, {agonist_.allowed_range(), antagonist_.allowed_range()});
-  // What neither can give is asked of the one that should: its limiter then says so.
+  // The muscle that should give it is asked for the missing power, so that its limiter says why.
   const double missing_W = effort_W - allocation.effort_W(power);
   if (missing_W > 0.0) power.agonist_W += missing_W;
   if (missing_W < 0.0) power.antagonist_W -= missing_W / ratio;

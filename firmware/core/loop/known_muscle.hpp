@@ -1,4 +1,4 @@
-// What a channel goes by, and what its file says of it, as other threads may ask for it.
+// The muscle that a channel knows and that of the board's file, as other threads may read them.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. Deviations and unexplained_ratio are NaN until
-/// identify has found the muscle that is known.
+/// identify has found the muscle in use.
 inline constexpr std::array<std::string_view, 44> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
@@ -23,25 +23,25 @@ inline constexpr std::array<std::string_view, 44> known_quantities{
     "response_ratio",  ///< of small motions; 0: not measured
     "theta1_deviation_ratio", "theta2_deviation_ratio", "theta3_deviation_ratio",
     "theta4_deviation_ratio",
-    "unexplained_ratio",  ///< of the power's variance, by the fit
-    // By the board's file, whatever was found since.
+    "unexplained_ratio",  ///< of the power's variance, left by the fit
+    // From the board's file, whatever was found since.
     "configured_thermal_mass_J_per_K", "configured_heat_transfer_W_per_K",
     "configured_stiffness_N_per_m", "configured_damping_Ns_per_m", "configured_moving_mass_kg",
     "configured_force_per_kelvin_N_per_K", "configured_cold_resistance_Ohm",
-    "joint_lever_m",            ///< at the angle 0; < 0 of the antagonist; NaN: no joint
-    "joint_other_node_offset",  ///< of the other muscle, minus this one's
-    // As control::Lever has them, of a lever that depends on the angle; NaN: it has fewer.
+    "joint_lever_m",            ///< at angle 0; negative for the antagonist; NaN: no joint
+    "joint_other_node_offset",  ///< the other muscle's node minus this one's
+    // control::Lever's values if it depends on the angle; NaN for those that it does not have.
     "joint_lever_first_rad", "joint_lever_last_rad", "joint_lever_1_m", "joint_lever_2_m",
     "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m",
-    "bundle_leader_node_offset",  ///< minus this node; NaN: it leads, or there is no bundle
-    // Between which a position may be commanded.
+    "bundle_leader_node_offset",  ///< leader's node minus this one; NaN: it leads, or no bundle
+    // Limits of a commanded position.
     "min_set_point_m", "max_set_point_m",
-    "identified_s",  ///< since 1970; NaN: since the start, or not known
-    // By the board's file as well: its limits, and the bounds of [thermal].
+    "identified_s",  ///< since 1970; NaN: found since the start, or not known
+    // Also from the board's file: its limits, and the bounds of [thermal].
     "configured_max_W", "configured_trip_C", "configured_min_mass_J_per_K",
     "configured_max_mass_J_per_K", "configured_min_transfer_W_per_K",
     "configured_max_transfer_W_per_K", "configured_max_time_constant_s"};
-/// Places of those that follow the six physical parameters.
+/// Places of the quantities after the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
   known_position_offset,
@@ -65,7 +65,7 @@ enum KnownPlace : std::uint8_t {
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
-/// What a board's file says, of set points also what its joint allows.
+/// From the board's file; the set points also account for its joint.
 struct ConfiguredMuscle {
   control::PhysicalParameters muscle;
   double cold_resistance_Ohm;
@@ -77,7 +77,7 @@ struct ConfiguredMuscle {
   double trip_C = NAN;
   control::ThermalBounds bounds{};
 };
-/// min_set_point_m: in a joint the antagonist's limits say it.
+/// min_set_point_m: in a joint it follows from the antagonist's limits.
 inline ConfiguredMuscle configured_muscle(const ChannelSettings& c, double min_set_point_m) {
   return {c.configured_muscle.value_or(c.muscle),
           c.heater.cold_resistance_Ohm,
@@ -102,7 +102,7 @@ inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   std::ranges::copy(lever.radii_m(), known.begin() + known_lever_points);
 }
 
-/// As tell_lever() told it, however wrong; direction 0: the muscle turns no joint.
+/// Inverts tell_lever(), also for invalid values; direction 0: the muscle turns no joint.
 inline PlaceInJoint told_joint(const KnownMuscle& known) {
   PlaceInJoint joint;
   const double lever_m = known[known_joint_lever];
@@ -167,15 +167,15 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
   return known;
 }
 
-/// From the loop to other threads; each quantity is whole, all of them together may be of two
-/// moments.
+/// From the loop to other threads. Each quantity is consistent by itself; together they may be from
+/// two different moments.
 class PublishedMuscle {
  public:
   void set(const KnownMuscle& known) {
     for (std::size_t i = 0; i < values_.size(); ++i)
       values_[i].store(known[i], std::memory_order_relaxed);
   }
-  /// quantity: place in known_quantities. NaN: not known, or there is none.
+  /// quantity: place in known_quantities. NaN: not known, or no such quantity.
   double get(std::size_t quantity) const {
     return quantity < values_.size() ? values_[quantity].load(std::memory_order_relaxed) : NAN;
   }

@@ -8,13 +8,13 @@
 namespace supercoil {
 
 struct NextTick {
-  hal::Time wake;  ///< absolute; always in the future of `now`, and on the grid of periods
+  hal::Time wake;            ///< absolute; always after `now`, and on the grid of periods
   std::int64_t skipped = 0;  ///< whole periods that are left out; 0 when the tick was in time
 };
 
-/// Pure: the tick that was due at `due` ended at `now`. The next one is the first on the grid that
-/// lies after now: periods are skipped whole, and two ticks never run back to back to catch up,
-/// which would feed the filters with steps of no length.
+/// Pure: the tick that was due at `due` ended at `now`; the next is the first on the grid after
+/// now. Whole periods are skipped. Two ticks never run back to back to catch up, which would give
+/// the filters steps of zero length.
 constexpr NextTick next_tick(hal::Time due, hal::Time now, hal::Duration period) {
   const hal::Time next = due + period;
   if (now < next) return {next, 0};

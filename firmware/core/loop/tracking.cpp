@@ -8,7 +8,7 @@ namespace supercoil {
 
 namespace {
 
-/// Long against the sensor's noise, short against the muscle's motion.
+/// Long compared with the sensor's noise, short compared with the muscle's motion.
 constexpr double smoothing_s = 0.2;
 
 }  // namespace
@@ -55,14 +55,14 @@ control::ControllerOutput Tracking::step(const control::ControllerInput& input,
   control::Controller& controller = controllers_[chosen_];
   if (estimate) controller.learn(*estimate);
   const control::ControllerOutput output = controller.step(input);
-  // In this order: g++ reads what is before error_m_ together with it, and would wait for power_W_.
+  // In this order: g++ loads error_m_ with the member before it, and would wait for power_W_.
   error_m_.step(input.position_m - output.model_m);
   power_W_.step(input.applied_power_W);
   return output;
 }
 
-/// Where the controller that is at work leaves off. Power and error are smoothed alike: a single
-/// tick's carry the sensor's noise times the controller's gain.
+/// Where the running controller leaves off. Power and error are smoothed alike: in a single tick
+/// they contain the sensor's noise times the controller's gain.
 control::ControllerStart Tracking::start_here(double reference_m) const {
   control::ControllerStart at;
   at.reference_m = reference_m;
@@ -72,7 +72,7 @@ control::ControllerStart Tracking::start_here(double reference_m) const {
   return at;
 }
 
-/// With the gains of the muscle that is known by now: one that runs would jump at others.
+/// With gains for the muscle as now known: a running controller would jump at new gains.
 void Tracking::start(std::size_t place, const control::ControllerStart& at,
                      const control::PhysicalParameters& muscle) {
   controllers_[place].retune(control::theta_from(muscle));

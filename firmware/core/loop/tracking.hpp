@@ -1,4 +1,4 @@
-// The controllers of a position: one is at work, and the next takes over without a jump.
+// The position controllers of an axis: one runs, and another takes over without a jump.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace supercoil {
 
 class Tracking {
  public:
-  /// At least one controller. Allocates; nothing after it does.
+  /// At least one controller. Allocates; later calls do not.
   Tracking(const std::vector<control::ControllerSettings>& controllers,
            const control::PhysicalParameters& muscle, double step_s);
 
@@ -22,23 +22,23 @@ class Tracking {
   /// Place in the configuration.
   std::size_t chosen() const { return chosen_; }
 
-  /// Not following: this power acts.
+  /// While not following: the power that acts.
   void set_power(double applied_W) { power_W_.set(applied_W); }
-  /// Begins at this position. hold: the power goes on from the one that acts.
+  /// Begins at this position. hold: begins with the power that is applied.
   void start(double position_m, double reference_m, bool hold,
              const control::PhysicalParameters& muscle);
-  /// Another controller, from the next start on.
+  /// Changes the controller from the next start on.
   void choose(std::size_t place) { chosen_ = place; }
-  /// Another controller, at once: it goes on where the one that is at work leaves off.
+  /// Changes the controller at once: the new one continues where the running one leaves off.
   void take_over(std::size_t place, double reference_m, const control::PhysicalParameters& muscle);
-  /// The one at this place is exchanged for another. following: at once where it is at work, as
-  /// take_over does.
+  /// Swaps the controller at this place with another. following: if it is the running one, the new
+  /// one continues at once, as in take_over().
   void exchange(std::size_t place, control::Controller& other, bool following, double reference_m,
                 const control::PhysicalParameters& muscle);
   /// One tick of following.
   control::ControllerOutput step(const control::ControllerInput& input,
                                  const std::optional<control::Estimate>& estimate);
-  /// One gain of the controller that is chosen, in turn.
+  /// The gain of the chosen controller that selector picks.
   control::GainValue gain(std::uint32_t selector) const {
     return controllers_[chosen_].gain(selector);
   }
@@ -51,7 +51,7 @@ class Tracking {
   std::vector<control::Controller> controllers_;
   std::size_t chosen_ = 0;
   Smoothed power_W_;
-  Smoothed error_m_;  ///< position over the reference model
+  Smoothed error_m_;  ///< position minus that of the reference model
 };
 
 }  // namespace supercoil

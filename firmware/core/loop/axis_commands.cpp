@@ -1,4 +1,4 @@
-// What an axis does when it is told to.
+// How an axis handles its commands.
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@ Reply Axis::admits(Mode mode, double& value) const {
     const bool reachable =
         value >= -float_rounding * max_reverse_travel_m_ && value <= float_rounding * max_m;
     value = std::clamp(value, -max_reverse_travel_m_, max_m);
-    if (!reachable) return {Refusal::out_of_range, value};  // a NaN as well
+    if (!reachable) return {Refusal::out_of_range, value};  // also for NaN
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
   } else if (state_.may_heat() && mode != mode_) {
@@ -60,7 +60,7 @@ void Axis::follow(Mode mode, double value) {
   if (mode != mode_) enter(mode);
 }
 
-/// The channel becomes active in another mode, or changes it while hot.
+/// Changes the mode, as the channel becomes active or while it is hot.
 void Axis::enter(Mode mode) {
   const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
   if (!was_driven) tracking_.set_power(moving_W());
@@ -83,7 +83,7 @@ void Axis::enter(Mode mode) {
 Reply Axis::play(const Command& command) {
   if (mode_ != Mode::position) return Refusal::wrong_state;
   if (command.verb == Verb::start) {
-    constexpr double max_time_s = 9e9;  // that whole nanoseconds can tell
+    constexpr double max_time_s = 9e9;  // fits in 64-bit nanoseconds
     if (!(std::abs(command.value) <= max_time_s)) return Refusal::out_of_range;
     return playback_.start(hal::duration_from(command.value), now_, reference_, command.source);
   }
@@ -129,8 +129,8 @@ Reply Axis::choose_controller(double place) {
   return Refusal::none;
 }
 
-/// At once; a controller that is following goes on where its predecessor leaves off, an estimator
-/// begins.
+/// At once: a following controller continues where its predecessor leaves off; an estimator starts
+/// from scratch.
 Reply Axis::tune(const Command& command) {
   const bool estimator = command.value >= static_cast<double>(first_estimator_place);
   const auto first = estimator ? static_cast<double>(first_estimator_place) : 0.0;
@@ -160,7 +160,7 @@ Reply Axis::choose_estimator(double place) {
 
 Reply Axis::scale(double true_m) {
   const double measured_m = inputs_.position.value;
-  // A joint's other muscle reads the same sensor, by a scale of its own; a bundle has its leader's.
+  // A joint's other muscle reads the same sensor with its own scale; a bundle uses its leader's.
   if (inputs_.in_joint || settings_.bundle.follows()) return Refusal::unsuitable;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
@@ -169,17 +169,17 @@ Reply Axis::scale(double true_m) {
   found.position_scale *= true_m / measured_m;
   if (!(true_m > 0.0)) return Refusal::out_of_range;
   const Refusal refusal = refusal_of(keep(muscle_, found));
-  // What this tick is judged by, or the new scale would look like motion in the next one.
+  // This tick must be judged by the new scale, or it would look like motion in the next one.
   inputs_.position.value = calibrated(inputs_.sensor_m);
   return refusal;
 }
 
-/// Averages what the senses tell while a power is held, and waits for steady heat.
+/// Averages the senses while a power is held, and waits for steady heat.
 void Axis::follow_comparisons() {
   const board::Measured& current = heater_.current();
   const bool sensed = current.present && heater_.supply_V() > 0.0;
   if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
-  // A pulse is none of the power that the meter is read at.
+  // A probe pulse is not part of the power at which the meter is read.
   if (!heater_.probe_felt())
     comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
   if (heater_.senses().compared()) {
@@ -194,13 +194,13 @@ void Axis::restart_comparisons() {
   steady_state_.restart();
 }
 
-/// What the meter shows. Of the supply, 0 forgets the comparison.
+/// meter: its reading. For the supply, 0 clears the comparison.
 Refusal Axis::compare(board::MeterComparison::Sense sense, double meter) {
   const bool active = state_.may_heat();
   if (sense == board::MeterComparison::supply && meter == 0.0)
     return active ? Refusal::wrong_state : apply_comparison({});
   if (!holds_power()) return Refusal::wrong_state;
-  // Not the calibrated resistance: the senses that are in question measured that.
+  // Not the calibrated resistance: the senses in question measured it.
   const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
                                            heater_.warm_Ohm(settings_.heater.cold_resistance_Ohm));
   if (refusal != Refusal::none) return refusal;
@@ -208,7 +208,7 @@ Refusal Axis::compare(board::MeterComparison::Sense sense, double meter) {
   return found ? apply_comparison(*found) : Refusal::none;
 }
 
-/// How much warmer the muscle is than the air, in steady heat. 0 forgets what was read.
+/// rise_K: of the muscle above the air, in steady heat. 0 clears the reading.
 Refusal Axis::compare_rise(double rise_K) {
   const bool active = state_.may_heat();
   board::ThermalFacts facts = heater_.facts();

@@ -7,12 +7,12 @@ namespace supercoil {
 
 namespace {
 
-/// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
+/// Longer than all hold times at 1 kHz but the slowest; this many overruns are a fault by
 /// themselves.
 constexpr std::int64_t max_repeats = 1000;
 
-/// 2³²/φ: steps of the golden ratio go round evenly also for who sees every n-th of them only, as
-/// telemetry does; counting up, every fifth would show a fifth of the detectors.
+/// 2³²/φ: steps of the golden ratio are spread evenly even if a reader, such as telemetry, sees
+/// only every n-th; with a counter, every fifth row would show only a fifth of the detectors.
 constexpr std::uint32_t golden_ratio = 2654435769U;
 
 }  // namespace
@@ -43,10 +43,10 @@ void Channel::supervise(const BoardTick& board) {
   const AxisInputs& axis = axis_.inputs();
   const HeaterInputs& heater = axis_.heater().inputs(state_);
   commands_.heating = state_.may_heat();
-  // What leads is renewed, or not, for both.
+  // A led channel depends on its leader's renewal alone.
   commands_.renewed = commands_.renewed || led();
   present_fault_ = supervisor_.step(axis, heater, commands_);
-  // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
+  // Skipped periods count too: in them nothing was renewed and nothing was heard.
   axis_.judged();
   commands_ = {.heating = commands_.heating};
   const std::int64_t more = std::min(board.periods, max_repeats);
@@ -59,7 +59,7 @@ void Channel::supervise(const BoardTick& board) {
     disarm(cause, board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
   if (!reset_requested_) state_.reset(false, true);
-  // A probe whose value is judged to be no muscle's has made the channel safe by now.
+  // If the supervisor rejects the probed resistance, the channel has been made safe by now.
   if (axis_.end_probe() && !hand_over(Mode::calibrate)) state_.rest();
 }
 
@@ -104,7 +104,7 @@ const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_ve
   const Verdict& judge =
       board_verdict.judges(s.margin_selector) ? board_verdict : supervisor_.verdict();
   s.margin = judge.margin(s.margin_selector);
-  // The first cause is told by the row that first shows the fault, whosever turn it is.
+  // The first row that shows the fault carries the margin of its first cause, out of turn.
   if (std::exchange(cause_is_new_, false)) {
     s.margin_selector = s.fault;
     s.margin = first_margin_;
@@ -114,7 +114,7 @@ const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_ve
 
 Reply Channel::answer(const Command& command, const BoardTick& board) {
   const Reply reply = obey(command, board);
-  // Only an obeyed command ends a row of damaged or refused ones.
+  // Only an obeyed command ends a run of damaged or refused ones.
   if (reply.refusal == Refusal::wrong_state) commands_.refused = true;
   if (reply.refusal == Refusal::none) commands_.obeyed = true;
   return reply;
@@ -216,7 +216,7 @@ void Channel::enter(Mode mode, double value) {
   axis_.follow(mode, value);
 }
 
-/// A knot is as good as a command to heat. A start may come of a Sync, which is nobody's command.
+/// A knot renews like a command to heat. A start does not: it may come from a Sync, not a command.
 Reply Channel::play(const Command& command) {
   if (!state_.may_heat()) return Refusal::wrong_state;
   const Reply reply = axis_.play(command);

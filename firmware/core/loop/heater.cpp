@@ -7,14 +7,14 @@ namespace supercoil {
 
 namespace {
 
-/// A resistance of so many times the cold one is a broken wire and the sense's own offset.
+/// Above this multiple of the cold resistance the wire is open; the reading is sense offset.
 constexpr double open_circuit_ratio = 4.0;
 
 board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
   return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
 }
 
-/// Of what the current's sense tells, after a pulse: it acts late, is averaged, and is read late.
+/// How long the current sense shows a pulse: it acts late, is averaged, and is read late.
 double felt_s(const HeaterSettings& h) {
   constexpr double time_constants = 5.0;
   return h.delay_s + time_constants * h.sense_filter_s + h.current.max_age_s;
@@ -59,7 +59,7 @@ void Heater::observe(double supply_V, const board::Measured* air, std::int64_t p
   observe_power(periods);
   follow_probe();
   calculate_full_scale();
-  // How hot it was before boot is not known: nothing is armed before it must have cooled.
+  // The temperature before boot is not known: nothing is armed until the muscle must have cooled.
   heat_known_ = heat_known_ || heat_.hottest_C() < derate_from_C_;
 }
 
@@ -68,12 +68,12 @@ board::PowerBounds::Interval Heater::measured_power_W() const {
   return {power_W_.min / ratio.min, power_W_.max / ratio.max};
 }
 
-/// The muscle's temperature, from the power that was set and the one that was measured: if a switch
-/// conducts by itself, only the current knows.
+/// The muscle's temperature from the set power and the measured one: only the current shows that a
+/// switch conducts by itself.
 void Heater::observe_power(std::int64_t periods) {
   const bool sensed = current_.present && supply_V_ > 0.0;
   if (sensed) resistance_.step(acting_.duty, supply_V_, current_.value);
-  // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
+  // A resistance that was calibrated with wrong senses must not narrow the bounds.
   const double as_configured = settings_.cold_resistance_Ohm / cold_Ohm_;
   const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
   power_W_ = power_bounds_.step(
@@ -83,7 +83,7 @@ void Heater::observe_power(std::int64_t periods) {
   const double measured_W =
       current_.present ? supply_V_ * (current_.value - current_noise_A_) : limiter_.max_W();
   inputs_.measured_W = std::max(acting_.power_W, measured_W);
-  // In periods that were left out the power may have gone on, or the charge pump have cut it.
+  // In skipped periods the power may have continued, or the charge pump may have cut it.
   for (std::int64_t i = 1; i < periods; ++i)
     heat_.step(0.0, power_W_.max, acting_.power_W, sensed);
 
@@ -165,7 +165,7 @@ void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
   write_enable(state.enable());
   write_duty(state.enable() ? out.step : 0);
   const bool limited = allowed_.by != LimitedBy::nothing || out.clipped;
-  // A dither that was cut is none.
+  // A limited dither does not count.
   const board::AppliedPower set{out.applied_W, out.duty, limited,
                                 state.may_heat() && !limited ? dither_W : 0.0};
   set_ = set;
@@ -214,7 +214,7 @@ void Heater::apply_comparison(const board::SenseComparison& senses, double resis
 void Heater::set_thermal_facts(const board::ThermalFacts& facts) {
   facts_ = facts;
   board::ThermalFacts used = facts;
-  // A reading was taken in the power that compared senses told.
+  // The thermometer reading belongs to a power that compared senses measured.
   if (!senses_.compared()) used.clear_reading();
   heat_.set_thermal_facts(used, power_bounds_.true_over_measured());
 }

@@ -1,4 +1,4 @@
-// A muscle's heater: what is measured of it, how hot it makes the muscle, and what drives it.
+// A muscle's heater: its measurements, the temperature that it causes, and its drive.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace supercoil {
 
-/// The gains and the error that remains, from the loop to other threads.
+/// Gains and remaining error of the senses, from the loop to other threads.
 class PublishedSenses {
  public:
   void set(const board::SenseComparison& senses) {
@@ -48,37 +48,37 @@ class Heater {
 
   // In a tick, in this order.
   void sample(hal::Time now);
-  /// How hot what acted since the last tick has made the muscle, by what was set and by what was
+  /// Updates the muscle's temperature by the power that acted since the last tick, as set and as
   /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
-  /// For the supervisor, of this tick.
+  /// This tick's inputs for the supervisor.
   const HeaterInputs& inputs(const ChannelState& state);
-  /// Its part of what is published.
+  /// Writes the heater's part of the snapshot.
   void publish(Snapshot& s) const;
-  /// proven_W: what a muscle may have by what it has proven.
+  /// proven_W: the power that the proof of response allows.
   void limit(const ChannelState& state, double demanded_W, double proven_W);
-  /// may_probe: a resistance that is old may be measured again. dither_W: of the power.
+  /// may_probe: an old resistance may be measured again. dither_W: included in the power.
   void drive(const ChannelState& state, bool may_probe, double dither_W);
 
   /// Duty 0 and enable low, at once.
   void cut();
-  /// The next rise of power starts from nothing.
+  /// The next rise of power begins at 0.
   void rest();
-  /// For the self-test: a duty and the enable line by hand.
+  /// For the self-test: sets duty and enable line directly.
   void test_drive(double duty, bool enable);
   void start_probe() { probe_.start(); }
 
-  /// By a comparison with a meter, from now on. resistance_scale: what the senses tell of a
-  /// resistance, over what they told.
+  /// Applies a comparison with a meter. resistance_scale: a resistance by the new senses over the
+  /// same by the old ones.
   void apply_comparison(const board::SenseComparison& senses, double resistance_scale);
-  /// What was found out of the muscle's heat, from now on.
+  /// Applies what was learned of the muscle's heat.
   void set_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
-  /// Thermal pole of the muscle, as estimated and trusted.
+  /// Takes the muscle's thermal pole from a trusted estimate.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
   void believe(const control::PhysicalParameters& muscle) { heat_.believe(muscle); }
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
-  /// From any thread; no more power than this, nor than the configured maximum.
+  /// From any thread. Limits the power to max_W and the configured maximum.
   void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }
   double max_power_W() const { return max_power_W_.load(std::memory_order_relaxed); }
   /// From any thread.
@@ -86,31 +86,31 @@ class Heater {
 
   const board::Measured& current() const { return current_; }
   double supply_V() const { return supply_V_; }
-  /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
-  /// Inline: two numbers that come back from a call are waited for.
+  /// Resistance at the muscle's coldest and hottest, for a heater of cold_Ohm when cold. Inline:
+  /// the caller would wait for two numbers that a call returns.
   board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const {
     const double per_K = settings_.temperature_coefficient_per_K;
     return {cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
             cold_Ohm * (1.0 + per_K * heat_.hottest_K())};
   }
   bool probing() const { return probe_.running(); }
-  /// A probe is in what the current's sense tells now.
+  /// The current sense's reading still contains a probe.
   bool probe_felt() const { return felt_ticks_ > 0; }
   double resistance_age_s() const { return resistance_.age_s(); }
-  /// At this tick; with what it measured, or 0.
+  /// Whether a probe ended in this tick. probed_Ohm(): its result, or 0.
   bool probe_ended() const { return probed_ || probe_failed_; }
   double probed_Ohm() const { return probed_ ? resistance_.value_Ohm() : 0.0; }
-  /// Whether the resistance tells the muscle's temperature now.
+  /// Whether the resistance indicates the muscle's temperature now.
   bool indicates_temperature() const { return indicates_temperature_; }
   const board::Heat& heat() const { return heat_; }
-  /// The muscle has been cool since boot, whatever was before.
+  /// The muscle must have cooled since boot, however hot it was before.
   bool heat_known() const { return heat_known_; }
   const board::SenseComparison& senses() const { return senses_; }
   const board::ThermalFacts& facts() const { return facts_; }
   const board::PowerBounds& power_bounds() const { return power_bounds_; }
-  /// Of this tick, as compared senses tell it.
+  /// The power in this tick, as compared senses measure it.
   board::PowerBounds::Interval measured_power_W() const;
-  /// What a controller may count on.
+  /// The range that a controller may count on.
   control::PowerRange power_range() const {
     return {limiter_.min_W(), std::min(limiter_.max_W(), full_scale_W_)};
   }
@@ -122,12 +122,12 @@ class Heater {
  private:
   void observe_power(std::int64_t periods);
   void follow_probe();
-  /// Of what was measured last.
+  /// From the last measurements.
   void calculate_full_scale() { full_scale_W_ = supply_V_ * supply_V_ / resistance_.value_Ohm(); }
   void write_duty(int step);
   void write_enable(bool high);
 
-  /// A muscle that may be warmer than this has a sensor that shows at least its own noise.
+  /// Above this rise the muscle's sensor must show at least its own noise.
   static constexpr double hot_K = 5.0;
 
   HeaterSettings settings_;
@@ -145,15 +145,15 @@ class Heater {
   HeaterInputs inputs_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
-  board::PowerBounds::Interval power_W_{0.0, 0.0};  ///< that acted, within these
+  board::PowerBounds::Interval power_W_{0.0, 0.0};  ///< bounds of the power that acted
   board::Heat heat_;
   bool heat_known_ = false;
   bool indicates_temperature_ = false;
   board::Probe probe_;
   bool probed_ = false;
   bool probe_failed_ = false;
-  int sense_ticks_;     ///< of the current's sense, after a probe
-  int felt_ticks_ = 0;  ///< until it has settled
+  int sense_ticks_;     ///< until the current sense has settled after a probe
+  int felt_ticks_ = 0;  ///< how many of them are left
   std::atomic<double> max_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;

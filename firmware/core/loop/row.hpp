@@ -20,7 +20,7 @@ enum RowFlag : std::uint8_t {
 };
 
 /// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the
-/// layout is a format (docs/recorder.md): nothing moves.
+/// layout is a file format (docs/recorder.md) and must not change.
 struct Row {
   std::int64_t time_ns;
   std::uint8_t channel;
@@ -30,7 +30,7 @@ struct Row {
   std::uint8_t limited_by;
   std::uint8_t controller;
   std::uint8_t flags;            ///< of RowFlag
-  std::uint8_t margin_selector;  ///< whose margin this row carries
+  std::uint8_t margin_selector;  ///< the fault whose margin this row carries
   float reference;               ///< m, or W in open loop
   float model_m;
   float position_m;
@@ -52,7 +52,7 @@ struct Row {
   float gain;
   std::uint8_t gain_selector;  ///< which of the controller's gains this row carries
   std::uint8_t result;         ///< of ModeResult
-  /// What the estimator tells beside theta is in one of these in each row, in turn.
+  /// Each row carries one of the estimator's values beside theta, in turn.
   std::uint8_t multiplexed_selector;  ///< place in multiplexed_names
   std::uint8_t identify_notes;        ///< bits of IdentifyNote
   float multiplexed_value;

@@ -1,4 +1,4 @@
-// What an axis knows of its muscle, and hands to whoever stores it.
+// What an axis knows of its muscle and passes to the storage worker.
 #include <cmath>
 #include <utility>
 
@@ -8,14 +8,14 @@ namespace supercoil {
 
 namespace {
 
-/// What the senses tell of a resistance, over what they would tell without gains.
+/// A measured resistance over its value without the senses' gains.
 double resistance_gain(const board::SenseComparison& senses) {
   return senses.supply_gain / senses.current_gain;
 }
 
 }  // namespace
 
-/// To a command that wants something kept.
+/// The answer to a command to store something.
 Refusal Axis::refusal_of(ModeResult kept) {
   if (kept == ModeResult::not_stored) return Refusal::queue_full;
   return kept == ModeResult::found ? Refusal::none : Refusal::out_of_range;
@@ -39,7 +39,7 @@ void Axis::calibrate(const board::Calibration& calibration) {
   publish_muscle();
 }
 
-/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
+/// Uses a result and passes it to the storage worker, unless one of its quantities is out of range.
 ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Calibration& found) {
   board::Learned learned = known();
   learned.muscle = muscle;
@@ -65,7 +65,7 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   return learned_updates_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }
 
-/// At the latest when the next tick is judged. The cold resistance is this heater's own.
+/// At the latest when the next tick is judged. The cold resistance remains this heater's own.
 void Axis::follow_knowledge(const Axis& leader) {
   if (knows_from_ == leader.knowledge_) return;
   knows_from_ = leader.knowledge_;
@@ -79,7 +79,7 @@ void Axis::follow_knowledge(const Axis& leader) {
   inputs_.expected_anew = leader.inputs_.expected_anew;
 }
 
-/// For the next start. What is not kept holds until then.
+/// Stores them for the next start. Facts that cannot be stored hold until then.
 Refusal Axis::store_thermal_facts(const board::ThermalFacts& facts) {
   board::Learned learned = known();
   learned.heat = facts;
@@ -87,14 +87,14 @@ Refusal Axis::store_thermal_facts(const board::ThermalFacts& facts) {
   return kept ? Refusal::none : Refusal::queue_full;
 }
 
-/// From now on, and kept for the next start. What cannot be kept changes nothing.
+/// Applies a comparison from now on and stores it. If it cannot be stored, nothing changes.
 Refusal Axis::apply_comparison(const board::SenseComparison& senses) {
   const double resistance_scale = resistance_gain(senses) / resistance_gain(heater_.senses());
   board::Learned learned = known();
   learned.senses = senses;
-  // The thermometer was read in what the senses told then.
+  // The thermometer reading belongs to a power by the previous gains.
   learned.heat.clear_reading();
-  // A learned resistance was told by the senses as they were; a configured one was not.
+  // A learned resistance was measured with the previous gains; a configured one was not.
   double& cold_Ohm = learned.calibration.cold_resistance_Ohm;
   if (cold_Ohm != settings_.heater.cold_resistance_Ohm) cold_Ohm *= resistance_scale;
   if (board::check(learned)) return Refusal::out_of_range;
@@ -108,8 +108,8 @@ Refusal Axis::apply_comparison(const board::SenseComparison& senses) {
   return Refusal::none;
 }
 
-/// A running channel goes on with the muscle that it knows: what was cleared is not known at the
-/// next start. What was found of its heat is forgotten at once, as wide bounds are safe.
+/// A running channel keeps its muscle after a clear, until the next start. What was learned of its
+/// heat is cleared at once, as wide bounds are safe.
 Refusal Axis::store(const Command& command) {
   const double what = command.value;
   if (what == store_tuning || what == clear_tuning) return keep_tuning(command);
@@ -129,7 +129,7 @@ Refusal Axis::store(const Command& command) {
   return refusal_of(kept);
 }
 
-/// The values of controllers and estimators, and which are chosen; to clear, neither.
+/// Stores the values of controllers and estimators and which are chosen, or clears both.
 Refusal Axis::keep_tuning(const Command& command) {
   if (command.tuning == nullptr) return Refusal::busy;
   board::Learned learned = known();

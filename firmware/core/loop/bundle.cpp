@@ -45,8 +45,8 @@ void Bundle::limit() {
   for (const Axis* const follower : followers_) {
     if (is_led(follower->mode())) range = within_both(range, follower->allowed_range());
   }
-  // The weakest is asked for all, so that its limiter says why the others get no more either.
-  // While there is a dither all follow that instead.
+  // The weakest gets the whole demand, so that its limiter says why the others get no more either.
+  // During a dither all follow the leader's power instead.
   const auto is_cut_by = [&](const Axis& axis) {
     return !leader_.dithers() && demanded_W > range.max_W &&
            axis.allowed_range().max_W <= range.max_W;

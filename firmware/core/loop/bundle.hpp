@@ -7,18 +7,18 @@
 
 namespace supercoil {
 
-/// The leader's axis is the bundle's: what its controller asks for every heater gives, and no more
-/// than the weakest of them can. States, faults and commands are the channels' own
+/// The leader's axis is the bundle's: every heater gives what its controller asks for, and no more
+/// than the weakest can. States, faults and commands remain with the channels
 /// (Channel::lead_bundle).
 class Bundle {
  public:
-  /// All outlive the bundle.
+  /// All axes outlive the bundle.
   Bundle(Axis& leader, std::vector<Axis*> followers);
 
   // In a tick:
-  /// Before the channels are judged: what one of them knows or may have the others learn.
+  /// Before the channels are supervised: shares what the axes know and may do.
   void observe();
-  /// After the leader's axis knows what it wants: the powers of all heaters.
+  /// After the leader's axis has its demand: sets the power of all heaters.
   void limit();
 
  private:

@@ -18,7 +18,7 @@ double weight_N_per_m(const PlaceInJoint& joint, double position_m) {
          (2.0 * apart_m);
 }
 
-/// Up to where all is good, from 0 on.
+/// The position up to which, from 0 on, all are good.
 template <class Good>
 double last_good_m(double max_m, const Good& good) {
   constexpr int steps = 1000;

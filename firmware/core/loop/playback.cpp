@@ -5,7 +5,7 @@
 
 namespace supercoil {
 
-/// P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x, as in ReferenceShaper, in the mean of each part of the way.
+/// P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x, as in ReferenceShaper, averaged over each part of the piece.
 bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able) {
   constexpr double max_parts = 8.0;
   const auto parts = static_cast<int>(std::clamp(piece.duration_s() / smoothed_s, 1.0, max_parts));
@@ -24,7 +24,7 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able)
                           needed_W <= able.range.max_W + margin_W &&
                           to.position >= -float_rounding * able.max_reverse_travel_m &&
                           to.position <= float_rounding * able.max_travel_m;
-    if (!possible) return false;  // a NaN as well
+    if (!possible) return false;  // also for NaN
     from = to;
   }
   return true;
@@ -42,7 +42,7 @@ Reply Playback::add(const Command& command, const Able& able) {
   if (after_s == 0.0) return begin(command.value, velocity);
   if (state_ == PlaybackState::empty) return Refusal::wrong_state;
   const control::Knot next{trajectory_.last().time_s + after_s, command.value, velocity};
-  // Behind the end there is no way to go on.
+  // After its end a trajectory cannot be continued.
   if (runs() && trajectory_.last().time_s <= time_s_) return Refusal::wrong_state;
   if (trajectory_.room() == 0) return Refusal::queue_full;
   const auto preview = trajectory_.preview(next);

@@ -1,4 +1,4 @@
-// A trajectory that was sent ahead, as the reference of mode position.
+// Plays a trajectory that was sent ahead, as the reference of mode position.
 #pragma once
 
 #include <atomic>
@@ -17,24 +17,24 @@ namespace supercoil {
 /// The numbers are those of the protocol.
 enum class PlaybackState : std::uint8_t {
   empty = 0,    ///< no knots
-  loaded = 1,   ///< has knots, and is not told to start
-  waiting = 2,  ///< for the time at which it starts
+  loaded = 1,   ///< has knots, not told to start yet
+  waiting = 2,  ///< for its start time
   playing = 3,
-  ended = 4,  ///< holds the last knot, where it was to rest
-  dry = 5,    ///< holds the last knot, in whose motion it was to go on: the next one is missing
+  ended = 4,  ///< holds the last knot, which ends at rest
+  dry = 5,    ///< holds the last knot, though it ends in motion: the next one is missing
 };
 inline constexpr std::array<std::string_view, 6> playback_state_names{
     "empty", "loaded", "waiting", "playing", "ended", "dry"};
 
-/// What other threads may know of it. Aligned as one word: for less clang calls a library.
+/// State for other threads. Aligned as one word: otherwise clang calls a library for the atomic.
 struct alignas(8) PlaybackStatus {
   PlaybackState state = PlaybackState::empty;
-  std::uint8_t room = 0;    ///< for so many knots more
+  std::uint8_t room = 0;    ///< how many more knots fit
   float buffered_s = 0.0F;  ///< until the last knot
 };
 
-/// Knots are taken while the muscle follows a position, and anything else that it is told forgets
-/// them: nothing old is ever played later. What a knot asks for is judged when it comes.
+/// Knots are accepted while the muscle follows a position. Any other command clears them, so that
+/// nothing old is played later. Each knot is checked when it arrives.
 class Playback {
  public:
   /// What the muscle can do, by its linear model.
@@ -46,23 +46,23 @@ class Playback {
     control::PowerRange range;
   };
 
-  /// The next knot of `command`. One at once (0 s after the last) is the first of a new trajectory,
-  /// at rest.
+  /// Adds the knot of `command`. A time of 0 s after the last makes it the first of a new
+  /// trajectory, at rest.
   Reply add(const Command& command, const Able& able);
-  /// At a time of the board's clock, from the position that is followed now. source: a start from
-  /// the board itself goes by the board's clock, whatever a bus's master tells.
+  /// Starts at a time of the board's clock, from the position that is followed now. source: a start
+  /// from the board itself keeps to the board's clock and ignores a bus's master.
   Reply start(hal::Time at, hal::Time now, double reference_m, Source source);
-  /// From one other thread: its time goes on until it is so far ahead of the board's clock since
-  /// the start. No command: it needs no answer, and takes no room from commands. More than 10 ms at
-  /// once are another clock's, and ignored.
+  /// From one other thread: slews its time until it is this far ahead of the board's clock since
+  /// the start. Not a command: it needs no answer and takes no room from commands. A difference of
+  /// more than 10 ms comes from another clock and is ignored.
   void align(double ahead_s) { wanted_ahead_s_.store(ahead_s, std::memory_order_relaxed); }
   void forget();
 
-  /// One tick: where the muscle should be. reference_m: where it is told to be until then.
+  /// One tick: the reference. reference_m: the one that holds until the trajectory starts.
   double step(hal::Time now, double reference_m);
-  /// Where it is at the tick of step(), while it plays.
+  /// The trajectory's point at the tick of step(), while it plays.
   const std::optional<control::TrajectoryPoint>& point() const { return point_; }
-  /// It has run dry for so long that the muscle is better off at rest.
+  /// It has been dry for so long that the muscle should rest.
   bool is_over() const { return dry_s_ > hold_dry_s; }
 
   /// From any thread.
@@ -72,16 +72,16 @@ class Playback {
   static constexpr double max_ahead_s = 60.0;
   static constexpr double max_after_s = 60.0;
   static constexpr double hold_dry_s = 1.0;
-  /// What the 24 bits of a position leave open, and the reading of a reference.
+  /// Tolerance for the resolution of a 24-bit position and of a reference that was read.
   static constexpr double same_m = 2e-6;
-  /// A clock that is off by more is another's.
+  /// A larger difference comes from another clock.
   static constexpr double max_align_s = 0.01;
-  /// Of time: how much faster or slower it goes while it is aligned.
+  /// How much faster or slower time runs while it is aligned.
   static constexpr double max_slew_ratio = 1e-3;
-  /// What is asked for less long, a jump of the acceleration above all, is asked for so long: a
-  /// muscle does not see the difference.
+  /// Shorter demands, above all a jump of the acceleration, are taken as this long: a muscle does
+  /// not see the difference.
   static constexpr double smoothed_s = 0.1;
-  /// Of the greatest power: what a model may be off by before a muscle cannot do what it is told.
+  /// Over the maximum power: the model error that is allowed for before a knot is infeasible.
   static constexpr double margin_ratio = 0.05;
 
   Reply begin(double position_m, double velocity_m_per_s);

@@ -3,15 +3,15 @@
 
 namespace supercoil {
 
-/// A probe's duty is set twice: once while the charge pump stands still and the enable line is
-/// high, once while the pump runs and the line is low. A healthy board never carries any
-/// current while it is tested: current at any time is a failure.
+/// A probe's duty is set twice: once with the charge pump stopped and the enable line high, once
+/// with the pump running and the line low. A healthy board carries no current during the test: any
+/// current is a failure.
 class SelfTest {
  public:
   struct Settings {
-    double pump_decay_s;     ///< the last life of this board may have pumped until just now
-    double settle_s = 0.05;  ///< of the current sense: five of its time constants at least
-    double pulse_s = 0.03;   ///< four of them at least
+    double pump_decay_s;     ///< the pump may have run right up to this start
+    double settle_s = 0.05;  ///< at least five time constants of the current sense
+    double pulse_s = 0.03;   ///< at least four of them
   };
   struct Lines {
     bool heartbeat = false;
@@ -22,7 +22,7 @@ class SelfTest {
 
   SelfTest(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
-  /// Of this tick; all low when it neither runs nor has passed.
+  /// The lines in this tick; all low unless the test runs or has passed.
   Lines lines() const {
     if (outcome_ != Outcome::running) return {passed(), false, false};
     const double pump_at_s = settings_.pump_decay_s + settings_.settle_s;
@@ -34,8 +34,8 @@ class SelfTest {
     return settings_.pump_decay_s + 3.0 * settings_.settle_s + 2.0 * settings_.pulse_s;
   }
 
-  /// One tick. may_run: without it the test stops, cold, and begins again when it may. Then the
-  /// most current that any channel shows, and what an idle channel may show.
+  /// One tick. Without may_run the test stops, cold, and starts again once it may. current_A: the
+  /// maximum of all channels; idle_A: what an idle channel may show.
   void step(bool may_run, double current_A, double idle_A) {
     if (passed() || failed()) return;
     if (!may_run) {
@@ -45,10 +45,10 @@ class SelfTest {
     const Lines before = lines();  // in force while that current flowed
     outcome_ = Outcome::running;
     elapsed_s_ += step_s_;
-    // The sense may show the last life's current until the pump has decayed.
+    // Until the pump has decayed, the sense may show current from before the start.
     if (elapsed_s_ <= settings_.pump_decay_s + settings_.settle_s) return;
     // A mean over the pulse's second half: single readings are noise. A switch that is stuck on
-    // carries far more than a probe, and is not given the time of a mean.
+    // carries far more than a probe, and is detected without waiting for the mean.
     if (before.pulse && pulse_elapsed_s_ > 0.5 * settings_.pulse_s) {
       sum_A_ += current_A;
       ++count_;
@@ -67,7 +67,7 @@ class SelfTest {
       count_ = 0;
     }
   }
-  /// Nothing is proven any more.
+  /// Discards what was proven.
   void restart() {
     outcome_ = Outcome::waiting;
     elapsed_s_ = pulse_elapsed_s_ = over_s_ = sum_A_ = 0.0;

@@ -41,7 +41,7 @@ std::vector<SettingsProblem> problems_of_arithmetic(const Settings& settings, co
                              " does not fit q8.24"}};
 }
 
-/// Of a channel that is to be in a joint or a bundle.
+/// Checks and takes a channel for a joint or a bundle.
 std::optional<SettingsProblem> take(const BoardSettings& settings, const char* key,
                                     std::size_t channel, std::set<std::size_t>& taken) {
   const std::string number = std::to_string(channel + 1);
@@ -59,7 +59,7 @@ SettingsProblem cannot_prove(const char* key, std::size_t channel) {
           "channel " + std::to_string(channel + 1) + " cannot prove by itself that it responds"};
 }
 
-/// Each takes two channels that no other joint has.
+/// Each joint takes two channels that no other joint has.
 std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
                                             std::set<std::size_t>& taken) {
   for (const JointSettings& joint : settings.joints) {
@@ -78,15 +78,15 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
   return std::nullopt;
 }
 
-/// Of two channels of a bundle: travel, proof and ramps are the bundle's, and go by the leader.
+/// A setting that the bundle's leader determines for all: travel, proof and ramps are the bundle's.
 struct GoesByLeader {
   const char* key;
   double leaders;
   double followers;
-  bool may_be_more;  ///< of one that follows
+  bool may_be_more;  ///< for the follower
 };
 
-/// What contradicts the leader; empty: nothing does.
+/// What contradicts the leader; empty: nothing.
 std::string contradiction(const ChannelSettings& leader, const ChannelSettings& follower) {
   const control::ThermalBounds& of_leader = leader.thermal.bounds;
   const control::ThermalBounds& of_follower = follower.thermal.bounds;
@@ -110,7 +110,7 @@ std::string contradiction(const ChannelSettings& leader, const ChannelSettings& 
   return "";
 }
 
-/// Each takes at least two channels, which are in no joint.
+/// Each bundle takes at least two channels, which are in no joint.
 std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
                                              std::set<std::size_t>& taken) {
   for (const BundleSettings& bundle : settings.bundles) {
@@ -191,7 +191,7 @@ void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   apply_tuning(channel, learned.tuning);
   channel.has_muscle = learned.has_muscle;
   if (!channel.has_muscle) return;
-  // Calibrating alone stores the muscle as the file has it: that is no identification.
+  // Calibrate alone stores the muscle as configured: that is not an identification.
   channel.muscle_identified = !(learned.muscle == channel.muscle);
   channel.configured_muscle = channel.muscle;
   channel.muscle = learned.muscle;

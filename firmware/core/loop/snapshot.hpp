@@ -1,4 +1,4 @@
-// What there is to know of one channel after one tick.
+// All quantities of one channel after one tick.
 #pragma once
 
 #include <array>
@@ -23,11 +23,11 @@ enum class Mode : std::uint8_t {
   power,
   identify,
   calibrate,
-  joint,   ///< does its part of what the other channel of its joint follows
-  bundle,  ///< gets the power of the channel that leads its bundle
+  joint,   ///< does its part of what the joint's other channel follows
+  bundle,  ///< gets the power of its bundle's leader
 };
 
-/// Wants the muscle's own motion, and ends by itself with a ModeResult.
+/// Needs the muscle's own motion, and ends by itself with a ModeResult.
 constexpr bool measures(Mode mode) {
   return mode == Mode::identify || mode == Mode::calibrate;
 }
@@ -40,7 +40,7 @@ constexpr bool is_led(Mode mode) {
 inline constexpr std::array<std::string_view, 7> mode_names{
     "rest", "position", "power", "identify", "calibrate", "joint", "bundle"};
 
-/// What an estimator may tell beside theta: a bias of the power, and standard deviations.
+/// An estimator's values beside theta: a power bias, and standard deviations.
 inline constexpr std::array<std::string_view, 7> multiplexed_names{
     "none",
     "bias",
@@ -62,10 +62,10 @@ struct Snapshot {
   std::uint8_t controller = 0;  ///< place in the configuration
   bool probing = false;
   bool trusted = false;    ///< the estimates
-  bool limited = false;    ///< the acting power is not the one that was wanted
+  bool limited = false;    ///< the acting power is not the one wanted
   bool proof_off = false;  ///< proof_of_response = false
-  bool slack = false;      ///< by its model, a joint's muscle pulls no more
-  /// With which the controller that follows has seen its loop oscillate by itself; 0: it has not.
+  bool slack = false;      ///< by its model, a joint's muscle no longer pulls
+  /// Of an oscillation that the running controller has detected in its own loop; 0: none.
   double oscillation_period_s = 0.0;
   double reference = 0.0;  ///< in m, or in W in open loop
   double model_m = 0.0;    ///< of the reference model: what tracking is measured against
@@ -80,12 +80,12 @@ struct Snapshot {
   double coldest_C = 0.0;  ///< the muscle's temperature lies between these
   double hottest_C = 0.0;
   control::Theta theta = control::Theta::Zero();
-  double error_bound = 0.0;                           ///< of theta, relative
-  double bias_W = 0.0;                                ///< as what follows, NaN while none is told
-  control::Theta deviation = control::Theta::Zero();  ///< standard, of theta
+  double error_bound = 0.0;  ///< of theta, relative
+  double bias_W = 0.0;       ///< NaN while not available, like the next two
+  control::Theta deviation = control::Theta::Zero();  ///< standard deviation of theta
   double bias_deviation_W = 0.0;
   std::uint8_t multiplexed_selector =
-      0;                  ///< whose turn it is: place in multiplexed_names, each within 13 ticks
+      0;                  ///< in turn: place in multiplexed_names, each within 13 ticks
   float progress = 0.0F;  ///< of identify and calibrate, 0 to 1
   ModeResult result = ModeResult::none;
   std::uint8_t identify_notes = 0;  ///< bits of IdentifyNote, of the last identify that ended

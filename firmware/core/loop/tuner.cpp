@@ -8,13 +8,13 @@ namespace supercoil {
 
 namespace {
 
-/// More than a master asks for before it has its answers.
+/// More than a master requests before it has its answers.
 constexpr std::size_t max_built = 8;
 
 constexpr std::size_t no_place = std::numeric_limits<std::size_t>::max();
 
 std::size_t place_of(double value) {
-  const bool possible = value >= 0.0 && value < 256.0;  // a NaN is none
+  const bool possible = value >= 0.0 && value < 256.0;  // false for NaN
   return possible ? static_cast<std::size_t>(value) : no_place;
 }
 

@@ -1,4 +1,4 @@
-// How the controllers and estimators of a channel are tuned while the board runs.
+// Tuning of a channel's controllers and estimators while the board runs.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@
 
 namespace supercoil {
 
-/// Which values of a controller or estimator: the numbers are those of the protocol.
+/// A set of values of a controller or estimator; the numbers are those of the protocol.
 enum class TuningSet : std::uint8_t {
   prepared = 0,    ///< changed one by one; used from the next `tune` on
   in_use = 1,      ///< by the loop
-  configured = 2,  ///< by the board's file
+  configured = 2,  ///< in the board's file
   stored = 3,      ///< used from the next start on
 };
 inline constexpr std::array<std::string_view, 4> tuning_set_names{"prepared", "in_use",
                                                                   "configured", "stored"};
 
-/// Of the thread that sends commands, which builds what the loop's thread then exchanges: a tick
-/// allocates nothing. No step of it waits.
+/// For the thread that sends commands. Builds what the loop's thread then exchanges, so that a tick
+/// allocates nothing. Never waits.
 class Tuner {
  public:
   Tuner(const ChannelSettings& channel, double step_s);
@@ -34,14 +34,14 @@ class Tuner {
   double value(TuningSet set, std::size_t place, std::size_t parameter) const;
   /// Changes one value of the prepared set.
   Reply prepare(std::size_t place, std::size_t parameter, double value);
-  /// The prepared set becomes another. False: there is no such place or set.
+  /// Replaces the prepared set by another. False: no such place or set.
   bool prepare_from(TuningSet set, std::size_t place);
 
-  /// Gives `tune` and `store` what the loop needs for them. muscle: as known now.
+  /// Adds to `tune` and `store` what the loop needs. muscle: as known now.
   void add_to(Command& command, const control::PhysicalParameters& muscle);
-  /// The loop has answered: what it took is in use or stored.
+  /// Takes the loop's answer: what it accepted is now in use or stored.
   void conclude(const Answer& answer);
-  /// Why the set that `tune` wanted last cannot be used; empty: it can.
+  /// Why the set of the last `tune` cannot be used; empty: it can.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -64,7 +64,7 @@ class Tuner {
   template <class Settings, class Running>
   using AllBuilt = std::vector<std::unique_ptr<Built<Settings, Running>>>;
 
-  /// Calls function(Place, StoredValues of it); false: there is no such place.
+  /// Calls function(Place, its StoredValues); false: no such place.
   template <class Self, class Function>
   static bool at(Self& self, std::size_t place, Function function);
   void build(std::size_t place, Command& command);
@@ -80,7 +80,7 @@ class Tuner {
   board::StoredTuning stored_;
   std::vector<Place<control::ControllerSettings>> controllers_;
   std::vector<Place<control::EstimatorSettings>> estimators_;
-  // What the loop has not answered yet.
+  // Not yet answered by the loop.
   AllBuilt<control::ControllerSettings, control::Controller> built_controllers_;
   AllBuilt<control::EstimatorSettings, control::Estimator> built_estimators_;
   board::StoredTuning to_store_;

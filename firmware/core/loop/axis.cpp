@@ -14,17 +14,16 @@ board::MeterComparison::Settings comparison_settings(const ChannelSettings& chan
           channel.heater.current.scaling.per_count};
 }
 
-/// Every time constant that the configured bounds of mass and heat transfer allow. Not that of
-/// their ratio: a fit that explains the motion with a time constant of its own must be seen to be
-/// one.
+/// All time constants within the configured bounds of mass and heat transfer, without the bound of
+/// their ratio: a fit that explains the motion with another time constant must be visible as such.
 control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
   const control::ThermalBounds b = board::with_weighed_mass(channel.thermal);
   return {b.min_mass_J_per_K / b.max_transfer_W_per_K, b.max_mass_J_per_K / b.min_transfer_W_per_K,
           channel.limiter.max_W};
 }
 
-/// Two muscles of a joint can cool against each other without a motion, and a resistance that is to
-/// tell a temperature must be that of a cold muscle whatever holds it.
+/// Two muscles of a joint can cool against each other without motion, and a resistance that is to
+/// indicate a temperature must be that of a cold muscle, whatever holds it.
 modes::Calibrate::Settings calibrate_settings(const ChannelSettings& channel) {
   modes::Calibrate::Settings s;
   constexpr double still_K = 20.0, left_ratio = 1e-3;
@@ -69,7 +68,7 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
   };
   choose(stored_tuning_.controller, tracking_.controllers(), tracking_);
   choose(stored_tuning_.estimator, estimation_.estimators(), estimation_);
-  // What bundled muscles cool by together is none's own.
+  // The cooling of a whole bundle is not that of any one muscle.
   if (settings.thermal.weighed() && !settings.bundle.bundled)
     cooling_fit_ = std::make_unique<control::CoolingFit>(cooling_settings(settings), step_s_);
 }
@@ -169,10 +168,10 @@ void Axis::prove(std::int64_t periods) {
 }
 
 void Axis::estimate() {
-  // What is led could learn what the leading axis learns, of the same motion and power.
+  // A led axis would only learn what its leader learns, from the same motion and power.
   if (!state_.may_heat() || !inputs_.position.present || is_led(mode_)) return;
   estimation_.step(inputs_.position.value, moving_W());
-  // Once a second: what the estimator knows of cooling, when it may be trusted.
+  // Once a second: what the estimator knows of cooling, if it is trusted.
   if (++estimated_ticks_ < ticks_per_s_) return;
   estimated_ticks_ = 0;
   learn_heat();
@@ -216,7 +215,7 @@ bool Axis::control() {
       follow_comparisons();
       return false;
     case Mode::joint:
-      // What its heater is to give the joint divides.
+      // The joint divides the power between its heaters.
       demanded_.demanded_power_W = reference_;
       return false;
     case Mode::bundle:
@@ -232,7 +231,7 @@ bool Axis::control() {
   return false;
 }
 
-/// Why a reference was shaped that needs more heating.
+/// The limit that made the controller shape a reference which needs more heating.
 LimitedBy Axis::held_by() const {
   const double hot_W = max_hot_W();
   const double proven_W = proof_.held_W();
@@ -240,7 +239,7 @@ LimitedBy Axis::held_by() const {
   return hot_W <= proven_W ? LimitedBy::temperature : LimitedBy::unproven;
 }
 
-/// A reference that was shaped says why, where the limiter knows nothing better.
+/// The limiter's reason, or else why the reference was shaped.
 LimitedBy Axis::limited_by() const {
   using control::Infeasible;
   LimitedBy by = heater_.allowed().by;

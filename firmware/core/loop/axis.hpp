@@ -29,49 +29,49 @@
 
 namespace supercoil {
 
-/// What the other muscle of a joint does, as the axis of this one sees it. Of a muscle without
-/// another all is zero.
+/// What the other muscle of a joint does, as this one's axis sees it. All zero without another
+/// muscle.
 struct Opposition {
-  double power_W = 0.0;  ///< that acts, in watts of this muscle: by so much it moves the joint less
-  bool limited = false;  ///< that is not what was wanted
+  double power_W = 0.0;  ///< acting, in this muscle's watts: subtracts from this muscle's power
+  bool limited = false;  ///< power_W is not what was wanted
   control::PowerRange range{0.0, 0.0};  ///< of power_W
-  double held_W = 0.0;                  ///< of that, as Axis::held_W()
-  /// By how much its heat moves the joint against this muscle, as HeaterInputs::expected_m.
+  double held_W = 0.0;                  ///< of power_W, as Axis::held_W()
+  /// How far its heat moves the joint against this muscle, as in HeaterInputs::expected_m.
   detectors::NotResponding::Expected expected_m{};
   double hottest_K = 0.0;      ///< above the air
-  bool expected_anew = false;  ///< as AxisInputs'
+  bool expected_anew = false;  ///< as in AxisInputs
 };
 
-/// What all muscles of a bundle can do together, for the axis that leads it.
+/// What all muscles of a bundle can do together, for the leader's axis.
 struct WholeBundle {
   control::PowerRange range;                  ///< that every heater can give
   double max_W = 0.0;                         ///< that every limiter allows
-  double max_hot_W = 0.0;                     ///< likewise, as hot as each muscle may be
-  double max_power_ratio = 1.0;               ///< greatest true over measured power
+  double max_hot_W = 0.0;                     ///< likewise, at each muscle's hottest
+  double max_power_ratio = 1.0;               ///< maximum of true over measured power
   double hottest_K = 0.0;                     ///< above the air
-  LimitedBy limited_by = LimitedBy::nothing;  ///< of those that follow, the first that is
+  LimitedBy limited_by = LimitedBy::nothing;  ///< of the first follower that is limited
 };
 
-/// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
+/// Reads the channel's state, never changes it, and reports when a mode has ended by itself.
 class Axis {
  public:
-  /// Devices and state outlive the axis. Allocates; nothing after it does.
+  /// Devices and state outlive the axis. Allocates; later calls do not.
   Axis(const ChannelSettings& settings, const BoardSettings& board,
        const board::ChannelDevices& devices, const ChannelState& state);
 
   // In a tick, in this order.
   void sample(hal::Time now);
-  /// In a joint: what the other muscle does since the last tick.
+  /// In a joint: what the other muscle has done since the last tick.
   void oppose(const Opposition& other) {
     other_ = other;
     inputs_.in_joint = true;
     inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
   }
-  /// In a bundle, of its leader: likewise of all.
+  /// For a bundle's leader: likewise for the whole bundle.
   void lead(const WholeBundle& whole);
-  /// In a bundle, of one that follows: it is the leader's motion.
+  /// For a bundle's follower: takes over what the leader knows of the motion.
   void follow_knowledge(const Axis& leader);
-  /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
+  /// What acted since the last tick, and whether the muscle responded; see Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   const AxisInputs& inputs() const { return inputs_; }
   /// The supervisor has judged what happened since the last tick.
@@ -80,59 +80,58 @@ class Axis {
     inputs_.recalibrated.reset();
     inputs_.expected_anew = false;
   }
-  /// A sensor that is well cannot give this position.
+  /// A healthy sensor cannot give this position.
   void reject_position() { inputs_.position.present = false; }
   /// A probe may have ended calibrate; true when it did.
   bool end_probe();
   void estimate();
   /// True when a mode ended: the axis rests.
   bool control();
-  /// What the mode wants: of a joint's agonist, of both muscles together; of its antagonist that is
-  /// led, what it is to pull with while no effort is asked for.
+  /// The mode's demand. For a joint's agonist: of both muscles together; for its led antagonist:
+  /// its power while no effort is asked for.
   double demanded_W() const { return demanded_.demanded_power_W; }
-  /// That its own heater may get now, as hot as the muscle may be and by what it has proven.
+  /// The power that its own heater may get now, by the muscle's hottest and by what it has proven.
   control::PowerRange allowed_range() const;
-  /// share_W: what its own heater is to give of that; max_W: no more, with a dither either.
+  /// share_W: its own heater's share of the demand; max_W: the limit, including a dither.
   void limit(double share_W, double max_W = std::numeric_limits<double>::infinity()) {
     share_W_ = share_W;
     heater_.limit(state_, proof_.added_to(share_W, max_W), proof_.max_W());
   }
   bool dithers() const { return proof_.dither_W() != 0.0; }
-  /// In a bundle, of one that follows: the leader's demand and, of that, the power of its heater.
+  /// For a bundle's follower: the leader's demand, and the power of this heater.
   void follow_power(double demanded_W, double power_W);
-  /// A dither that one of a bundle cannot follow is none.
+  /// No dither unless all muscles of a bundle can follow it.
   void drive() {
     const double dither_W = followers_limited() ? 0.0 : proof_.dither_W();
     heater_.drive(state_, may_probe(), dither_W);
   }
-  /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
-  /// told in turn.
+  /// Publishes the axis and its heater. selector over 2³² chooses what is published in turn.
   void publish(std::uint32_t selector, Snapshot& s) const;
 
-  /// Whether it may be armed: everything is measured, and how hot the muscle is is known.
+  /// Whether it may be armed: everything is measured, and the muscle's temperature is known.
   bool ready() const;
-  /// Whether a command to heat can be followed. What it asks for is limited to what is reachable.
+  /// Whether a command to heat can be followed. Limits its value to what is reachable.
   Reply admits(Mode mode, double& value) const;
   /// The channel became active.
   void start() { estimation_.restart(); }
-  /// Commands of a trajectory.
+  /// Obeys commands of a trajectory.
   Reply play(const Command& command);
-  /// In a joint, of its antagonist: what it pulls with while no effort is asked for.
+  /// For a joint's antagonist: its power while no effort is asked for.
   Reply pull_with(double power_W);
-  /// In a joint, the most of that; what the heater may have bounds it as well.
+  /// In a joint, the maximum of that power; the heater's own limit holds as well.
   void limit_pull(double max_W) { max_pull_W_ = max_W; }
-  /// In a joint, of power for this muscle while the other one is driven by itself as well: the
-  /// smaller of the two powers is what they pull against each other with.
+  /// In a joint, whether this muscle may get this power while the other is driven separately: they
+  /// pull against each other with the smaller of the two powers.
   Reply admits_against(const Axis& other, double power_W) const;
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
-  /// In a joint, of its agonist: how far the other muscle may pull it.
+  /// For a joint's agonist: how far the other muscle may pull it.
   void limit_reverse_travel(double max_m) {
     max_reverse_travel_m_ = max_m;
     publish_muscle();
   }
   /// m, or W in open loop, in Mode::joint and in Mode::bundle.
   double reference() const { return reference_; }
-  /// Follows what was admitted. value: m, or W in open loop.
+  /// Follows an admitted command. value: m, or W in open loop.
   void follow(Mode mode, double value);
   void rest();
   /// Cold, at once.
@@ -140,30 +139,30 @@ class Axis {
   /// Commands that neither arm nor heat.
   Reply obey(const Command& command);
 
-  /// As other_ of the other muscle's axis. gain_ratio: of this one's gain over its; lever_ratio: of
-  /// its lever over this one's.
+  /// For other_ of the other muscle's axis. gain_ratio: this muscle's gain over the other's;
+  /// lever_ratio: the other's lever over this one's.
   Opposition opposition(double gain_ratio, double lever_ratio) const;
-  /// In a joint, by the model; NaN: not known, as of the next.
+  /// In a joint, by the model; NaN: not known, likewise for taut_W().
   double pull_N() const {
     return inputs_.position.present ? pull_.at_N(inputs_.position.value, muscle_) : NAN;
   }
-  /// In a joint: the steady power with which this muscle is taut where the joint stands.
+  /// In a joint: the steady power that keeps this muscle taut at the joint's position.
   double taut_W() const {
     return inputs_.position.present ? pull_.taut_W(inputs_.position.value, muscle_) : NAN;
   }
-  /// In a joint: as ModelledPull has it.
+  /// In a joint: see ModelledPull.
   double heat_W() const { return pull_.heat_W(); }
-  /// Of the muscle as it is known.
+  /// Of the muscle as now known.
   double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
-  /// Another number whenever something else is known of the muscle's motion.
+  /// Changes whenever the knowledge of the muscle's motion changes.
   std::uint32_t knowledge() const { return knowledge_; }
   Mode mode() const { return mode_; }
-  /// The last identify or calibrate did.
+  /// The last identify or calibrate succeeded.
   bool has_found() const {
     return result_ == ModeResult::found || result_ == ModeResult::not_stored;
   }
   ModeResult result() const { return result_; }
-  /// In a bundle, of its leader: how the last of them ended what all had to do.
+  /// For a bundle's leader: the result of what all its channels had to do.
   void conclude(ModeResult result) { result_ = result; }
   bool follows_position() const { return state_.may_heat() && mode_ == Mode::position; }
 
@@ -179,29 +178,29 @@ class Axis {
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 
  private:
-  /// What a reading of the sensor is by the present calibration.
+  /// A sensor reading as a position, by the present calibration.
   double calibrated(double sensor_m) const {
     return settings_.joint.position_of_reading_m((sensor_m - calibration_.position_offset_m) *
                                                  calibration_.position_scale);
   }
-  /// That moves the muscle, in watts of its own.
+  /// The power that moves the muscle, in its own watts.
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }
-  /// Of its own heater, or of all those of its bundle.
+  /// Range of its own heater, or of all heaters of its bundle.
   control::PowerRange own_range() const;
-  /// That there is for a while, beside the muscle that pulls against it.
+  /// Range available for a while, given the muscle that pulls against it.
   control::PowerRange range() const;
-  /// Of that, what a reference may count on: it falls to what can be held for good as the muscle,
-  /// or the other one, may become hot.
+  /// The part of it that a reference may count on: it falls to what can be held indefinitely as
+  /// this muscle or the other one may become hot.
   control::PowerRange held_range() const;
   double held_W() const;  ///< of own_range()
-  /// What acts is not what was wanted.
+  /// The acting power is not what was wanted.
   bool is_limited() const {
     return heater_.acting().limited || other_.limited || followers_limited();
   }
   bool followers_limited() const { return bundle_ && bundle_->limited_by != LimitedBy::nothing; }
   void prove(std::int64_t periods);
   void plan_proof();
-  /// Of all muscles that move together, allowed by their limiters; as hot as they may be.
+  /// Maximum by the limiters of all muscles that move together; max_hot_W(): at their hottest.
   double max_W() const;
   double max_hot_W() const;
   void learn_heat();
@@ -227,13 +226,13 @@ class Axis {
   Refusal apply_comparison(const board::SenseComparison& senses);
   void follow_comparisons();
   void restart_comparisons();
-  /// The power of its heater is known to be steady, if it does not change.
+  /// Its mode allows the heater's power to be steady.
   bool holds_power() const {
     return state_.may_heat() && (mode_ == Mode::power || mode_ == Mode::bundle);
   }
 
-  /// Calibrate probes when it has found the zero, and not before. While somebody reads a meter no
-  /// pulse is to be in what it shows, for as long as a file may leave a heater without one.
+  /// Calibrate probes only once it has found the zero. While a meter is read no pulse may disturb
+  /// its reading, for as long as a file may leave a heater without a probe.
   bool may_probe() const {
     constexpr double max_unprobed_s = 600.0;
     const bool read = comparison_.begun() && holds_power();
@@ -264,16 +263,16 @@ class Axis {
   std::int64_t estimated_ticks_ = 0;  ///< in this second
   Proof proof_;
 
-  // Known of the muscle; of its heat and of the senses the heater knows.
+  // Known of the muscle; the heater knows its heat and the senses.
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
-  bool has_muscle_;                     ///< learned before or since: what is stored has it
+  bool has_muscle_;                     ///< learned before or since: the stored set contains it
   board::Calibration calibration_;
   double response_ratio_;     ///< of small motions, as ProofSettings has it; 0: not measured
-  double unexplained_ratio_;  ///< by that muscle, when identify found it; 0: not measured
-  board::Identification identification_;  ///< without a date: since the start
+  double unexplained_ratio_;  ///< by that muscle, if identify found it; 0: not measured
+  board::Identification identification_;  ///< without a date: found since the start
   board::StoredTuning stored_tuning_;
-  std::uint32_t knowledge_ = 0;     ///< counts what was learned of the motion
-  std::uint32_t knows_from_ = -1U;  ///< of the leader's, as it was taken over
+  std::uint32_t knowledge_ = 0;     ///< counts changes of what is known of the motion
+  std::uint32_t knows_from_ = -1U;  ///< the leader's knowledge_ when it was taken over
   PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 
@@ -282,10 +281,10 @@ class Axis {
   Playback playback_;
   double reference_ = 0.0;  ///< as reference()
   double max_pull_W_ = std::numeric_limits<double>::infinity();
-  /// Below rest. Of a single muscle as far as above it.
+  /// Below rest; for a single muscle as far as above it.
   double max_reverse_travel_m_ = settings_.supervision.max_travel_m;
   control::ControllerOutput demanded_;
-  double share_W_ = 0.0;  ///< of that, from its own heater
+  double share_W_ = 0.0;  ///< its own heater's share of the demand
   modes::Identify identify_;
   std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
   SmallSignal small_signal_;                          ///< the end of identify

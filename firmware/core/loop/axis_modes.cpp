@@ -1,4 +1,4 @@
-// What an axis finds out about its muscle when it is asked to: identify and calibrate.
+// How an axis measures its muscle on command: identify and calibrate.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -10,7 +10,7 @@ namespace supercoil {
 
 namespace {
 
-/// Without a date, which whoever stores it knows.
+/// Without a date, which is added when it is stored.
 board::Identification identification_of(const modes::Identify::Quality& quality) {
   constexpr double most = 10.0;
   board::Identification of;
@@ -26,8 +26,8 @@ board::Identification identification_of(const modes::Identify::Quality& quality)
 bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
   const ModeResult now = identify_.step(inputs_.position.value, moving_W(), max_W());
-  // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
-  // that is cut for so long is a controller's fault.
+  // Identify asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and
+  // power that is limited for so long counts as a controller's fault.
   demanded_.demanded_power_W = std::min(identify_.power_W(), max_hot_W());
   update_cooling_fit();
   if (now == ModeResult::running) return false;
@@ -39,7 +39,7 @@ bool Axis::step_identify() {
   const SmallSignal::Settings plan = plan_small_signal(
       proof_.settings(), muscle, identify_.risen_m() / muscle.dc_gain_m_per_W(), 1.0 / step_s_);
   if (!std::isfinite(plan.dither.decided_s)) {
-    // What an earlier muscle's small motions were says nothing of this one.
+    // The response of an earlier muscle says nothing about this one.
     response_ratio_ = 0.0;
     return end_mode(keep_identified());
   }
@@ -47,7 +47,7 @@ bool Axis::step_identify() {
   return false;
 }
 
-/// What a small motion of the muscle that was found leaves at the sensor.
+/// Measures how much of a small motion of the muscle that was found reaches the sensor.
 bool Axis::step_small_signal() {
   if (small_signal_.step(inputs_.position.value, moving_W())) {
     demanded_.demanded_power_W = std::min(small_signal_.power_W(), max_hot_W());
@@ -58,7 +58,7 @@ bool Axis::step_small_signal() {
   return end_mode(keep_identified());
 }
 
-/// What is expected of the muscle is so from now on, as it will be at the next start.
+/// What is expected follows the identified muscle from now on, as at the next start.
 ModeResult Axis::keep_identified() {
   const auto before = std::pair(unexplained_ratio_, identification_);
   unexplained_ratio_ = identify_.quality().unexplained_ratio;
@@ -72,15 +72,15 @@ ModeResult Axis::keep_identified() {
   return kept;
 }
 
-/// Whether its motion is linear does not matter here.
+/// The fit does not need a linear motion.
 void Axis::update_cooling_fit() {
-  // Short strokes of a muscle that is far from linear tell a time constant that is too short.
+  // Short strokes of a strongly nonlinear muscle give a time constant that is too short.
   if (cooling_fit_ && !identify_.shortened())
     cooling_fit_->step(inputs_.position.value, moving_W());
 }
 
-/// Position and power alone give the muscle's time constant only; a weighed mass makes its heat
-/// transfer of that. At the end of identify; whether anything was found.
+/// Position and power alone give only the muscle's time constant; a weighed mass turns it into the
+/// heat transfer. At the end of identify; returns whether anything was found.
 bool Axis::learn_cooling() {
   if (!cooling_fit_) return false;
   const auto found = cooling_fit_->found();
@@ -88,7 +88,7 @@ bool Axis::learn_cooling() {
   board::ThermalFacts facts = heater_.facts();
   facts.time_constant_s = found->time_constant_s;
   facts.time_constant_at_W = found->mean_W;
-  // The thermometer may have been read of another muscle.
+  // The thermometer reading may belong to another muscle.
   const board::KnownThermalBounds known = board::known_thermal_bounds(settings_.thermal, facts);
   if (facts.has_reading() &&
       !board::is_possible(known, facts, heater_.power_bounds().true_over_measured()))
@@ -113,7 +113,7 @@ bool Axis::end_probe() {
   const ModeResult now = calibrate_.probed(heater_.probed_Ohm());
   if (now != ModeResult::found) return end_mode(now);
   board::Calibration found = calibration_;
-  // Of a bundle the zero is its leader's.
+  // A bundle uses its leader's zero.
   if (!settings_.bundle.follows()) {
     found.position_offset_m +=
         settings_.joint.reading_of_position_m(calibrate_.zero_m()) / calibration_.position_scale;

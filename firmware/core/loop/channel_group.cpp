@@ -1,4 +1,4 @@
-// What a channel does with the others of its joint or bundle.
+// How a channel acts with the others of its joint or bundle.
 #include <utility>
 
 #include "loop/channel.hpp"
@@ -24,14 +24,14 @@ void Channel::lead_bundle(std::vector<Channel*> followers) {
   others_ = std::move(followers);
 }
 
-/// Two muscles of a joint may also be driven each by itself; those of a bundle all get one power,
-/// and only rest or measure alone.
+/// The two muscles of a joint may also be driven separately; those of a bundle all get one power,
+/// and only rest or calibrate alone.
 bool Channel::takes_all(Mode mode) const {
   if (!bundled_) return mode == Mode::position;
   return mode != Mode::rest && mode != Mode::calibrate;
 }
 
-/// What moves a bundle finds all of it.
+/// Identify moves a whole bundle at once, so that only calibrate is handed over.
 bool Channel::is_handed_over(Mode mode) const {
   return bundled_ ? mode == Mode::calibrate : measures(mode);
 }
@@ -51,8 +51,8 @@ Refusal Channel::group_admits(Mode mode, const BoardTick& board) const {
   return bundled_ ? bundle_admits(board) : joint_admits(mode, board);
 }
 
-/// To follow a position takes both muscles. All else is done by one of them, while the other one is
-/// not led; what measures a muscle wants the other one cold.
+/// Following a position takes both muscles. Every other mode takes one of them while the other is
+/// not led; a mode that measures needs the other one cold.
 Refusal Channel::joint_admits(Mode mode, const BoardTick& board) const {
   const Channel& other = *others_.front();
   const bool other_is_alone = other.state_.may_heat() && !other.moves_together();
@@ -92,7 +92,7 @@ bool Channel::hand_over(Mode ended) {
 
 bool Channel::hand_over_to(std::size_t place, Mode mode) {
   if (place >= others_.size() || others_[place]->state_.state() != State::armed) return false;
-  // Before it is asked: it may be earlier in the tick than what it would learn by itself.
+  // Now: it may run in this tick before it would take over the knowledge by itself.
   if (bundled_) others_[place]->axis_.follow_knowledge(axis_);
   others_[place]->enter(mode, 0.0);
   handed_over_ = mode;
@@ -104,7 +104,7 @@ void Channel::follow_others() {
   const Channel& other = *others_[handed_over_to_];
   if (other.state_.may_heat()) return;
   const std::size_t next = handed_over_to_ + 1;
-  // What one of them has lost is lost, however the others end.
+  // A result other than `found` stands, however the others end.
   if (bundled_ && other.axis_.result() != ModeResult::found) axis_.conclude(other.axis_.result());
   if (other.axis_.has_found()) {
     if (hand_over_to(next, handed_over_)) return;

@@ -1,4 +1,4 @@
-// Ticks at their absolute times.
+// Runs ticks at their absolute times.
 #pragma once
 
 #include "loop/loop.hpp"
@@ -7,7 +7,7 @@
 namespace supercoil {
 
 /// Waits for each tick's time and runs it. On the board its thread does nothing else; in a
-/// simulation the runner calls it between its own business.
+/// simulation the runner calls it between its own work.
 class Executive {
  public:
   Executive(Loop& loop, hal::Clock& clock, double rate_Hz)

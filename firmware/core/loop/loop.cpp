@@ -10,7 +10,7 @@ namespace supercoil {
 namespace {
 
 constexpr int max_commands_per_tick = 64;
-/// Buffered converters need so long to have their first values, and filters to settle.
+/// Time for buffered converters to have their first values, and for filters to settle.
 constexpr double settling_s = 0.1;
 /// After a longer stall the muscles are cold.
 constexpr std::int64_t max_periods = 200'000;
@@ -80,7 +80,7 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
     if (fault != Fault::none) latch(fault, channel->verdict().margin(fault));
   }
 
-  // Compute: learn from the power that acted, and find the one that is wanted.
+  // Compute: learn from the power that acted, and find the power that is wanted.
   for (const auto& channel : channels_) {
     channel->estimate();
     channel->control();
@@ -101,7 +101,7 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   }
   toggle_heartbeat();
 
-  // Publish: rows for the recorder and for telemetry; then the light, which may wait.
+  // Publish: rows for the recorder and for telemetry; then the light, which can wait.
   for (const auto& channel : channels_) {
     if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict()))))
       timing_.lost_rows.fetch_add(1, std::memory_order_relaxed);
@@ -148,16 +148,16 @@ Reply Loop::reply_to(const Command& command) {
   return channels_[command.channel]->answer(command, now_);
 }
 
-/// A rising edge of the reset of any channel, while no detector of the board trips. Before the
-/// heartbeat may beat again, both ways of cutting have to be proven again: a switch that is stuck
-/// shows no current while the supply is open.
+/// Acts on a rising edge of any channel's reset, while no detector of the board trips. Before the
+/// heartbeat starts again, both ways of cutting must be proven again: a switch that is stuck on
+/// carries no current while the supply is open.
 void Loop::reset_board() {
   const bool edge = !reset_requested_ && !reset_requested_before_;
   reset_requested_ = true;
   if (!edge || board_fault_ == Fault::none || supervisor_.verdict().fault() != Fault::none) return;
   board_fault_ = Fault::none;
   now_.fault = Fault::none;
-  now_.proven = false;  // also for what is asked for in this tick
+  now_.proven = false;  // also for the commands of this tick
   self_test_.restart();
 }
 
@@ -199,10 +199,10 @@ void Loop::measure_air(hal::Time now) {
   now_.air = &air_;
 }
 
-/// The first cause is kept. From the next tick on no channel of this board may be hot; those of
-/// this tick are made safe here.
+/// Keeps the first cause. From the next tick on no channel of this board may be hot; in this tick
+/// they are made safe here.
 void Loop::latch(Fault cause, const detectors::Margin& margin) {
-  // While it is tested a board may look wrong; an emergency stop is one at any time.
+  // During the self-test a board may look faulty; an emergency stop counts at any time.
   const bool judged = !now_.testing || cause == Fault::emergency_stop;
   if (board_fault_ != Fault::none || !judged) return;
   board_fault_ = cause;
@@ -210,8 +210,8 @@ void Loop::latch(Fault cause, const detectors::Margin& margin) {
     channel->disarm(cause, margin);
 }
 
-/// The test lets the supply close for a moment, and proves nothing without a supply: it waits for a
-/// closed stop circuit, a good supply, and a board without a fault.
+/// The test lets the supply switch close for a moment, and proves nothing without a supply: it
+/// waits for a closed stop circuit, a good supply, and a board without a fault.
 bool Loop::may_test() const {
   bool quiet = board_fault_ == Fault::none && supervisor_.verdict().fault() == Fault::none &&
                inputs_.supply.present;
@@ -238,10 +238,10 @@ void Loop::run_self_test() {
   }
 }
 
-/// The line's edges keep the supply's switch closed; when they stop, the charge pump opens it.
+/// The line's edges keep the supply switch closed; when they stop, the charge pump opens it.
 void Loop::toggle_heartbeat() {
   const bool cut = board_fault_ != Fault::none || !(now_.proven || self_test_.lines().heartbeat);
-  // Without an edge the pump does not pump, but the line still shows whether it can be set.
+  // Without edges the pump stops, but setting the line still shows whether it can be set.
   if (!cut) heartbeat_ = !heartbeat_;
   lines_ok_ = devices_.heartbeat->set(heartbeat_) == hal::Status::ok;
 }

@@ -17,7 +17,7 @@
 
 namespace supercoil {
 
-/// What other threads tell the loop; written by them, read in a tick.
+/// Written by other threads, read by the loop in a tick.
 struct Health {
   std::atomic<std::uint32_t> telemetry_heartbeats{0};
   std::atomic<hal::CanState> bus{hal::CanState::active};
@@ -27,20 +27,20 @@ struct Health {
 
 /// Of one tick.
 struct TickTime {
-  hal::Duration late{};  ///< woke after its time
+  hal::Duration late{};  ///< by how much it woke after its time
   hal::Duration execution{};
 };
 
-/// What the loop tells one other thread of its time, which takes the largest by putting `none` in
-/// its place.
+/// Timing that the loop reports to one other thread, which takes the maximum by replacing it with
+/// `none`.
 struct LoopTiming {
   static constexpr std::int64_t none = -1;
   std::atomic<std::int64_t> late_ns{none};       ///< largest since it was taken
   std::atomic<std::int64_t> execution_ns{none};  ///< likewise, of whole ticks
   std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
-  std::atomic<std::uint32_t> lost_rows{0};       ///< that found no room, since boot
+  std::atomic<std::uint32_t> lost_rows{0};       ///< dropped because the ring was full, since boot
 
-  /// In the tick.
+  /// Called in the tick.
   void add(const TickTime& tick, std::int64_t skipped) {
     raise(late_ns, tick.late.count());
     raise(execution_ns, tick.execution.count());
@@ -54,20 +54,20 @@ struct LoopTiming {
   }
 };
 
-/// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
+/// A stalled disk or a busy CPU may delay the recorder by this much before a row is lost.
 inline constexpr double row_ring_s = 1.0;
 
 class Loop {
  public:
   /// settings must pass check(); devices outlive the loop, and have as many channels. Allocates;
-  /// nothing after it does.
+  /// ticks do not.
   Loop(const BoardSettings& settings, const board::Devices& devices);
 
   /// One tick that was due at `due` and woke at `woke`, after `skipped` periods were left out.
   void tick(hal::Time due, hal::Time woke, std::int64_t skipped);
 
-  /// From one other thread, which is that of the channels' tuners: false when the ring is full.
-  /// Inline: a command that is copied once more is waited for.
+  /// From one other thread, the one that uses the channels' tuners. False: the ring is full.
+  /// Inline: another copy of the command would cost a wait.
   bool send(const Command& command) {
     return is_tuning(command.verb) ? send_tuning(command) : commands_.push(command);
   }
@@ -76,7 +76,7 @@ class Loop {
     if (is_tuning(answer.command.verb)) conclude_tuning(answer);
     return true;
   }
-  /// A frame for this channel was damaged; from one other thread, as take() is.
+  /// A frame for this channel was damaged; from one other thread, like take().
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
   bool take(Row& row) { return rows_.pop(row); }
   Health& health() { return health_; }
@@ -108,10 +108,10 @@ class Loop {
 
   BoardSettings settings_;
   board::Devices devices_;
-  std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
+  std::vector<std::unique_ptr<Channel>> channels_;  ///< not movable
   std::vector<Joint> joints_;
   std::vector<Bundle> bundles_;
-  std::vector<Channel*> single_;  ///< channels of neither
+  std::vector<Channel*> single_;  ///< channels in no joint or bundle
   BoardSupervisor supervisor_;
   BoardInputs inputs_;
   board::Measured air_;  ///< in °C

@@ -1,4 +1,4 @@
-// How hard a muscle of a joint pulls, as far as its model tells.
+// The pull of a joint's muscle, by its model.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace supercoil {
 
-/// By what its heat adds to the pretension and what its own stretch takes: nothing measures it.
+/// From the pretension, what its heat adds, and what its contraction takes: nothing measures it.
 /// Does nothing where the pretension is not known.
 class ModelledPull {
  public:
@@ -22,7 +22,7 @@ class ModelledPull {
     const double per_s = muscle.heat_transfer_W_per_K / muscle.thermal_mass_J_per_K;
     heat_W_ += std::min(1.0, per_s * time_s) * (power_W - heat_W_);
   }
-  /// The steady power that would have made it as hot as it is.
+  /// The steady power that would keep it as hot as it is.
   double heat_W() const { return heat_W_; }
   /// position_m: its own contraction. At most 0: slack; NaN: not known.
   double at_N(double position_m, const control::PhysicalParameters& muscle) const {
@@ -30,8 +30,8 @@ class ModelledPull {
     return place_.cold_pull_N(position_m, muscle.stiffness_N_per_m) +
            newtons_per_watt(muscle) * heat_W_;
   }
-  /// The steady power with which it is taut there; NaN: not known. In reserve are a tenth of what
-  /// the stretch takes.
+  /// The steady power that keeps it taut there, with a tenth of what its contraction takes in
+  /// reserve; NaN: not known.
   double taut_W(double position_m, const control::PhysicalParameters& muscle) const {
     constexpr double reserve_ratio = 1.1;
     return -place_.cold_pull_N(reserve_ratio * position_m, muscle.stiffness_N_per_m) /

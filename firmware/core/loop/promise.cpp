@@ -10,35 +10,35 @@ namespace supercoil {
 
 namespace {
 
-/// Of the travel. A muscle that is not linear takes up to twice the power where it is hot, and no
-/// more is held: this leaves room for it, and the power stays clear of 0 as well.
+/// Of the travel. A nonlinear muscle takes up to twice the power where it is hot, and no more can
+/// be held: this leaves room for it and also keeps the power clear of 0.
 constexpr double middle_ratio = 0.4;
 constexpr double amplitude_ratio = 0.16;
 constexpr double slower_than_fastest = 1.2;
-/// Of a muscle that only shorter strokes found, these strokes tell nothing of the upper travel.
+/// If identify had to shorten its strokes, they say nothing about the upper travel.
 constexpr double short_strokes_ratio = 0.7;
-/// Quicker ones show nothing that this does not, and a person sees it.
+/// A faster sine shows nothing more than this one, which a person can see.
 constexpr double min_period_s = 5.0;
-/// Slower ones only take time: a smaller sine shows a slow muscle in this one.
+/// A slower sine only takes longer: a smaller sine of this period shows a slow muscle too.
 constexpr double max_period_s = 36.0;
 
-/// One period's error differs from the next one's, and motion from that of identify: of 200 muscles
+/// The error differs between periods, and the motion differs from that of identify: of 200 muscles
 /// (tests/setup/setup_study.cpp, 1 to 200) 97 % stay below.
 constexpr double allowance = 1.8;
-/// White noise of each tick through a loop of this bandwidth, and what its damping adds.
+/// Effect of each tick's white noise in a loop of this bandwidth, including what its damping adds.
 constexpr double noise_gain = 2.5;
-/// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.
+/// Ratio of motion faster than a drift to sensor noise above which no dither is needed.
 constexpr double telling_deviations = 20.0;
 /// Below, expect ringing (docs/control.md).
 constexpr double ringing_margin = 0.3;
-/// As dither_for has it.
+/// As in dither_for.
 constexpr double max_dither_m = 20e-6;
-/// What the linear model leaves unexplained where identify has not told it yet: four of five random
+/// Used until identify has measured what the linear model leaves unexplained: four of five random
 /// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
 constexpr double usual_unexplained_ratio = 0.015;
 
-/// What a muscle makes of power that is rounded to the PWM's steps. With error feedback the next
-/// tick gives back what one took; without it a rounding lasts until the controller notices.
+/// Ripple of power that is rounded to the PWM's steps. With error feedback the next tick returns
+/// what one took; without it a rounding lasts until the controller notices.
 double pwm_ripple_m(const ChannelSettings& channel, const BoardSettings& board,
                     double bandwidth_rad_per_s) {
   const HeaterSettings& heater = channel.heater;
@@ -50,7 +50,7 @@ double pwm_ripple_m(const ChannelSettings& channel, const BoardSettings& board,
          std::min(1.0, lasts_s / tau_s);
 }
 
-/// Of a muscle that was stored before this was, it may be as much as identify lets pass.
+/// A muscle stored before this ratio was introduced may have as much as identify accepts.
 double unexplained_ratio(const ChannelSettings& channel) {
   if (channel.unexplained_ratio > 0.0) return channel.unexplained_ratio;
   if (channel.simulated.linear) return 0.0;
@@ -58,9 +58,10 @@ double unexplained_ratio(const ChannelSettings& channel) {
                                    : usual_unexplained_ratio;
 }
 
-/// Over that of the widest sine: as much power swings, P = (x + τẋ)/gain, if it is quicker.
+/// Amplitude over that of the widest sine. A faster one has the same power swing, P = (x +
+/// τẋ)/gain.
 double amplitude_at(double period_s, double widest_period_s) {
-  // slower_than_fastest times 2πτ/√3, of which f.half_travel_period_s is made.
+  // The widest period is slower_than_fastest times 2πτ/√3, as in f.half_travel_period_s.
   const double widest = std::numbers::sqrt3 / slower_than_fastest;
   const double quicker = widest * std::fmax(1.0, widest_period_s / period_s);
   return std::hypot(1.0, widest) / std::hypot(1.0, quicker);
@@ -69,7 +70,7 @@ double amplitude_at(double period_s, double widest_period_s) {
 }  // namespace
 
 double FirstMotion::at(double time_s) const {
-  // Up along the sine's own rise: no step at the beginning.
+  // Rises along the sine itself: no step at the beginning.
   const double angle = 2.0 * std::numbers::pi * time_s / period_s;
   return middle_m - amplitude_m * std::cos(angle);
 }
@@ -120,11 +121,11 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
       channel.heater.probe_duty * supply_V * supply_V / channel.heater.cold_resistance_Ohm;
   const double below = std::clamp((middle_W - probe_W) / amplitude_W, -1.0, 1.0);
   const double below_s = motion.period_s / std::numbers::pi * std::acos(below);
-  // Heat through which the resistance is measured comes again before that is old.
+  // In less time the power rises again, which measures the resistance before it is old.
   if (below_s > channel.heater.probe_every_s)
     p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
 
-  // Where the motion itself tells too little, a dither asks whether the muscle still answers.
+  // If the motion itself shows too little, a dither tests whether the muscle still responds.
   const double quick_m = motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
   if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;

@@ -1,4 +1,4 @@
-// A value without its noise and without lag while it moves steadily.
+// A value with less noise, and without lag while it moves steadily.
 #pragma once
 
 namespace supercoil {
@@ -12,7 +12,7 @@ class Smoothed {
     once_ += part_ * (value - once_);
     twice_ += part_ * (once_ - twice_);
   }
-  /// As if it had long been there.
+  /// As if the value had been constant for long.
   void set(double value) { once_ = twice_ = value; }
   double value() const { return 2.0 * once_ - twice_; }
 

@@ -27,7 +27,7 @@ double mean_power(const Recording& r, std::size_t& row, double from_s, double to
   return energy_J / (to_s - from_s);
 }
 
-/// The mean of what was measured within half a step, else a straight line between neighbours.
+/// The mean of the positions within half a step, or else a straight line between neighbours.
 class Positions {
  public:
   explicit Positions(const Recording& recording) {

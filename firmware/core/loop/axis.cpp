@@ -140,7 +140,7 @@ void Axis::lead(const WholeBundle& whole) {
   if (anew) plan_proof();
 }
 
-/// With the widest bounds of power.
+/// With the widest power bounds.
 void Axis::plan_proof() {
   const double own = heater_.power_bounds().true_over_measured().max;
   proof_.plan(bundle_ ? std::max(own, bundle_->max_power_ratio) : own, muscle_);
@@ -219,7 +219,7 @@ bool Axis::control() {
       demanded_.demanded_power_W = reference_;
       return false;
     case Mode::bundle:
-      follow_comparisons();  // it is given its power
+      follow_comparisons();  // its leader gives it its power
       return false;
     case Mode::identify:
       return step_identify();

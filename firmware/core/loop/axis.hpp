@@ -82,7 +82,7 @@ class Axis {
   }
   /// A healthy sensor cannot give this position.
   void reject_position() { inputs_.position.present = false; }
-  /// A probe may have ended calibrate; true when it did.
+  /// True when a probe has ended calibrate.
   bool end_probe();
   void estimate();
   /// True when a mode ended: the axis rests.

@@ -28,7 +28,7 @@ struct BoardTick {
 
 class Channel {
  public:
-  /// index: from 0. Devices outlive the channel. Allocates; nothing after it does.
+  /// index: from 0. Devices outlive the channel. Allocates; ticks do not.
   Channel(const ChannelSettings& settings, const BoardSettings& board,
           const board::ChannelDevices& devices, std::uint8_t index);
   Channel(const Channel&) = delete;

@@ -49,7 +49,7 @@ enum KnownPlace : std::uint8_t {
   known_response_ratio,
   known_theta1_deviation,
   known_unexplained_ratio = 14,
-  known_configured,  ///< the first of the configured ones
+  known_configured,  ///< the first configured quantity
   known_configured_resistance = 21,
   known_joint_lever,
   known_joint_other_node_offset,

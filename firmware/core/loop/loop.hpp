@@ -35,7 +35,7 @@ struct TickTime {
 /// `none`.
 struct LoopTiming {
   static constexpr std::int64_t none = -1;
-  std::atomic<std::int64_t> late_ns{none};       ///< largest since it was taken
+  std::atomic<std::int64_t> late_ns{none};       ///< maximum since it was taken
   std::atomic<std::int64_t> execution_ns{none};  ///< likewise, of whole ticks
   std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
   std::atomic<std::uint32_t> lost_rows{0};       ///< dropped because the ring was full, since boot
@@ -82,7 +82,7 @@ class Loop {
   Health& health() { return health_; }
   LoopTiming& timing() { return timing_; }
 
-  /// In the loop's thread, or while it stands still.
+  /// In the loop's thread, or while the loop is stopped.
   std::size_t channels() const { return channels_.size(); }
   Channel& channel(std::size_t i) { return *channels_[i]; }
   const Channel& channel(std::size_t i) const { return *channels_[i]; }

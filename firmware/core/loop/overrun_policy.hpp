@@ -1,4 +1,4 @@
-// What to do when a tick was not done in time.
+// What to do when a tick overruns.
 #pragma once
 
 #include <cstdint>

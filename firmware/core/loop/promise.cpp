@@ -58,8 +58,7 @@ double unexplained_ratio(const ChannelSettings& channel) {
                                    : usual_unexplained_ratio;
 }
 
-/// Amplitude over that of the widest sine. A faster one has the same power swing, P = (x +
-/// τẋ)/gain.
+/// Amplitude over that of the widest sine; a faster one has its power swing, P = (x + τẋ)/gain.
 double amplitude_at(double period_s, double widest_period_s) {
   // The widest period is slower_than_fastest times 2πτ/√3, as in f.half_travel_period_s.
   const double widest = std::numbers::sqrt3 / slower_than_fastest;

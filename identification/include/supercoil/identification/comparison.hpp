@@ -1,4 +1,4 @@
-// Models of a recording, each judged by a part of it that was not fitted.
+// Models of a recording, each judged on a part of it that was not fitted.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace supercoil::identification {
 
-/// One model, fitted to one part of a recording and judged by another.
+/// One model, fitted to one part of a recording and judged on another.
 struct Judged {
   Fit fit;
   double fitted_rms_m = 0.0;

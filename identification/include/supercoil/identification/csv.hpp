@@ -13,7 +13,7 @@ namespace supercoil::identification {
 /// are removed.
 class CsvLines {
  public:
-  /// text outlives it.
+  /// text must outlive it.
   explicit CsvLines(std::string_view text);
 
   /// Reads the next line. False: there is none.

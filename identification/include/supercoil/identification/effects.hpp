@@ -15,7 +15,7 @@ enum class Effect : std::uint8_t {
   force,           ///< force per kelvin rises with temperature
   heat_transfer,   ///< heat transfer rises with temperature
   heated_air,      ///< heat transfer differs while it is heated (a heat gun's draught)
-  hysteresis,      ///< force lags behind temperature by plays
+  hysteresis,      ///< force lags behind temperature through plays
   creep,           ///< a part of the motion follows slowly
   lonely_stroke,   ///< the first heating moves the rest length permanently
   transformation,  ///< the whole stroke is within a range of temperature: no super-coiled polymer

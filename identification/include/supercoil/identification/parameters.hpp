@@ -12,7 +12,7 @@ namespace supercoil::identification {
 
 /// Sizes of the recording, which set the parameters' units.
 struct Sizes {
-  double stroke_m;    ///< highest less lowest position
+  double stroke_m;    ///< highest minus lowest position
   double full_W;      ///< highest power
   double duration_s;  ///< of the whole recording
   double energy_J;    ///< of the whole recording

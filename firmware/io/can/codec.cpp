@@ -12,7 +12,7 @@ namespace supercoil::can {
 
 namespace {
 
-/// Bases of identifiers are multiples of this; below it is the node.
+/// Base identifiers of messages are multiples of this; the rest of an identifier is the node.
 constexpr std::uint16_t nodes = 0x40;
 
 std::uint64_t mask_of(const SignalInfo& signal) {
@@ -26,14 +26,14 @@ std::uint64_t bits(const hal::CanFrame& frame, const SignalInfo& signal) {
   return all >> signal.start & mask_of(signal);
 }
 
-/// The number that the bits are, before its scale.
+/// The raw bits as a number, before scaling.
 std::int64_t integer(std::uint64_t raw, const SignalInfo& signal) {
   const std::uint64_t sign = std::uint64_t{1} << (signal.length - 1U);
   const bool negative = signal.raw == Raw::signed_integer && (raw & sign) != 0;
   return static_cast<std::int64_t>(raw) - (negative ? static_cast<std::int64_t>(sign << 1U) : 0);
 }
 
-/// The nearest one that the signal has.
+/// The nearest raw value that the signal can carry.
 std::int64_t quantised(double value, const SignalInfo& signal) {
   if (std::isnan(value)) return signal.reserved == no_value ? 0 : signal.reserved;
   const bool is_signed = signal.raw == Raw::signed_integer;
@@ -112,7 +112,7 @@ std::optional<Decoded> decode(const hal::CanFrame& frame) {
   decoded.values.fill(NAN);
   for (std::size_t i = 0; i < message->signals.size(); ++i) {
     const SignalInfo& signal = message->signals[i];
-    // The first signal of a multiplexed message says which others are there.
+    // The first signal of a multiplexed message selects which others are present.
     if (signal.selected_by != always && decoded.values[0] != signal.selected_by) continue;
     decoded.values.at(i) = get(frame, signal);
   }

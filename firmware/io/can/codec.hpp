@@ -1,4 +1,4 @@
-// From values to frames and back, by the protocol's table (supercoil.dbc).
+// From values to frames and back, as the protocol's table defines it (supercoil.dbc).
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ class Encoder {
   }
   const hal::CanFrame& frame() const { return frame_; }
   hal::CanFrame& frame() { return frame_; }
-  /// With the checksum over all that was set, and the session of a frame that has no room for it.
+  /// Adds the checksum. It also covers the session of a frame that has no room for it.
   template <class... Session>
   const hal::CanFrame& protected_frame(Session... session) {
     e2e::protect(frame_, session...);
@@ -44,7 +44,7 @@ class Encoder {
   hal::CanFrame frame_;
 };
 
-/// Reads signals of a frame that is of this message.
+/// Reads signals from a frame of this message.
 template <const MessageInfo& message>
 class Reader {
  public:
@@ -69,16 +69,16 @@ struct Decoded {
   std::array<double, max_signals> values;
 };
 
-/// Of any message. Empty: no frame of the protocol, for its identifier or its length.
+/// Decodes any message. Empty: the identifier or the length is not the protocol's.
 std::optional<Decoded> decode(const hal::CanFrame& frame);
 
-/// The message of this name; null: there is none.
+/// The message of this name; null: no such message.
 const MessageInfo* find_message(std::string_view name);
-/// A signal's place in its message; throws std::out_of_range for a name that the protocol lacks.
+/// A signal's index in its message; throws std::out_of_range for an unknown name.
 std::size_t signal_index(const MessageInfo& message, std::string_view name);
-/// Of the signals of this name; empty: they have none, or there are none.
+/// Unit of the signals with this name; empty: no unit, or no such signal.
 std::string_view unit_of(std::string_view signal_name);
-/// Name of a value; empty: it has none.
+/// Name of a value; empty: no name.
 std::string_view value_name(const SignalInfo& signal, double value);
 
 }  // namespace supercoil::can

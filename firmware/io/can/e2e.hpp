@@ -1,4 +1,4 @@
-// AUTOSAR E2E Profile 2: damage, repetition and loss of a frame are seen by its receiver.
+// AUTOSAR E2E Profile 2: the receiver detects a damaged, repeated or lost frame.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 namespace supercoil::can::e2e {
 
 /// Byte 0 of the frame: CRC-8H2F over all other bytes and then the data id. All 16 data ids are the
-/// low byte of the frame's identifier: a frame that reaches another node is damaged.
+/// low byte of the frame's identifier, so a frame that reaches another node counts as damaged.
 ///
-/// Not Profile 1: of the 41664 damages of 3 bits that 8 bytes can take, its CRC-8 of SAE J1850
-/// misses 198, this one none (counted on 2026-11-21; commands_test tries them all).
+/// Not Profile 1: its CRC-8 of SAE J1850 misses 198 of the 41664 possible 3-bit errors in 8 bytes,
+/// this one none (counted on 2026-11-21; commands_test tries them all).
 inline auto unfinished_crc(const hal::CanFrame& frame) {
   boost::crc_optimal<8, 0x2F, 0xFF, 0xFF, false, false> crc;
   crc.process_bytes(frame.data.data() + 1, frame.length - 1U);
@@ -23,7 +23,7 @@ inline auto unfinished_crc(const hal::CanFrame& frame) {
 inline std::uint8_t crc(const hal::CanFrame& frame) {
   return unfinished_crc(frame).checksum();
 }
-/// Of a frame that has no room for its session, low byte first behind the data id.
+/// For a frame without room for its session: the session follows the data id, low byte first.
 inline std::uint8_t crc(const hal::CanFrame& frame, std::uint16_t session) {
   auto crc = unfinished_crc(frame);
   crc.process_byte(static_cast<std::uint8_t>(session));
@@ -31,12 +31,12 @@ inline std::uint8_t crc(const hal::CanFrame& frame, std::uint16_t session) {
   return crc.checksum();
 }
 
-/// session: of a frame that has no room for it.
+/// session: only for a frame that has no room for it.
 template <class... Session>
 void protect(hal::CanFrame& frame, Session... session) {
   frame.data[0] = crc(frame, session...);
 }
-/// length: what the message has, 1 to 8.
+/// length: the message's, 1 to 8.
 template <class... Session>
 bool intact(const hal::CanFrame& frame, std::uint8_t length, Session... session) {
   return frame.length == length && frame.data[0] == crc(frame, session...);
@@ -44,12 +44,12 @@ bool intact(const hal::CanFrame& frame, std::uint8_t length, Session... session)
 
 /// Counters run from 0 to 15.
 inline constexpr std::uint8_t counters = 16;
-/// Frames that may be lost in a row without the sequence being broken.
+/// Consecutive frames that may be lost without breaking the sequence.
 inline constexpr std::uint8_t max_lost = 3;
 
-/// Whether a frame is the next one, or the next but the few that may be lost. Seen is a frame that
-/// comes again while fewer than 12 came after it. Not seen is one that comes 12 to 15 frames later,
-/// modulo 16, nor a circle of 16 recorded frames played in order: a session and its lease bound how
+/// Whether a frame is the next one, allowing for max_lost lost frames. This detects a frame that is
+/// repeated while fewer than 12 came after it. It does not detect one repeated 12 to 15 frames
+/// later, modulo 16, nor 16 recorded frames replayed in order: a session and its lease bound how
 /// long these can pass (Leases), and a recorded claim brings neither back.
 constexpr bool follows(std::uint8_t counter, std::uint8_t last) {
   const int ahead = (counter - last + counters) % counters;

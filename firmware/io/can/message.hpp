@@ -1,4 +1,4 @@
-// What the CAN protocol's messages and signals are made of; generated/messages.hpp has them all.
+// The structure of CAN messages and signals; generated/messages.hpp lists them all.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ struct ValueName {
   std::string_view name;
 };
 
-/// What a signal's bits are; a floating one has 32 of IEEE 754.
+/// How a signal's bits are read; a floating one has the 32 bits of IEEE 754.
 enum class Raw : std::uint8_t { unsigned_integer, signed_integer, floating };
 
-/// No raw value says "not available".
+/// The signal has no raw value for "not available".
 inline constexpr std::int64_t no_value = std::numeric_limits<std::int64_t>::min();
 /// Not multiplexed.
 inline constexpr int always = -1;
@@ -30,13 +30,13 @@ struct SignalInfo {
   std::uint8_t length;  ///< bits, 1 to 48
   Raw raw;
   double scale;
-  std::int64_t reserved;  ///< the raw value that says "not available", at one end of the range
-  int selected_by;        ///< of the message's first signal: when this one is there
+  std::int64_t reserved;  ///< the raw value for "not available", at one end of the range
+  int selected_by;        ///< value of the message's first signal with which this one is present
   std::span<const ValueName> names;
 };
 
-/// In which every value of the signal can be written and read back. A scaled one in 15, which show
-/// nothing of the product's rounding; nine are all that a float has.
+/// Digits with which every value of the signal reads back the same: 9 for a float; 15 for a scaled
+/// value, so that the rounding of the product does not show.
 constexpr int significant_digits(const SignalInfo& signal) {
   return signal.raw == Raw::floating ? 9 : 15;
 }
@@ -45,12 +45,11 @@ struct MessageInfo {
   std::string_view name;
   std::uint16_t base;   ///< identifier less node
   std::uint8_t length;  ///< bytes
-  unsigned period_ms;   ///< between two of them, usually; 0: sent when there is a reason
+  unsigned period_ms;   ///< usual period; 0: sent when there is a reason
   std::span<const SignalInfo> signals;
 };
 
-/// The place of a message's signal. Looked up when the program is compiled: a name that the message
-/// lacks does not build.
+/// A signal of a message, looked up at compile time: an unknown name does not build.
 template <const MessageInfo& message>
 class SignalOf {
  public:

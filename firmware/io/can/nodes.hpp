@@ -11,7 +11,7 @@
 
 namespace supercoil::can {
 
-/// Node 1 to 63: one channel of a board; those of a board follow one another.
+/// 1 to 63: one channel of a board. The nodes of a board are consecutive.
 using Node = std::uint8_t;
 inline constexpr int max_nodes = 63;
 
@@ -19,8 +19,8 @@ constexpr std::uint16_t id_of(const MessageInfo& message, Node node) {
   return static_cast<std::uint16_t>(message.base + node);
 }
 
-/// The channel whose message a frame is, of a board of so many. Empty: it is somebody else's, or
-/// another message.
+/// The channel that the frame addresses, on a board with this many channels. Empty: another board's
+/// frame, or another message.
 inline std::optional<std::uint8_t> channel_of(const hal::CanFrame& frame,
                                               const MessageInfo& message, Node first_node,
                                               std::size_t channels) {

@@ -17,7 +17,7 @@ std::optional<hal::Time> time_of(std::string_view word) {
 }  // namespace
 
 hal::Time time_of_run(hal::Time in_log) {
-  // The longest scenario takes 1e6 s; no board of ours kept a log in the year 2001.
+  // The longest scenario takes 1e6 s; no supercoil board kept a log in 2001.
   constexpr hal::Time longest_run = std::chrono::hours(24 * 365);
   const hal::Time in_run = in_log - simulation_epoch;
   return in_run >= hal::Time{0} && in_run <= longest_run ? in_run : in_log;

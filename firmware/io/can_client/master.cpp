@@ -17,13 +17,13 @@ bool ends_lease(Refusal refusal) {
   return refusal == Refusal::no_lease || refusal == Refusal::not_lease_holder;
 }
 
-/// Empty: of another version of the protocol.
+/// Empty: the refusal is from another version of the protocol.
 std::optional<Refusal> refusal_in(double number) {
   if (number >= static_cast<double>(refusal_names.size())) return std::nullopt;
   return static_cast<Refusal>(number);
 }
 
-/// Of this node's message; empty: the frame is another one.
+/// The signal's value, if the frame is this node's message.
 template <const can::MessageInfo& message>
 std::optional<double> receive(std::uint8_t node, const hal::CanFrame& frame,
                               can::SignalOf<message> signal) {

@@ -13,18 +13,18 @@
 
 namespace supercoil::can_client {
 
-/// Of the frames by which a node answers its masters.
+/// Identifiers of the frames with which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
 std::uint16_t setting_id(std::uint8_t node);
-/// What a node sends after an answer that refuses a value.
+/// Sent by a node after an answer that refuses a value.
 std::uint16_t refused_value_id(std::uint8_t node);
-/// Of its heartbeat.
+/// The node's heartbeat.
 std::uint16_t status_id(std::uint8_t node);
-/// Of what it has learned.
+/// The node's estimates.
 std::uint16_t estimate_id(std::uint8_t node);
 
-/// Of the values that the node would have obeyed the nearest to the refused one, NaN where there is
-/// none. Empty: the frame is not about a refused value.
+/// The value nearest to the refused one that the node would have obeyed; NaN: there is none. Empty:
+/// the frame is not about a refused value.
 std::optional<double> receive_nearest(std::uint8_t node, const hal::CanFrame& frame);
 
 /// Asks for one setting of a node; needs no lease.
@@ -33,10 +33,10 @@ hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
 /// Asks for one quantity of a node's muscle, a place in known_quantities; needs no lease.
 hal::CanFrame muscle_read(std::uint8_t node, std::uint8_t quantity);
 std::uint16_t muscle_id(std::uint8_t node);
-/// NaN: not known. Empty: the frame does not answer that.
+/// NaN: not known. Empty: the frame does not answer this read.
 std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
                                      const hal::CanFrame& frame);
-/// Of all that a node answers when it is commanded or asked.
+/// Identifiers of all answers to commands and reads.
 std::vector<std::uint16_t> answer_ids(std::uint8_t node);
 /// One value of a node's controller or estimator.
 struct TunedPlace {
@@ -46,49 +46,49 @@ struct TunedPlace {
 };
 struct TunedValue {
   Refusal refusal;
-  double value;          ///< that holds now; NaN: none
-  std::uint8_t counter;  ///< of the write; 0: of a read
+  double value;          ///< in use now; NaN: none
+  std::uint8_t counter;  ///< that of the write; 0: answers a read
 };
-/// Asks for it; needs no lease.
+/// Asks for one value; needs no lease.
 hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place);
 std::uint16_t tuning_id(std::uint8_t node);
-/// Empty: no intact answer about it.
+/// Empty: the frame is not an intact answer about this value.
 std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& place,
                                          const hal::CanFrame& frame);
-/// Of identify and calibrate, 0 to 1, from the heartbeat. Empty: the frame does not tell.
+/// Progress of identify and calibrate, 0 to 1, from the heartbeat. Empty: another frame.
 std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame);
-/// Of its position and resistance.
+/// The node's position and resistance.
 std::uint16_t measurement_id(std::uint8_t node);
-/// NaN: no fresh reading. Empty: the frame does not tell.
+/// NaN: no fresh reading. Empty: another frame.
 std::optional<double> receive_position_m(std::uint8_t node, const hal::CanFrame& frame);
-/// Of what it follows, and how closely.
+/// The reference that the node follows, and its tracking error.
 std::uint16_t tracking_id(std::uint8_t node);
-/// Position less reference model; NaN: it follows none. Empty: the frame does not tell.
+/// Position less reference model; NaN: no reference is followed. Empty: another frame.
 std::optional<double> receive_error_m(std::uint8_t node, const hal::CanFrame& frame);
 
-/// What a node tells of its trajectory.
+/// What a node reports about its trajectory.
 struct Played {
   Refusal refusal;
   PlaybackState state;
-  std::uint8_t room;  ///< for so many knots more
+  std::uint8_t room;  ///< number of further knots that fit
   double buffered_s;
 };
 std::uint16_t trajectory_id(std::uint8_t node);
 /// For all nodes of the bus; needs no lease.
 hal::CanFrame sync(std::uint8_t number, double master_time_s);
 
-/// Neither sends nor receives.
+/// Builds frames and reads answers; does no I/O.
 class Master {
  public:
-  /// name: any number by which this master knows the answer to its claim; of its own, so that two
-  /// masters do not take each other's.
+  /// name: any number by which this master recognises the answer to its claim; unique, so that two
+  /// masters do not take each other's answers.
   Master(std::uint8_t node, std::uint16_t name) : node_(node), name_(name) {}
 
   std::uint8_t node() const { return node_; }
   bool holds_lease() const { return session_ != 0; }
 
-  /// Asks for the lease, or keeps the one that this master has. After the answer claim_again it is
-  /// asked for once more, with what that answer told.
+  /// Asks for the lease, or keeps the one that this master has. After the answer claim_again, the
+  /// next claim repeats the nonce of that answer.
   hal::CanFrame claim();
   hal::CanFrame release();
   /// Under the lease; without one only disarm is obeyed.
@@ -101,13 +101,13 @@ class Master {
   /// Empty: no intact answer to this master's last write.
   std::optional<TunedValue> receive_tuning(const TunedPlace& place, const hal::CanFrame& frame);
 
-  /// Under the lease: the next knot, so long after the one before it.
+  /// Under the lease: the next knot, after_s after the previous one.
   hal::CanFrame knot(double after_s, double position_m, double velocity_m_per_s);
-  /// Under the lease: starts the trajectory so long after the board has received this.
+  /// Under the lease: starts the trajectory after_s after the board has received this.
   hal::CanFrame play_at_once(double after_s);
-  /// Under the lease: starts the trajectory so long after a Sync.
+  /// Under the lease: starts the trajectory after_s after a Sync.
   hal::CanFrame play_at_sync(std::uint8_t sync, double after_s);
-  /// Under the lease: asks what becomes of it.
+  /// Under the lease: asks for the state of the trajectory.
   hal::CanFrame play_never();
   /// Empty: no intact answer to this master's last frame.
   std::optional<Played> receive_played(const hal::CanFrame& frame);
@@ -115,17 +115,17 @@ class Master {
   struct Setting {
     std::uint8_t setting;
     Refusal refusal;
-    double value;  ///< that holds now; NaN: none
+    double value;  ///< in use now; NaN: none
   };
   /// Empty: no intact answer to this master's last write, or to anybody's read.
   std::optional<Setting> receive_setting(const hal::CanFrame& frame, bool of_write);
 
   struct Heard {
-    std::uint8_t opcode;  ///< of what was answered
+    std::uint8_t opcode;  ///< of the answered frame
     Refusal refusal;
   };
-  /// Empty: no intact answer to this master's last frame. A lease that was granted, released or
-  /// refused is known from then on.
+  /// Empty: no intact answer to this master's last frame. Also notes whether the lease was granted,
+  /// released or refused.
   std::optional<Heard> hear(const hal::CanFrame& frame);
 
  private:
@@ -137,9 +137,9 @@ class Master {
   std::uint8_t node_;
   std::uint16_t name_;
   std::uint16_t nonce_ = 0;  ///< that the next claim must repeat; 0: none was received
-  bool releasing_ = false;   ///< the last frame gave the lease back
+  bool releasing_ = false;   ///< the last frame released the lease
   std::uint16_t session_ = 0;
-  std::uint16_t asked_as_ = 0;  ///< what the last frame carried as its session
+  std::uint16_t asked_as_ = 0;  ///< the session field of the last frame
   std::uint8_t counter_ = 0;    ///< of the last frame
 };
 

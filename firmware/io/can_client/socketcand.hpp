@@ -1,4 +1,4 @@
-// The text of the socketcand protocol, both sides of it: elements "< word word >" over TCP.
+// Text of both sides of the socketcand protocol: elements "< word word >" over TCP.
 // https://github.com/linux-can/socketcand/blob/master/doc/protocol.md
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace supercoil::can_client {
 
-/// Cuts a stream of bytes into its elements. What stands outside of them is passed over, and so is
-/// an element that is longer than any of the protocol's.
+/// Splits a stream of bytes into elements. Ignores bytes outside of elements, and elements longer
+/// than any of the protocol's.
 class ElementReader {
  public:
   void put(std::string_view bytes);
-  /// What stands between < and >, without spaces at its ends; empty: the next is not whole yet.
+  /// The text between < and >, trimmed of spaces; empty: the next element is not complete yet.
   std::optional<std::string> take();
 
  private:
@@ -23,12 +23,12 @@ class ElementReader {
   bool inside_ = false;
 };
 
-/// "< send 123 2 AA 0 >", and back from what ElementReader gives of it. Empty: no such element, or
-/// no classical frame with an 11-bit identifier.
+/// "< send 123 2 AA 0 >", and back from an element of ElementReader. Empty: another element, or not
+/// a classical frame with an 11-bit identifier.
 std::string send_text(const hal::CanFrame& frame);
 std::optional<hal::CanFrame> parse_send(std::string_view element);
 
-/// "< frame 123 23.424242 AA00 >". at: since 1970, or since whenever the server counts.
+/// "< frame 123 23.424242 AA00 >". at: since 1970, or since the server's own start of time.
 std::string frame_text(const hal::CanFrame& frame, hal::Time at);
 std::optional<hal::CanFrame> parse_frame(std::string_view element);
 

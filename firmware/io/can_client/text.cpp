@@ -10,7 +10,7 @@ std::optional<hal::Time> parse_time(std::string_view text) {
   std::string fraction(text.substr(point + 1));
   constexpr std::size_t digits_of_nanoseconds = 9;
   fraction.resize(digits_of_nanoseconds, '0');
-  // Nanoseconds in 64 bits count twice as many.
+  // 64 bits of nanoseconds reach twice as far.
   constexpr std::uint64_t max_s = std::numeric_limits<std::uint32_t>::max();
   const auto seconds = number<std::uint64_t>(text.substr(0, point), 10);
   const auto rest = number<std::uint32_t>(fraction, 10);

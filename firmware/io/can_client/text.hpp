@@ -17,7 +17,7 @@ namespace supercoil::can_client {
 inline constexpr std::size_t digits_of_standard_id = 3;
 inline constexpr std::uint32_t standard_ids = 0x800;
 
-/// All of the text as a whole number; empty: it is not one, or too large.
+/// The whole text as an integer; empty: not an integer, or too large.
 template <class Number>
 std::optional<Number> number(std::string_view text, int base) {
   Number value{};
@@ -44,15 +44,15 @@ inline void add_time(std::string& text, hal::Time time) {
   text += '.';
   add_number<10>(text, time_us % second_us, 6);
 }
-/// Any number of digits behind the point; what is finer than nanoseconds is cut off.
+/// Any number of digits after the point; digits below nanoseconds are cut off.
 std::optional<hal::Time> parse_time(std::string_view text);
 
-/// Two digits a byte.
+/// Two digits per byte.
 inline void add_bytes(std::string& text, const hal::CanFrame& frame) {
   for (std::size_t i = 0; i < frame.length; ++i)
     add_number<16>(text, frame.data.at(i), 2);
 }
-/// False: no pairs of hexadecimal digits, or more than 8.
+/// False: not pairs of hexadecimal digits, or more than 8 pairs.
 bool parse_bytes(std::string_view text, hal::CanFrame& frame);
 
 }  // namespace supercoil::can_client

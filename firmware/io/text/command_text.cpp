@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view refused = "refused: ";
 
-/// What the number behind a verb is; empty: it takes none.
+/// Describes the number after a verb; empty: the verb takes none.
 std::string_view value_of(Verb verb) {
   switch (verb) {
     case Verb::position:
@@ -64,7 +64,7 @@ std::string no_command(std::string_view word) {
          meant_or_all(word, known_verbs(), "there are");
 }
 
-/// From 0.
+/// Counted from 0.
 Result<std::uint8_t> channel_in(std::string_view word, std::size_t channels) {
   const auto channel = number<std::size_t>(word);
   if (channel && *channel >= 1 && *channel <= channels)
@@ -94,7 +94,7 @@ Result<Command> parse_command(std::string_view text, std::size_t channels) {
   const auto channel = channel_in(next_word(text), channels);
   if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
-  // To store nothing has a word of its own.
+  // `clear` is the word for storing nothing.
   const bool clears = verb_word == "clear";
   const auto found = std::find(plain_verb_names.begin(), plain_verb_names.end(),
                                clears ? name(Verb::store) : verb_word);

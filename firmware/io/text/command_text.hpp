@@ -15,8 +15,8 @@ namespace supercoil {
 /// channels: how many the board has. The error says what is wrong and what is allowed.
 Result<Command> parse_command(std::string_view text, std::size_t channels);
 
-/// "1 knot 0.02 0.01 0.001": how long after the knot before in s, m, m/s; "1 start 12.345": from
-/// that time of the board's clock on, in s. Empty: the text is neither.
+/// "1 knot 0.02 0.01 0.001": s after the previous knot, m, m/s; "1 start 12.345": at this time of
+/// the board's clock, in s. Empty: the text is neither.
 std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
                                                         std::size_t channels);
 
@@ -24,9 +24,9 @@ std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
 /// Answer.
 std::string answer_text(Refusal refusal, double nearest);
 
-/// What answer_text() says, also with a reason behind it. Empty: the text is no such answer.
+/// Parses the text of answer_text(), also with a reason after it. Empty: not such an answer.
 std::optional<Reply> parse_answer(std::string_view text);
-/// That it is an answer which refuses for this reason.
+/// Whether the text is an answer that refuses for this reason.
 bool refuses(std::string_view text, Refusal why);
 
 }  // namespace supercoil

@@ -8,7 +8,7 @@ namespace supercoil {
 
 namespace {
 
-/// Levenshtein's distance, with two neighbours that are exchanged as one edit: "amr" for "arm".
+/// Levenshtein distance that counts two swapped neighbours as one edit: "amr" for "arm".
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -27,7 +27,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// What is written may lack the last parts of a name, and be misspelt besides.
+/// The written name may lack the last parts of a known one, and be misspelt too.
 Nearest nearest_beginning(std::string_view written, const std::vector<std::string>& known) {
   Nearest best;
   std::size_t fewest = 0;
@@ -52,7 +52,7 @@ Nearest nearest_name(std::string_view written, const std::vector<std::string>& k
   Nearest best;
   std::size_t fewest = 0;
   for (const std::string& name : known) {
-    // The shortest has nothing but a unit beside it.
+    // The shortest of these names adds nothing but a unit.
     if (name.starts_with(with_unit) && (!best.lacks_unit || name.size() < best.name.size()))
       best = {name, true};
     const std::size_t distance = edits(written, name);
@@ -69,7 +69,7 @@ std::string meant_or_all(std::string_view written, const std::vector<std::string
                          std::string_view otherwise) {
   const Nearest nearest = nearest_name(written, known);
   if (nearest.name.empty()) return std::string(otherwise) + ": " + joined(known);
-  // One of several that are numbered, "gain_1", has none.
+  // A numbered name such as "gain_1" has no unit.
   const bool lacks_unit =
       nearest.lacks_unit && (nearest.name.back() < '0' || nearest.name.back() > '9');
   return "did you mean " + nearest.name + (lacks_unit ? " (the unit is part of the name)?" : "?");

@@ -12,12 +12,12 @@ struct Nearest {
   bool lacks_unit = false;  ///< what was written is the name without its unit
 };
 
-/// The shortest known name that starts with what was written and "_", or else the one with the
-/// fewest edits, up to a third of its length; two letters that are exchanged are one edit. Or else
-/// the shortest that starts nearly so, up to a quarter: "bandwith" is bandwidth_rad_per_s.
+/// The shortest known name that starts with what was written and "_"; else the one with the fewest
+/// edits, up to a third of its length, where two swapped letters are one edit; else the one with
+/// the most similar beginning, up to a quarter of it: "bandwith" is bandwidth_rad_per_s.
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
 
-/// What to say after "…; ": "did you mean NAME?", or where nothing is near all: "OTHERWISE: a, b".
+/// Text after "…; ": "did you mean NAME?", or all names if none is near: "OTHERWISE: a, b".
 std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
                          std::string_view otherwise);
 

@@ -10,15 +10,15 @@
 
 namespace supercoil {
 
-/// The shortest that gives the same number back.
+/// The shortest text that reads back as the same number.
 template <class Number>
 std::string shortest_text(Number number) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
-/// For people, and for files that people read: with so many significant digits at most, without
-/// zeros at the end. 1480 in three digits is "1480"; from ten million on it has an exponent.
+/// For people, and for files that people read: at most this many significant digits, no trailing
+/// zeros. 1480 in three digits is "1480"; from ten million on there is an exponent.
 inline std::string number_text(double value, int digits) {
   constexpr double first_with_exponent = 1e7;
   std::array<char, 40> text{};

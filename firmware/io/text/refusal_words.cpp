@@ -11,7 +11,7 @@ namespace supercoil {
 
 namespace {
 
-/// By their numbers; the page has them from here, too.
+/// By refusal number; the monitor's page uses them too.
 constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "",
     "arm it first, or reset its fault; or command the channel that leads its joint or bundle",

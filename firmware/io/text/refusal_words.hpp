@@ -8,15 +8,15 @@
 
 namespace supercoil {
 
-/// "it has no fault". verb: what was refused, where that is known. Empty: it was not refused.
+/// "it has no fault". verb: what was refused, if known. Empty: it was not refused.
 std::string_view refusal_words(Refusal refusal, Verb verb = Verb::none);
 
-/// answer_text() with the words behind it: "refused: wrong_state: it has no fault". A nearest value
-/// says enough by itself.
+/// answer_text() followed by the words: "refused: wrong_state: it has no fault". An answer with a
+/// nearest value gets no words.
 std::string told_answer(const Reply& reply, Verb verb = Verb::none);
 
-/// The same of an answer as text to a line, "1 arm"; what has a reason already stays, and so does
-/// what is no answer of a board.
+/// The same for the text of an answer to a line such as "1 arm". Returns the text unchanged if it
+/// already has a reason or is not a board's answer.
 std::string told_answer(std::string_view line, std::string_view answer);
 
 }  // namespace supercoil

@@ -1,5 +1,4 @@
-// How identify and calibrate ended, in words: what programs and the page say of it, and
-// docs/running.md too.
+// How identify and calibrate ended, in words, for programs, the page and docs/running.md.
 #pragma once
 
 #include <array>
@@ -17,10 +16,9 @@ extern const std::array<std::string_view, mode_result_names.size()> result_words
 /// By the bits of IdentifyNote: "θ2 is uncertain".
 extern const std::array<std::string_view, identify_note_names.size()> note_words;
 
-/// "poor_fit: the muscle did not do what the fit predicted, ...; theta2_uncertain". Names are those
-/// that a board tells, with commas between notes. What was found needs no explanation, and a note
-/// of the result's own name says nothing new. cause: of what was interrupted, "by Ctrl-C"; empty:
-/// not known.
+/// "poor_fit: the muscle did not move as the fit predicted, ...; theta2_uncertain". Names are as
+/// the board reports them, with commas between notes. Success needs no explanation, and a note with
+/// the result's own name is left out. cause: of an interruption, "by Ctrl-C"; empty: not known.
 std::string told_result(std::string_view result, std::string_view notes,
                         std::string_view cause = "");
 std::string told_result(ModeResult result, std::uint8_t notes);

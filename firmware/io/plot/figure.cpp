@@ -26,7 +26,7 @@ set linetype 6 lc rgb "#56B4E9" lw 1.6
 set linetype 7 lc rgb "#444444" lw 1.2
 )";
 
-/// In single quotes: gnuplot runs what stands between backquotes in double ones.
+/// In single quotes: in double quotes, gnuplot runs text between backquotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -63,13 +63,13 @@ void write_names(std::ostream& out, const std::vector<std::string>& names) {
   out << ")\n";
 }
 
-/// A number for each unit of x, or a name.
+/// Numbers along x, or names.
 void write_x_tics(std::ostream& out, const Panel& panel) {
   if (panel.x_names.empty()) {
     if (panel.x_low < panel.x_high) {
       out << "set xrange [" << panel.x_low << ":" << panel.x_high << "]\n";
     } else {
-      out << "set xrange [*:*]\nset autoscale xfix\n";  // without what a panel before it had
+      out << "set xrange [*:*]\nset autoscale xfix\n";  // drops the range of the panel before
     }
     out << "set xtics norotate autofreq\n";
     return;
@@ -99,7 +99,7 @@ void write_y_range(std::ostream& out, const Panel& panel) {
   } else if (draws_anything(panel)) {
     out << "set autoscale y\n";
   } else {
-    // gnuplot gives up on a panel whose range it cannot choose, and with it on the whole figure.
+    // If gnuplot cannot choose a panel's range, it abandons the whole figure.
     out << "set yrange [1:10]\nset label 'no value to draw' at graph 0.5,0.5 center\n";
   }
 }
@@ -127,7 +127,7 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "\n";
 }
 
-/// gnuplot says nothing when the disk is full, and ends as if all were well.
+/// When the disk is full, gnuplot reports no error and exits with status 0.
 bool complete(const std::filesystem::path& svg) {
   constexpr std::string_view end = "</svg>";
   std::ifstream in(svg, std::ios::binary);
@@ -170,7 +170,7 @@ Result<void> draw(const Figure& figure, const std::filesystem::path& svg) {
     std::filesystem::remove(script, ignored);
     return failure(script.string() + ": cannot be written: is the disk full?");
   }
-  // The paths go in by the environment: no shell reads them.
+  // The paths are passed through the environment, so that the shell does not interpret them.
   constexpr const char* command = R"(gnuplot "$SUPERCOIL_PLOT" 2>"$SUPERCOIL_PLOT_LOG")";
   setenv("SUPERCOIL_PLOT", script.c_str(), 1);
   setenv("SUPERCOIL_PLOT_LOG", log.c_str(), 1);

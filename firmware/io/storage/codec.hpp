@@ -10,12 +10,12 @@
 
 namespace supercoil::storage {
 
-/// TOML behind a line with format, length and CRC-32. Numbers have the fewest digits that give the
-/// same double back. A set that fails check() is written as well, and decode() refuses it.
+/// TOML after a line with format, length and CRC-32. Numbers have the fewest digits that read back
+/// as the same double. encode() accepts a set that fails check(); decode() refuses it.
 std::string encode(const board::Learned& learned);
 
-/// The set, bit for bit, when the text is whole, of a known format, has every key and no other, and
-/// the set passes check(). The error goes on from the file's name: "is cut off: …".
+/// The set, bit for bit, if the text is complete, has a known format, every key and no other, and
+/// the set passes check(). The error continues the file's name: "is cut off: …".
 Result<board::Learned> decode(std::string_view text);
 
 }  // namespace supercoil::storage

@@ -8,7 +8,7 @@
 
 namespace supercoil::storage {
 
-/// Of bytes that may lie in two places, one after the other.
+/// Over the bytes of first, then those of second.
 inline std::uint32_t crc32(std::string_view first, std::string_view second = {}) {
   boost::crc_32_type crc;
   crc.process_bytes(first.data(), first.size());

@@ -32,7 +32,7 @@ bool take_number(std::string_view& text, std::size_t& number) {
   return true;
 }
 
-/// Why the first line is not the one that belongs to the body.
+/// Why the first line does not match the body.
 std::string difference(std::string_view line, std::string_view body) {
   constexpr std::string_view between = ", ";
   std::string damaged_line = "is damaged: its first line is not as it was written";
@@ -59,7 +59,7 @@ std::string difference(std::string_view line, std::string_view body) {
          hexadecimal(crc32(body), 8) + ")";
 }
 
-/// Where the first byte stands that is neither printable ASCII nor the end of a line.
+/// Offset of the first byte that is neither printable ASCII nor a newline.
 std::size_t first_binary(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size() && (text[at] == '\n' || (text[at] >= ' ' && text[at] <= '~')))
@@ -93,7 +93,7 @@ Result<Unsealed> unseal(std::string_view text) {
   }
   const std::string_view line = text.substr(0, end);
   const std::string_view body = text.substr(end + 1);
-  // The same line to the letter, or a change of, say, the case of the CRC would go unnoticed.
+  // Compares to the letter: otherwise a change of, say, the CRC's case would go unnoticed.
   for (unsigned format = 1; format <= file_format; ++format) {
     if (line == first_line_of(body, format)) return Unsealed{body, format};
   }

@@ -9,14 +9,14 @@
 
 namespace supercoil::storage {
 
-/// A stored set is about 600 bytes; what is larger was not written by this program.
+/// A stored set is about 600 bytes; a larger file than this was not written by this program.
 inline constexpr std::size_t max_file_bytes = 65'536;
 
-/// The number that the first line gives; it grows when the keys or their meaning change. Format 1,
-/// of 0.1.0, is read too.
+/// The number in the first line; it grows when the keys or their meaning change. Format 1, of
+/// 0.1.0, can be read too.
 inline constexpr unsigned file_format = 2;
 
-/// The body behind a line that gives format, length and CRC-32:
+/// The body after a line that gives format, length and CRC-32:
 /// "# supercoil learned, format 2, 512 bytes, CRC-32 0123abcd".
 std::string seal(std::string_view body, unsigned format = file_format);
 
@@ -25,8 +25,8 @@ struct Unsealed {
   unsigned format;
 };
 
-/// The body of a sealed text, a view into it. The error says in which way it is not whole: empty,
-/// too large, not text, not ours, of a newer format, cut off, with more at its end, or changed.
+/// The body of a sealed text, as a view into it. The error says what is wrong: empty, too large,
+/// not text, not a stored set, a newer format, cut off, extra bytes at its end, or changed.
 Result<Unsealed> unseal(std::string_view text);
 
 }  // namespace supercoil::storage

@@ -17,8 +17,8 @@ struct Examined {
   bool damaged() const { return exists && !learned; }
 };
 
-/// Reads and decodes a file. One that cannot be read (EIO, no permission) counts as damaged: what
-/// must not happen to it is the same.
+/// Reads and decodes a file. A file that cannot be read (EIO, no permission) counts as damaged,
+/// because it needs the same protection.
 Examined examine(Files& files, const std::string& path);
 
 }  // namespace supercoil::storage

@@ -1,4 +1,4 @@
-// Every number of a stored set, with its place in the file: what writes and what reads it agree.
+// Every number of a stored set and its place in the file, shared by the writer and the reader.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct Field {
   double& (*of)(board::Learned&);
 };
 
-/// In the order of the file; the fields of a table stand together.
+/// In the order of the file; the fields of a table are adjacent.
 inline constexpr std::array<Field, 26> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](board::Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
@@ -62,18 +62,18 @@ inline constexpr std::array<Field, 26> fields{{
      [](board::Learned& l) -> double& { return l.identification.identified_s; }},
 }};
 
-/// The key as a file of that format has it.
+/// The field's key in a file of this format.
 constexpr std::string_view key_in(const Field& field, unsigned format) {
   return format == 1 && field.key == "response_ratio" ? "answer_ratio" : field.key;
 }
 
-/// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
-/// have none of them.
+/// Tables that a file lacks when their content is not known. Files of earlier versions have none of
+/// them.
 inline constexpr bool may_lack(std::string_view table) {
   return table == "senses" || table == "heat" || table == "small_motions" ||
          table == "linear_model" || table == "identification";
 }
-/// A set without a muscle has no other table.
+/// Without a muscle, only senses and heat are stored.
 inline bool is_stored(const Field& field, const board::Learned& learned) {
   if (field.table == "senses") return learned.senses != board::SenseComparison{};
   if (field.table == "heat") return learned.heat != board::ThermalFacts{};

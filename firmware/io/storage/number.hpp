@@ -1,4 +1,4 @@
-// Numbers of a stored file, written so that they are read back to the bit.
+// Numbers of a stored file, written so that they read back bit for bit.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace supercoil::storage {
 
 /// With a point or exponent: "-0" would be read as the integer 0, without its sign.
 std::string toml_number(double value);
-/// The message of what is wrong, or nothing, with the number in value.
+/// Returns what is wrong, or nothing with the number in value.
 std::optional<std::string> read_number(const toml::node* node, double& value);
 
 }  // namespace supercoil::storage

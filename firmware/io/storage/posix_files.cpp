@@ -16,7 +16,7 @@ tl::unexpected<Error> failed(const std::string& path, const char* what) {
   return failed_call(path + ": " + what, errno);
 }
 
-/// A system call, again for as long as a signal interrupts it.
+/// Repeats a system call for as long as a signal interrupts it.
 template <class Call>
 auto uninterrupted(Call call) {
   auto result = call();
@@ -30,8 +30,8 @@ Result<void> done(int result, const std::string& path, const char* what) {
   return failed(path, what);
 }
 
-/// close() without a second try: on Linux the descriptor is gone also after EINTR, and may by then
-/// be another thread's.
+/// close() without a retry: on Linux the descriptor is gone even after EINTR, and another thread
+/// may already use its number.
 int close_once(int descriptor) {
   const int result = ::close(descriptor);
   return result != 0 && errno == EINTR ? 0 : result;
@@ -57,7 +57,7 @@ class Opened {
 }  // namespace
 
 Result<std::string> PosixFiles::read(const std::string& path, std::size_t limit_bytes) {
-  // Without O_NONBLOCK a pipe in the file's place would hold up the start for ever.
+  // Without O_NONBLOCK a pipe in the file's place would block the start for ever.
   const Opened file(path, O_RDONLY | O_NONBLOCK);
   if (file.descriptor() < 0) return failed(path, "cannot be opened");
   std::string content(limit_bytes, '\0');

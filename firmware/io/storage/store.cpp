@@ -12,8 +12,8 @@ namespace supercoil::storage {
 
 namespace {
 
-/// The first eight damaged files of a channel are kept, and the latest: a disk that damages every
-/// file must not be filled with them.
+/// A channel's first eight damaged files are kept, and the latest: a disk that damages every file
+/// must not be filled with them.
 constexpr int max_damaged = 9;
 
 std::uint32_t version_after(const Examined& current, const Examined& previous) {
@@ -58,7 +58,7 @@ double LearnedStore::system_clock() {
   return static_cast<double>(std::time(nullptr));
 }
 
-/// The muscle that is stored already keeps its date.
+/// A muscle that is already stored keeps its date.
 void LearnedStore::date(board::Learned& learned, const Examined& current,
                         const Examined& previous) const {
   board::Identification& identification = learned.identification;
@@ -76,7 +76,7 @@ Result<std::uint32_t> LearnedStore::save(const board::Learned& learned) {
   board::Learned next = learned;
   date(next, current, previous);
   if (current.learned && board::same_content(*current.learned, next)) {
-    // An earlier save may have failed, or a process ended, just before this.
+    // An earlier save may have failed, or its process ended, just before the sync.
     if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
       return tl::unexpected(synced.error());
     }
@@ -85,13 +85,13 @@ Result<std::uint32_t> LearnedStore::save(const board::Learned& learned) {
   }
   next.version = version_after(current, previous);
   const std::string content = encode(next);
-  // What could not be read back must not replace what can be.
+  // A file that cannot be read back must not replace one that can.
   if (const auto readable = decode(content); !readable) {
     return failure("is not stored: " + readable.error().text());
   }
   synced_ = false;
   if (const auto replaced = replace(current, previous, content); !replaced) {
-    static_cast<void>(remove(new_path_));  // a full disk needs the room; the cause is reported
+    static_cast<void>(remove(new_path_));  // a full disk needs the space; the cause is reported
     return tl::unexpected(replaced.error());
   }
   synced_ = true;
@@ -112,7 +112,7 @@ Result<void> LearnedStore::forget() {
   return {};
 }
 
-/// Of either file that is whole; a damaged one may.
+/// Whether either file holds a muscle; a damaged one may.
 bool LearnedStore::has_muscle() const {
   const auto may_know = [&](const std::string& path) {
     const Examined file = examine(*files_, path);
@@ -122,7 +122,7 @@ bool LearnedStore::has_muscle() const {
   return may_know(path_) || may_know(previous_path_);
 }
 
-/// What load() would give goes last: until then it gives that, never an older set or an error.
+/// Removes the file that load() uses last, so that load() never gives an older set or an error.
 Result<void> LearnedStore::clear() {
   synced_ = false;
   const bool by_current = examine(*files_, path_).learned.has_value();
@@ -141,7 +141,7 @@ Result<void> LearnedStore::replace(const Examined& current, const Examined& prev
   if (current.damaged()) {
     if (auto kept = set_aside(path_); !kept) return kept;
   }
-  // After a power cut in a save both names may hold one version; it is kept already.
+  // After a power cut during a save, both names may hold the same version; it is then kept already.
   const bool becomes_previous =
       current.learned && (!previous.learned || *previous.learned != *current.learned);
   if (becomes_previous) {
@@ -150,7 +150,7 @@ Result<void> LearnedStore::replace(const Examined& current, const Examined& prev
     }
     if (auto linked = link_fresh(path_, previous_new_path_); !linked) return linked;
   }
-  // In this order the two names never hold the same version, so that there are always two.
+  // In this order the two names never hold the same version, so that two versions always exist.
   if (auto renamed = files_->rename(new_path_, path_); !renamed) return renamed;
   if (becomes_previous) {
     if (auto renamed = files_->rename(previous_new_path_, previous_path_); !renamed) return renamed;
@@ -159,7 +159,7 @@ Result<void> LearnedStore::replace(const Examined& current, const Examined& prev
 }
 
 Result<void> LearnedStore::write_new(const std::string& content) {
-  // Not truncated but made anew: after a power cut it may be another name of the current file.
+  // Removed rather than truncated: after a power cut it may be another name of the current file.
   if (auto removed = remove(new_path_); !removed) return removed;
   const auto file = files_->create(new_path_);
   if (!file) return tl::unexpected(file.error());
@@ -180,7 +180,7 @@ Result<void> LearnedStore::set_aside(const std::string& path) {
     linked = link_fresh(path, name + std::to_string(max_damaged));
   }
   if (!linked) return linked;
-  // Or a power cut might keep the file that takes its name and undo this link.
+  // Otherwise a power cut might undo this link and keep the file that takes its name.
   return files_->sync_folder(folder_);
 }
 

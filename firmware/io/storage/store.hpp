@@ -1,4 +1,4 @@
-// Where a channel's learned set is kept, so that neither a power cut nor a damaged file loses it.
+// Stores a channel's learned set so that neither a power cut nor a damaged file loses it.
 #pragma once
 
 #include <functional>
@@ -32,49 +32,48 @@ struct Loaded {
 ///   learned-N.toml.previous       the one before
 ///   learned-N.toml.new            being written; means nothing
 ///   learned-N.toml.previous.new   on its way to become the previous one; means nothing
-///   learned-N.toml.cleared        the last that was to be forgotten,
-///   learned-N.toml.damaged-1 … 9  and damaged ones: kept for examination; nothing here reads them
+///   learned-N.toml.cleared        the set that was forgotten last; for examination, never read
+///   learned-N.toml.damaged-1 … 9  damaged files; for examination, never read
 ///
-/// Whenever the power fails or a call fails, load() gives the set from before the save or the one
-/// that was being saved, whole: a new file gets the current one's name only when its content is on
+/// Whenever the power or a call fails, load() gives either the set before the save or the one that
+/// was being saved, complete. A new file gets the current one's name only when its content is on
 /// the disk, and only a file that decodes becomes the previous one.
 ///
-/// One store a channel, used by one thread at a time, which is not the control loop's: calls block.
+/// One store per channel, used by one thread at a time, never by the control loop: calls block.
 class LearnedStore {
  public:
   using Clock = std::function<double()>;  ///< in seconds since 1970
 
-  /// channel: 1 to 16, as the configuration has checked. files must outlive the store. Touches
-  /// nothing yet.
+  /// channel: 1 to 16, checked by the configuration. files must outlive the store. Does not touch
+  /// the disk.
   LearnedStore(std::string folder, int channel, Files& files, Clock clock = system_clock);
 
-  /// The best set there is. The error says why there is none though something was stored, or that
-  /// the folder is not there: what was learned may be on a disk that is not mounted. Changes
-  /// nothing on the disk.
+  /// The best set there is. The error says why a set that was stored cannot be used, or that the
+  /// folder is missing: it may be on a disk that is not mounted. Changes nothing on the disk.
   Result<Loaded> load();
 
-  /// Stores a set and returns the version that it got, one more than the last that is whole. What
-  /// identify found gets the date of its first save, as the loop has no calendar. The same content
-  /// again writes nothing. A set that fails check() is refused. After an error the set
-  /// may be stored or not, and load() says which; saving again is always allowed.
+  /// Stores a set and returns its version, one more than that of the last complete one. What
+  /// identify found is dated at its first save, as the loop has no calendar. Saving the same
+  /// content again writes nothing. A set that fails check() is refused. After an error the set may
+  /// or may not be stored; load() tells which. Saving again is always allowed.
   Result<std::uint32_t> save(const board::Learned& learned);
 
-  /// From now on no muscle is stored, and versions count from 1 again; a comparison of the senses
-  /// is kept, as it is the board's, and so is the tuning, which has a way back of its own. The
-  /// current file stays for examination. When the power fails meanwhile, or a call, the current set
-  /// is still there, or nothing is.
+  /// Removes the stored muscle; versions count from 1 again. The comparison of the senses, which is
+  /// the board's, and the tuning, which is cleared by its own command, are kept. The current file
+  /// stays for examination. If the power or a call fails meanwhile, either the current set is still
+  /// stored or nothing is.
   Result<void> forget();
 
  private:
   static double system_clock();
   void date(board::Learned& learned, const Examined& current, const Examined& previous) const;
-  /// Makes the current file a file of this content, and a good current file the previous one.
+  /// Writes this content as the current file; a good current file becomes the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);
   bool has_muscle() const;
   Result<void> clear();
   Result<void> write_new(const std::string& content);
-  /// Gives a damaged file another name by which it stays when its own is taken.
+  /// Gives a damaged file a second name, under which it stays when its own is taken.
   Result<void> set_aside(const std::string& path);
   Result<void> link_fresh(const std::string& from, const std::string& to);
   Result<void> remove(const std::string& path);
@@ -87,7 +86,7 @@ class LearnedStore {
   std::string cleared_path_;
   Files* files_;
   Clock clock_;
-  /// What this store sees by its name is also what a power cut would leave.
+  /// The names that this store sees are on the disk: a power cut would leave the same.
   bool synced_ = false;
 };
 

@@ -19,7 +19,7 @@ std::string line(std::string_view key, double value) {
   return std::string(key) + " = " + toml_number(value) + "\n";
 }
 
-/// By reference in whichever direction: what is written is what is read.
+/// By reference, for writing and reading alike, so that the two agree.
 template <class Tuning>
 auto places(Tuning& tuning) {
   return std::array{std::pair{std::string_view("controller"), &tuning.controller},

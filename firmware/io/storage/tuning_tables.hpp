@@ -1,4 +1,4 @@
-// The tables of a stored set that hold what was tuned: [controller_0] and so on, [chosen].
+// The tables of a stored set that hold tuned values: [controller_0] and so on, [chosen].
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace supercoil::storage {
 
-/// Only what differs from the configuration has a line; empty: nothing does.
+/// Only values that differ from the configuration have a line; empty: none differs.
 std::string encode_tuning(const board::StoredTuning& tuning);
 
 bool is_tuning_table(std::string_view table);
 bool is_tuning_key(std::string_view table, std::string_view key);
 
-/// Whatever of it the file has. The message says which value is not a number.
+/// Reads the tuned values that the file has. The message says which value is not a number.
 std::optional<std::string> read_tuning(const toml::table& file, board::StoredTuning& tuning);
 
 }  // namespace supercoil::storage

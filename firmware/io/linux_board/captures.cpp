@@ -7,7 +7,7 @@ namespace supercoil::linux_board {
 
 namespace {
 
-/// One input of a capture that it keeps running.
+/// One input of a capture; it keeps the capture running.
 class CapturedInput final : public hal::AdcChannel {
  public:
   CapturedInput(std::shared_ptr<hal_linux::IioScan> scan, std::size_t index)

@@ -13,13 +13,13 @@
 
 namespace supercoil::linux_board {
 
-/// Opens the captures of a board: a device once, with all the inputs that the board wants of it.
+/// Opens the captures of a board: each device once, with all of its inputs that the board needs.
 class Captures {
  public:
   Captures(const config::BoardWiring& wiring, hal_linux::Machine machine);
 
-  /// One of these inputs. Its device's capture runs until the last of its inputs ends; inputs of a
-  /// device belong to one thread.
+  /// Opens one of these inputs. A device's capture runs until the last of its inputs is destroyed;
+  /// all inputs of a device belong to one thread.
   Result<std::unique_ptr<hal::AdcChannel>> open(const config::ConverterAddress& input);
 
  private:

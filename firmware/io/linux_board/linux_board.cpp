@@ -9,7 +9,7 @@
 
 namespace supercoil::linux_board {
 
-/// Takes opened devices over, those behind a bus with what serves them.
+/// Takes over opened devices; wraps those behind a bus, so that the bus's thread serves them.
 class LinuxBoard::Taking {
  public:
   explicit Taking(LinuxBoard& board) : board_(&board) {}
@@ -61,7 +61,7 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
     board->channels_.push_back({std::move(enable), std::move(pwm), std::move(position),
                                 take.converter(channel.current, where.current.access)});
   }
-  // Of a channel that may come later.
+  // Only now, as the channel that owns the position may come later.
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
     if (const auto owner = wiring.channels[i].position_of)
       board->channels_[i].position = board->channels_[*owner].position;

@@ -21,30 +21,30 @@ namespace supercoil::linux_board {
 /// How a bus keeps up with the loop.
 struct BusReport {
   std::string name;
-  std::uint64_t left_out = 0;  ///< rounds since the start, as the ones before took too long
-  double max_s = 0.0;          ///< of all rounds
+  std::uint64_t left_out = 0;  ///< rounds skipped since the start, as earlier ones took too long
+  double max_s = 0.0;          ///< of the longest round
 };
 
-/// Opened, everything off: heartbeat still, enable lines low, duties 0. When it ends, it is left
-/// so.
+/// After opening, everything is off: heartbeat still, enable lines low, duties 0. It is left so
+/// when this ends.
 class LinuxBoard {
  public:
-  /// Opens lines, then PWM, then converters. Every device that cannot be had is a line of the
-  /// error.
+  /// Opens lines, then PWM, then converters. The error has a line for each device that cannot be
+  /// opened.
   static tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> open(
       const config::BoardWiring& wiring);
 
-  /// Starts a thread for each bus and, last, the watchdog, which bites from now on. Answers a
+  /// Starts a thread for each bus and, last, the watchdog, which is active from then on. Returns a
   /// warning, or nothing.
   Result<std::string> start(double rate_Hz, int priority);
-  /// Stops the watchdog: the loop stands still, and everything is off. Answers a
+  /// Stops the watchdog. Call it when the loop has stopped and everything is off. Returns a
   /// warning, or nothing.
   std::string release();
 
-  /// For as long as this lives.
+  /// Valid for as long as this lives.
   board::Devices devices();
   std::vector<BusReport> buses() const;
-  /// How setting up the buses' threads went.
+  /// How the setup of the bus threads went.
   std::vector<hal_linux::SetupStep> steps() const;
 
  private:
@@ -67,14 +67,14 @@ class LinuxBoard {
   struct Channel {
     std::unique_ptr<hal::DigitalOutput> enable;
     std::unique_ptr<hal::PwmOutput> pwm;
-    std::shared_ptr<hal::AdcChannel> position;  ///< both channels of a joint have one
+    std::shared_ptr<hal::AdcChannel> position;  ///< shared in a joint or bundle
     std::unique_ptr<hal::AdcChannel> current;
   };
   std::vector<Channel> channels_;
   std::vector<Bus> buses_;
   std::optional<config::WatchdogAddress> watchdog_address_;
   std::unique_ptr<hal_linux::DevWatchdog> watchdog_;
-  // Last, so that they end first: they use the devices.
+  // Last, so that they are destroyed first: they use the devices.
   std::vector<std::unique_ptr<hal_linux::BusThread>> threads_;
 };
 

@@ -17,7 +17,7 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// What is wrong with what was opened. Empty: nothing. Its folder may belong to the service's user,
+/// What is wrong with the opened file. Empty: nothing. Its folder may belong to the service's user,
 /// who could put anything in the lock's place: root must not write into another user's file.
 std::string objection(const hal_linux::Descriptor& file, const std::string& path) {
   struct stat found {};
@@ -34,7 +34,7 @@ std::string objection(const hal_linux::Descriptor& file, const std::string& path
          ", not to root, to this user or to its folder's owner";
 }
 
-/// Of open() on what is there instead of a file.
+/// Why open() failed, from errno.
 std::string open_failure(int error) {
   if (error == ELOOP) return "the lock file is a symbolic link, which is not followed";
   return "the lock file cannot be made: " + reason(error);
@@ -52,7 +52,7 @@ std::string content(const hal_linux::Descriptor& file) {
 }  // namespace
 
 Result<LockFile> LockFile::take(const std::string& path) {
-  // Without O_NONBLOCK a device in the file's place could hold up the start for ever.
+  // Without O_NONBLOCK a device in the file's place could block the start for ever.
   constexpr int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   hal_linux::Descriptor file(::open(path.c_str(), flags, 0644));
   if (!file.is_open()) return failure(path + ": " + open_failure(errno));
@@ -64,7 +64,7 @@ Result<LockFile> LockFile::take(const std::string& path) {
     return failure(path + ": another supercoild drives this board, process " + content(file));
   }
   const std::string mine = std::to_string(::getpid()) + "\n";
-  // Who it is helps people; the lock itself does not hang on it.
+  // The process id is for people; the lock does not depend on it.
   if (::ftruncate(file.number(), 0) == 0) {
     static_cast<void>(::pwrite(file.number(), mine.data(), mine.size(), 0) < 0);
   }

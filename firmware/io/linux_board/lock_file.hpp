@@ -1,4 +1,4 @@
-// One daemon a board.
+// One daemon per board.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace supercoil::linux_board {
 
-/// Holds a lock for as long as it lives. The kernel drops it with the process, however that ends.
+/// Holds a lock for as long as it lives. The kernel releases it when the process ends, in any way.
 class LockFile {
  public:
-  /// Makes the file, and writes into nothing but a regular file of one name that belongs to root,
-  /// to this user or to its folder's owner: no link is followed. The error names who holds it, or
-  /// what is wrong with the path.
+  /// Creates the file. Writes only to a regular file with a single name that belongs to root, to
+  /// this user or to its folder's owner; follows no link. The error names the process that holds
+  /// the lock, or what is wrong with the path.
   static Result<LockFile> take(const std::string& path);
 
  private:

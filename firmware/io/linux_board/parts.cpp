@@ -60,7 +60,7 @@ std::vector<std::string> Parts::missing() const {
 Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& machine) {
   Opening open(wiring, machine);
   OutputPart heartbeat = open.output("heartbeat", wiring.heartbeat);
-  // Enable lines of all channels come before the first duty, duties before the converters.
+  // Opens the enable lines of all channels before the first PWM, and PWMs before converters.
   std::vector<OutputPart> enables;
   std::vector<PwmPart> pwms;
   for (std::size_t i = 0; i < wiring.channels.size(); ++i)

@@ -1,4 +1,4 @@
-// A board's devices, opened as its configuration names them: for every program that touches them.
+// Opens a board's devices as its configuration names them, for every program that uses them.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace supercoil::linux_board {
 
-/// A device, or where it was looked for and what is there instead.
+/// A device, or an error that says where it was looked for and what is there instead.
 template <class Device>
 struct Part {
   std::string what;  ///< "channel 1, enable"
@@ -34,7 +34,7 @@ struct ChannelParts {
   ConverterPart current;
 };
 
-/// Those that are there are off: lines low, duties 0. When they end, they are left so.
+/// Opened devices are off: lines low, duties 0. They are left so when this ends.
 struct Parts {
   OutputPart heartbeat;
   std::vector<ChannelParts> channels;
@@ -43,11 +43,11 @@ struct Parts {
   ConverterPart supply;
   std::optional<ConverterPart> air;
 
-  /// A line for each device that cannot be had.
+  /// A line for each device that cannot be opened.
   std::vector<std::string> missing() const;
 };
 
-/// Opens the lines that cut, then duties, then all others. The caller holds the board's lock.
+/// Opens the lines that cut the heat, then PWMs, then the rest. The caller holds the board's lock.
 Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& machine = {});
 
 /// "channel 2, pwm"; index from 0.

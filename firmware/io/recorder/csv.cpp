@@ -10,7 +10,7 @@ namespace supercoil::recorder {
 namespace {
 
 constexpr std::size_t part_bytes = 1 << 18;
-/// Never in exponents, which some spreadsheets take for text.
+/// Never with an exponent, which some spreadsheets take for text.
 template <class Number>
 void add(std::string& line, Number value) {
   if (!std::isnan(value)) {

@@ -15,7 +15,7 @@ namespace supercoil::recorder {
 namespace {
 
 constexpr std::size_t max_notes = 32;
-/// How much later poll() writes than add() would: rows may be on their way.
+/// poll() writes this much later than add(), because rows may be on their way.
 constexpr std::int64_t on_their_way_ns = 1'000'000'000;
 
 std::int64_t nanoseconds(double seconds) {
@@ -23,7 +23,7 @@ std::int64_t nanoseconds(double seconds) {
 }
 
 std::size_t rows_for(const RecorderSettings& s, int channels, double rate_Hz) {
-  // Both ends of the time count, and the tick that shows that it has passed.
+  // Counts both ends of the time, and the tick that shows that it has passed.
   const double ticks = std::ceil((s.before_s + s.after_s + s.retry_s) * rate_Hz) + 2.0;
   return static_cast<std::size_t>(ticks) * static_cast<std::size_t>(channels);
 }
@@ -44,7 +44,7 @@ FlightRecorder::FlightRecorder(std::string folder, int channels, double rate_Hz,
       folder_(std::move(folder), settings.most, settings.list, files),
       rows_(rows_for(settings, channels, rate_Hz)),
       faults_(static_cast<std::size_t>(channels)) {
-  // One is collected at a time, for after_s, and each waits for retry_s at most.
+  // One recording is collected at a time, for after_s; each waits for retry_s at most.
   jobs_.reserve(static_cast<std::size_t>(settings.retry_s / settings.after_s) + 3);
 }
 
@@ -58,11 +58,11 @@ void FlightRecorder::add(const Row& row) {
 }
 
 void FlightRecorder::watch(const Row& row) {
-  // Also from one fault to another: reset and tripped again within a tick.
+  // A change from one fault to another counts too: reset and tripped again within a tick.
   const bool latches = row.fault != 0 && row.fault != faults_[row.channel];
   faults_[row.channel] = row.fault;
-  // A fault while one is being collected is in that recording, and does not extend it: channels
-  // that fault in turn could do so without end.
+  // A fault during a recording is part of it but does not extend it: channels that fault one after
+  // the other could extend it without end.
   const bool collecting = !jobs_.empty() && !jobs_.back().again;
   if (latches && !collecting) jobs_.push_back({row, row.time_ns + after_ns_, false});
 }
@@ -146,7 +146,7 @@ FlightRecorder::Window FlightRecorder::window(std::int64_t from_ns, std::int64_t
 }
 
 void FlightRecorder::note(bool problem, std::string text) {
-  // Nobody takes them: the latest matter.
+  // Nobody has taken the notes: the latest matter most.
   if (notes_.size() == max_notes) notes_.erase(notes_.begin());
   notes_.push_back({problem, std::move(text)});
 }

@@ -29,24 +29,24 @@ struct RecorderNote {
   std::string text;  ///< "/…/flight-3.scfr: over_temperature (30) of channel 2 is recorded"
 };
 
-/// A plain object, used by one thread that may block: not the loop's. Writing a recording blocks
-/// add(), poll() or finish() for as long as the disk takes; the loop's ring holds the rows for 1 s
-/// meanwhile, and rows that it loses are a gap in the times.
+/// Used by one thread that may block, so not the loop's. Writing a recording blocks add(), poll()
+/// or finish() for as long as the disk takes. Meanwhile the loop's ring holds rows for 1 s; rows
+/// that it loses leave a gap in the times.
 class FlightRecorder {
  public:
-  /// channels: 1 to 16; rate_Hz > 0. All memory for rows is taken, and touched, here: before_s +
-  /// after_s + retry_s of them, so that the second try is as complete as the first would have been.
-  /// Touches no file: a folder that is not there is reported when there is something to write.
+  /// channels: 1 to 16; rate_Hz > 0. Allocates and touches all memory for rows, before_s + after_s
+  /// + retry_s of them, so that the second try is as complete as the first would have been. Touches
+  /// no file: a missing folder is reported when there is something to write.
   FlightRecorder(std::string folder, int channels, double rate_Hz, storage::Files& files,
                  const RecorderSettings& settings = {});
 
-  /// The next row; times must not go back. Writes what is due by its time, else does not allocate.
-  /// Rows of channels that there are not are ignored.
+  /// Adds the next row; times must not go back. Writes recordings that are due at its time;
+  /// otherwise does not allocate. Ignores rows of channels that do not exist.
   void add(const Row& row);
-  /// Writes what is due although no rows arrive any more: the loop stands still. Call it after all
-  /// rows up to `now` that have arrived were added.
+  /// Writes recordings that are due although the loop has stopped and no rows arrive. Call it after
+  /// all rows up to `now` that have arrived were added.
   void poll(hal::Time now);
-  /// Writes at once what would become due later: the process is about to end.
+  /// Writes at once every recording that would be due later: the process is about to end.
   void finish();
   /// What happened since the last call; at most the latest 32.
   std::vector<RecorderNote> take_notes() { return std::exchange(notes_, {}); }
@@ -59,8 +59,8 @@ class FlightRecorder {
     bool again;
   };
   struct Window {
-    std::string_view first;   ///< rows as bytes, in order of time,
-    std::string_view second;  ///< which go on here where the memory begins anew
+    std::string_view first;   ///< rows as bytes, in order of time
+    std::string_view second;  ///< the rest of them, from where the ring wraps around
   };
 
   void watch(const Row& row);

@@ -22,13 +22,13 @@ std::string hexadecimal(std::uint32_t value) {
   return text.data();
 }
 
-/// It names the CRC of everything that follows it in the header.
+/// It holds the CRC of everything after it in the header.
 std::string first_line(std::string_view rest) {
   return std::string(magic) + std::to_string(recording_format) + ", CRC-32 " +
          hexadecimal(storage::crc32(rest)) + "\n";
 }
 
-/// What stands behind "key = ", up to the line's end.
+/// The text after "key = ", up to the end of the line.
 std::string_view value_of(std::string_view text, std::string_view key) {
   const std::string start = "\n" + std::string(key) + " = ";
   const std::size_t at = text.find(start);
@@ -37,7 +37,7 @@ std::string_view value_of(std::string_view text, std::string_view key) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Reads values, and remembers the first key that is not as it must be.
+/// Reads values, and remembers the first that is invalid.
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}

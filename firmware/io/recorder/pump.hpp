@@ -5,9 +5,9 @@
 
 namespace supercoil::recorder {
 
-/// Takes what is in the ring, in the recorder's thread. Loop is supercoil::Loop, or anything with
-/// its take(Row&). now: read before the call. Call it every 100 ms or so, the ring holds 1 s.
-/// Returns how many rows there were.
+/// Moves the ring's rows into the recorder, in the recorder's thread. Loop is supercoil::Loop, or
+/// anything with its take(Row&). now: read before the call. Call it every 100 ms or so; the ring
+/// holds 1 s. Returns the number of rows.
 template <class Loop>
 std::size_t pump(Loop& loop, FlightRecorder& recorder, hal::Time now) {
   std::size_t count = 0;

@@ -14,7 +14,7 @@ namespace supercoil::recorder {
 struct Quantity {
   std::string_view name;     ///< with its unit
   double (*of)(const Row&);  ///< NaN: not available
-  /// Of an enumeration: the name of its number.
+  /// For an enumeration: the name of a number.
   std::string (*word)(std::uint8_t number) = nullptr;
 };
 
@@ -31,7 +31,7 @@ constexpr double flag_of(const Row& row) {
   return (row.flags & flag) != 0 ? 1.0 : 0.0;
 }
 
-/// In the order of CSV's columns: a new one stands last.
+/// In the order of the CSV columns: add new ones at the end.
 inline constexpr std::array quantities{
     Quantity{"state", value_of<&Row::state>, state_name},
     Quantity{"mode", value_of<&Row::mode>, mode_name},
@@ -70,14 +70,14 @@ inline constexpr std::array quantities{
     Quantity{"multiplexed_value", value_of<&Row::multiplexed_value>},
     Quantity{"identify_notes", value_of<&Row::identify_notes>},
 };
-/// Those that have a signal, and no column: the format of CSV is older.
+/// Quantities with a signal but no column: the CSV format is older.
 inline constexpr std::array signals_only{
     Quantity{"proof_off", flag_of<row_proof_off>},
     Quantity{"oscillated", flag_of<row_oscillated>},
     Quantity{"slack", flag_of<row_slack>},
 };
 
-/// Null: a row has none of this name.
+/// Null: a row has no quantity of this name.
 constexpr const Quantity* find_quantity(std::string_view name) {
   for (const Quantity& quantity : quantities) {
     if (quantity.name == name) return &quantity;

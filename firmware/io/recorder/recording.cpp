@@ -13,7 +13,7 @@ namespace supercoil::recorder {
 
 namespace {
 
-/// From the rows, where the header cannot be trusted.
+/// Rebuilds the header from the rows when the stored one is damaged.
 Header header_from(const std::vector<Row>& rows) {
   Header header;
   header.rows = rows.size();
@@ -31,7 +31,7 @@ Header header_from(const std::vector<Row>& rows) {
   return header;
 }
 
-/// What is wrong with the rows; empty when they are what the header says.
+/// What is wrong with the rows; empty when they match the header.
 std::string fault_of_rows(const Header& header, std::string_view bytes) {
   const std::uint64_t whole = bytes.size() / sizeof(Row);
   if (whole < header.rows) {

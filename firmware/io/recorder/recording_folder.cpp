@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view prefix = "flight-";
 constexpr std::string_view suffix = ".scfr";
 constexpr std::string_view unfinished = ".new";
-/// Longer numbers are not ours: one more must still fit into 64 bits.
+/// Longer numbers are not ours: the next number must still fit into 64 bits.
 constexpr std::size_t max_digits = 18;
 
 }  // namespace
@@ -64,7 +64,7 @@ Result<RecordingFolder::Written> RecordingFolder::write(std::span<const std::str
     return tl::unexpected(result.error());
   }
   ++last_;
-  // It is there, whole; only a power cut could still take its name away.
+  // The file is complete; only a power cut could still undo its name.
   if (const auto synced = files_->sync_folder(folder_); !synced)
     written.problems.push_back(synced.error().text());
   return written;
@@ -87,7 +87,7 @@ void RecordingFolder::remove_left_over(const std::vector<std::string>& names) {
   for (const std::string_view name : names) {
     if (!name.ends_with(unfinished)) continue;
     if (number_of(name.substr(0, name.size() - unfinished.size())) == 0) continue;
-    // When it cannot be removed and is in the way, making the file fails and says so.
+    // If it cannot be removed and is in the way, creating the file fails and says so.
     static_cast<void>(files_->unlink(folder_ + "/" + std::string(name)));
   }
 }
@@ -98,7 +98,7 @@ std::vector<std::string> RecordingFolder::make_room(const std::vector<std::uint6
   for (const std::uint64_t oldest : numbers) {
     if (there < max_files_) break;
     const auto removed = files_->unlink(path_of(oldest));
-    // One that stays must not use up the place of a new one: the next older goes instead.
+    // A file that stays must not cost a new one its place: the next oldest goes instead.
     if (removed || removed.error().code == std::errc::no_such_file_or_directory) {
       --there;
     } else {

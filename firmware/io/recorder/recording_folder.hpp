@@ -1,4 +1,4 @@
-// The folder of flight recordings: their numbers, how many are kept, and writing one whole.
+// The folder of flight recordings: numbers them, limits how many are kept, writes new ones.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,23 @@ using ListFolder = std::function<Result<std::vector<std::string>>(const std::str
 /// Asks the operating system.
 Result<std::vector<std::string>> list_folder(const std::string& folder);
 
-/// The number of "flight-12.scfr"; 0 for a name that is none of ours.
+/// The number of "flight-12.scfr"; 0 for any other name.
 std::uint64_t number_of(std::string_view name);
 
 class RecordingFolder {
  public:
-  /// most: recordings that may be there after one was written, 1 or more.
+  /// most: recordings that may exist after one was written, 1 or more.
   RecordingFolder(std::string folder, std::size_t most, ListFolder list, storage::Files& files)
       : folder_(std::move(folder)), max_files_(most), list_(std::move(list)), files_(&files) {}
 
   struct Written {
     std::string path;
-    /// What went wrong all the same: an old file that could not be removed, for one.
+    /// What went wrong nevertheless, such as an old file that could not be removed.
     std::vector<std::string> problems;
   };
-  /// Writes a recording that consists of these parts under a number greater than every one that is
-  /// there, and than every one given before. Old ones go first: a full disk needs their room. After
-  /// an error nothing half-written is left, where it can be removed. Blocks for as long as the disk
-  /// takes.
+  /// Writes a recording that consists of these parts. Its number is greater than any in the folder
+  /// and any given before. Removes old recordings first: a full disk needs their space. After an
+  /// error it removes what is half-written, if it can. Blocks for as long as the disk takes.
   Result<Written> write(std::span<const std::string_view> parts);
 
  private:

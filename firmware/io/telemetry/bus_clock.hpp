@@ -1,4 +1,4 @@
-// The clock of a bus's master, as its Sync messages tell it.
+// The clock of a bus's master, as its Sync messages give it.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace supercoil::telemetry {
 
-/// When the latest Sync messages came by the board's clock, and when they were sent by the
-/// master's.
+/// Of the latest Sync messages: when they arrived, by the board's clock, and when they were sent,
+/// by the master's.
 class BusClock {
  public:
   struct Sync {
@@ -20,8 +20,8 @@ class BusClock {
   };
 
   void add(const Sync& sync) { known_[sync.number % known_.size()] = sync; }
-  /// One of the latest 8 that came at this time or later; empty: there is none yet. An older one of
-  /// the same number is another program's: numbers come round, and each begins anywhere.
+  /// The Sync of this number among the latest 8, if it came at `earliest` or later. An older one of
+  /// the same number is another program's: numbers wrap around, and each program begins anywhere.
   std::optional<Sync> find(std::uint8_t number, hal::Time earliest) const {
     const std::optional<Sync>& found = known_[number % known_.size()];
     const bool wanted = found && found->number == number && found->received >= earliest;

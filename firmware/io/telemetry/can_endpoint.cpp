@@ -24,7 +24,7 @@ static_assert(names_agree(), "what is known of a muscle has the same names over 
 
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
-  // The heartbeat of a board with the same node: every board sends it.
+  // Also Status, the heartbeat of every board: it reveals another board with the same node.
   for (const can::MessageInfo& message :
        {can::message::command, can::message::setting_write, can::message::setting_read,
         can::message::tuning_read, can::message::tuning_write, can::message::muscle_read,
@@ -73,7 +73,7 @@ void CanEndpoint::poll(hal::Time now) {
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
 }
 
-/// Evenly over the period, so that Boot of many channels does not come in a burst.
+/// Spread over the period, so that the Boot messages of many channels do not come in a burst.
 void CanEndpoint::tell_program(hal::Time now) {
   if (now < next_boot_ || !loop_runs_) return;
   const auto node = static_cast<can::Node>(first_node_ + boot_channel_);

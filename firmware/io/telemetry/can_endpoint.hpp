@@ -12,11 +12,11 @@ namespace supercoil::telemetry {
 /// Identifiers of all frames that a board listens to, for the bus's receive filters.
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels);
 
-/// Of one thread, which is not the loop's: on a board the telemetry thread, in a simulation the
-/// runner between two ticks. Nothing blocks.
+/// Used by one thread: on a board the telemetry thread, never the loop's; in a simulation the
+/// runner, between two ticks. Nothing blocks.
 class CanEndpoint {
  public:
-  /// board: as the loop was made with. Loop and bus outlive the link.
+  /// board: the settings that the loop was made with. Loop and bus must outlive the endpoint.
   CanEndpoint(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
               Leases::Random random);
 
@@ -25,9 +25,9 @@ class CanEndpoint {
     loop_runs_ = true;
     publisher_.offer(row);
   }
-  /// The loop's answer to a command with Source::can, in their order.
+  /// The loop's answers to commands with Source::can, in their order.
   void answer(const Answer& answer);
-  /// Takes what came, sends what is due, and tells the loop how the bus is.
+  /// Handles received frames, sends what is due, and reports the state of the bus to the loop.
   void poll(hal::Time now);
 
   const Publisher& publisher() const { return publisher_; }
@@ -36,12 +36,12 @@ class CanEndpoint {
   void receive(hal::Time now);
   void tell_program(hal::Time now);
   std::optional<hal::CanFrame> muscle_asked_for(const hal::CanFrame& frame) const;
-  /// A frame that only the board of its node sends: this bus never gives a board its own.
+  /// Whether only this board's nodes send such a frame: the bus never returns a board's own frames.
   bool is_own(const hal::CanFrame& frame) const;
 
   /// Frames taken in one poll: more than a full bus brings within a telemetry thread's round.
   static constexpr int max_batch = 256;
-  /// Longer than two heartbeats of the slowest rate.
+  /// Longer than two heartbeat periods at the slowest rate.
   static constexpr hal::Duration conflict_lasts = std::chrono::milliseconds(2500);
 
   Loop* loop_;
@@ -55,8 +55,8 @@ class CanEndpoint {
   can::Node first_node_;
   hal::Time conflict_until_{};
   hal::Time next_boot_{};
-  std::size_t boot_channel_ = 0;  ///< whose Boot is sent next
-  bool loop_runs_ = false;        ///< there was a row since the last Boot
+  std::size_t boot_channel_ = 0;  ///< the channel whose Boot is sent next
+  bool loop_runs_ = false;        ///< a row has come since the last Boot
 };
 
 }  // namespace supercoil::telemetry

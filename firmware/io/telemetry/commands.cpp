@@ -25,7 +25,7 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
                              m.get<std::uint8_t>("counter"), m.get<std::uint16_t>("session")};
   const auto value = m.get<float>("value");
 
-  // From everybody, whatever is wrong with lease and counter.
+  // Obeyed from every master, whatever is wrong with lease and counter.
   const bool stop = header.opcode == static_cast<std::uint8_t>(Verb::disarm) && value == 0.0F;
   const Refusal checked = check(header, value, now);
   if (checked == Refusal::wrong_counter && !stop) taken.damaged = *channel;
@@ -56,8 +56,8 @@ Refusal Commands::check(const CommandHeader& header, float value, hal::Time now)
   if (known && header.opcode == Opcode::lease && value != releases && !holder)
     return leases_->claim(header.channel, header.session, value, header.counter, now);
   const Refusal checked = leases_->check(header.channel, header.session, header.counter, now);
-  // Also of a frame that means nothing, the holder's counter goes on: else a frame that was heard
-  // before it would be obeyed once more.
+  // The holder's counter advances even with a frame that means nothing: otherwise a frame that was
+  // heard before it would be obeyed again.
   if (!known && checked != Refusal::wrong_counter) return Refusal::protocol_mismatch;
   const bool meant = header.opcode != Opcode::lease || value == claims || value == releases;
   return meant || checked != Refusal::none ? checked : Refusal::out_of_range;

@@ -1,4 +1,4 @@
-// With which frames a board is commanded over CAN, and how it answers.
+// The frames that command a board over CAN, and the frames that answer them.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace supercoil::telemetry {
 
-/// Judges frames; neither sends nor receives. Every frame of a Command is either damaged, or
-/// answered with a reason, or handed on; what is handed on is answered when the loop has done it.
-/// Only disarm is obeyed from everybody; all else needs the lease.
+/// Checks frames; neither sends nor receives. Every Command frame is either damaged, or answered at
+/// once, or passed to the loop and answered when the loop has done it. Only disarm is obeyed from
+/// every master; everything else needs the lease.
 class Commands {
  public:
-  /// leases outlive it.
+  /// leases must outlive it.
   Commands(const CanSettings& settings, Leases& leases);
 
-  /// What became of a frame. All empty: it is no command to this board.
+  /// The result of a frame. All empty: it is not a command to this board.
   struct Taken {
     std::optional<std::uint8_t> damaged;  ///< the channel whose command was damaged
     std::optional<Command> command;       ///< for the loop; its answer goes to answered()
@@ -29,15 +29,15 @@ class Commands {
   };
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
-  /// The frame that answers a command that was handed on; empty: it was another's. Those that were
-  /// handed on before it, and not answered, are no longer waited for.
+  /// The frame that answers a command that was passed to the loop; empty: the command came from
+  /// elsewhere. Earlier commands without an answer are given up.
   std::optional<hal::CanFrame> answered(const Answer& answer);
 
-  /// The loop did not take the command that was handed on last.
+  /// The answer when the loop did not take the command that was passed to it last.
   hal::CanFrame not_taken();
 
  private:
-  /// As much of a command as its answer repeats.
+  /// The part of a command that its answer repeats.
   struct CommandHeader {
     std::uint8_t channel;
     std::uint8_t opcode;

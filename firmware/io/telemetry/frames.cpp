@@ -15,11 +15,11 @@ namespace {
 
 namespace message = can::message;
 
-/// The first parameter of Estimate that rows carry in turn: the bias.
+/// The first parameter of Estimate that is multiplexed in rows: the bias.
 constexpr std::uint8_t first_aside = 8;
 static_assert(can::names_of_parameter[first_aside].name == "bias");
 
-/// With every signal that has the name of one of the row's quantities, and is always there.
+/// Sets every signal that is always present and has the name of one of the row's quantities.
 template <const can::MessageInfo& info>
 can::Encoder<info> encoder(can::Node node, const Row& row) {
   can::Encoder<info> encoder(node);
@@ -139,7 +139,7 @@ hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t c
 }
 
 hal::CanFrame boot(can::Node node, std::string_view version) {
-  // 0.2.0+git20261122.150233.2780ebf, or 0.2.0 of a release.
+  // 0.2.0+git20261122.150233.2780ebf, or 0.2.0 for a release.
   constexpr std::size_t commit_digits = 7;
   std::array<std::uint32_t, 3> numbers{};
   const char* at = version.data();
@@ -203,7 +203,7 @@ hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
   for (const can::SignalInfo& signal : message::estimate.signals) {
     if (signal.selected_by == parameter) can::put(frame.frame(), signal, values.at(parameter));
   }
-  // The last note has no bit left here; Status has it.
+  // The last note has no bit here; it is in Status.
   return frame.set("parameter", parameter)
       .set("identify_notes", row.identify_notes & static_cast<std::uint8_t>(~note_friction))
       .frame();

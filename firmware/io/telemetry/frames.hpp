@@ -14,7 +14,7 @@
 
 namespace supercoil::telemetry {
 
-/// What is sent at a rate of its own.
+/// Messages that are sent at a rate of their own.
 enum class Message : std::uint8_t {
   measurement,
   tracking,
@@ -27,7 +27,7 @@ enum class Message : std::uint8_t {
   timing,
   status,
   gain,
-  joint,  ///< by the node of a joint only
+  joint,  ///< sent by the node of a joint only
 };
 inline constexpr std::size_t messages = 12;
 
@@ -41,7 +41,7 @@ struct PeriodicMessage {
 /// In the order of Message.
 const std::array<PeriodicMessage, messages>& periodic_messages();
 
-/// Times of a whole board's ticks, as Timing has them. NaN: there was no tick.
+/// Tick times of a whole board, as Timing carries them. NaN: there was no tick.
 struct BoardTiming {
   double late_s = NAN;
   double execution_s = NAN;
@@ -50,24 +50,24 @@ struct BoardTiming {
 };
 
 hal::CanFrame emergency(can::Node node, const Row& row);
-/// Of the row that first shows a fault.
+/// From the row that first shows a fault.
 hal::CanFrame first_cause(can::Node node, const Row& row);
-/// Right after the answer that refuses it as out of range. nearest: as in Answer.
+/// Sent right after the answer that refuses the value as out of range. nearest: as in Answer.
 hal::CanFrame refused_value(can::Node node, double value, double nearest);
 hal::CanFrame measurement(can::Node node, const Row& row);
 hal::CanFrame tracking(can::Node node, const Row& row);
 hal::CanFrame power(can::Node node, const Row& row);
 hal::CanFrame heater(can::Node node, const Row& row);
 hal::CanFrame temperature(can::Node node, const Row& row);
-/// What rows carry in turn: the newest of each.
+/// The newest of each value that is multiplexed in rows.
 class MultiplexedValues {
  public:
   MultiplexedValues() { newest_.fill(NAN); }
   void take(const Row& row);
-  /// place: in multiplexed_names, from 1. NaN: not told.
+  /// place: in multiplexed_names, from 1. NaN: no value yet.
   float of(std::size_t place) const { return newest_.at(place - 1); }
-  /// How many parameters, from 0 on as the DBC counts them, there is a value for: multiplexed ones
-  /// are the last ones, once all are told.
+  /// How many parameters have a value, counted from 0 as in the DBC. The multiplexed ones are the
+  /// last ones; they count when all of them have a value.
   std::uint8_t parameters() const;
 
  private:
@@ -81,7 +81,7 @@ hal::CanFrame limit(can::Node node, const Row& row);
 hal::CanFrame gain(can::Node node, const Row& row);
 hal::CanFrame timing(can::Node node, const BoardTiming& timing);
 hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t counter);
-/// version: as program_version() tells it. What is no number there is 0.
+/// version: as from program_version(). A part of it that is not a number becomes 0.
 hal::CanFrame boot(can::Node node, std::string_view version);
 
 }  // namespace supercoil::telemetry

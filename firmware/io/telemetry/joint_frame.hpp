@@ -1,4 +1,4 @@
-// What the node of a joint tells of it, and of both of its heaters: the message Joint.
+// The message Joint: what a joint's node reports about the joint and its two heaters.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace supercoil::telemetry {
 
-/// What one frame carries beside the angle; as Joint.part has them.
+/// What a frame carries besides the angle, numbered as in Joint.part.
 enum class JointPart : std::uint8_t {
   motion,
   effort,
@@ -25,14 +25,14 @@ enum class JointPart : std::uint8_t {
 inline constexpr std::array<std::string_view, 6> joint_part_names{
     "motion", "effort", "agonist_heat", "agonist_power", "antagonist_heat", "antagonist_power"};
 
-/// A spring or gravity in the antagonist's place has no heater to tell of.
+/// A spring or gravity instead of an antagonist has no heater to report.
 constexpr std::uint8_t joint_parts(bool has_antagonist) {
   return static_cast<std::uint8_t>(has_antagonist ? JointPart::antagonist_power
                                                   : JointPart::agonist_power) +
          1;
 }
 
-/// lever: of the agonist. antagonist: null where there is none, or no row of it yet.
+/// lever: of the agonist. antagonist: null if there is none, or no row of it yet.
 hal::CanFrame joint(can::Node node, JointPart part, const control::Lever& lever, const Row& agonist,
                     const Row* antagonist);
 

@@ -15,8 +15,8 @@ Leases::Lease& Leases::lease_now(std::uint8_t channel, hal::Time now) {
   return lease;
 }
 
-/// A claim whose answer was lost is made anew, and granted while nothing has come since. All who
-/// claim meanwhile are told the same nonce; the first to repeat it has the lease.
+/// A claim is repeated if its answer was lost, and is granted if no command has come since. All who
+/// claim meanwhile get the same nonce; the first to repeat it gets the lease.
 Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, double nonce,
                       std::uint8_t counter, hal::Time now) {
   Lease& lease = lease_now(channel, now);
@@ -39,7 +39,7 @@ Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, double non
   return Refusal::none;
 }
 
-/// A sequence that was broken goes on from where it is now.
+/// A broken sequence goes on from the current counter.
 Refusal Leases::check(std::uint8_t channel, std::uint16_t session, std::uint8_t counter,
                       hal::Time now) {
   Lease& lease = lease_now(channel, now);

@@ -11,12 +11,12 @@
 
 namespace supercoil::telemetry {
 
-/// A lease a channel. A claim is answered with a nonce; the claim that repeats it is granted with a
-/// session, which every command must carry. Both are random numbers of the board's, and a nonce is
-/// good for one claim within lease_s: recorded frames get no lease. A lease ends when it is
-/// released or unused for lease_s; keeping it under its session is for where there is nothing else
-/// to command. A session is never granted twice in a row, so frames of an earlier one are refused.
-/// This guards against mistakes, faults and recordings, not against somebody who means harm:
+/// One lease per channel. The board answers a claim with a nonce, and the claim that repeats it
+/// with a session, which every command must carry. Both are random numbers that the board draws,
+/// and a nonce is good for one claim within lease_s: recorded frames get no lease. A lease ends
+/// when it is released or unused for lease_s; a master that has nothing to command keeps it by a
+/// claim under its session. A session is never granted twice in a row, so frames of an earlier one
+/// are refused. This guards against mistakes, faults and recordings, not against an attacker:
 /// whoever can send can also claim.
 class Leases {
  public:
@@ -27,28 +27,28 @@ class Leases {
   std::size_t channels() const { return leases_.size(); }
   bool held(std::uint8_t channel, hal::Time now) const { return live(leases_[channel], now); }
 
-  /// claimed_as: what the claim carries as its session; nonce: what it repeats, 0: none yet.
-  /// Granted: session(). claim_again: with nonce().
+  /// claimed_as: the session field of the claim; nonce: what the claim repeats, 0: none yet. When
+  /// granted, session() is the session; after claim_again, nonce() is the nonce.
   Refusal claim(std::uint8_t channel, std::uint16_t claimed_as, double nonce, std::uint8_t counter,
                 hal::Time now);
   std::uint16_t nonce(std::uint8_t channel) const { return leases_[channel].nonce; }
-  /// Of the last claim that was granted, 0: nobody's.
+  /// The session of the last granted claim; 0: nobody has the lease.
   std::uint16_t session(std::uint8_t channel) const { return leases_[channel].session; }
-  /// Of the master that commanded under the lease before this one; 0: nobody's.
+  /// The session of the master that commanded under the previous lease; 0: none.
   std::uint16_t replaced(std::uint8_t channel) const { return leases_[channel].replaced; }
   void release(std::uint8_t channel) { leases_[channel].session = 0; }
 
-  /// Whether a frame with this session and counter is its holder's next one. wrong_counter: the
-  /// frame was repeated or too many were lost; the next one is obeyed.
+  /// Whether a frame with this session and counter is the lease holder's next one. wrong_counter:
+  /// the frame was repeated or too many were lost; the next one is obeyed.
   Refusal check(std::uint8_t channel, std::uint16_t session, std::uint8_t counter, hal::Time now);
 
  private:
   struct Lease {
-    std::uint16_t session = 0;  ///< 0: nobody's
+    std::uint16_t session = 0;  ///< 0: nobody has the lease
     std::uint16_t last_session = 0;
     std::uint16_t replaced = 0;  ///< the last session before this one that was used; 0: none
     std::uint16_t claimed_as = 0;
-    std::uint16_t nonce = 0;  ///< that is good for a claim; 0: none
+    std::uint16_t nonce = 0;  ///< valid for one claim; 0: none
     std::uint16_t last_nonce = 0;
     bool used = false;         ///< a command came since the claim
     std::uint8_t counter = 0;  ///< of the last frame
@@ -60,7 +60,7 @@ class Leases {
     return lease.session != 0 && now - lease.last <= lasts_;
   }
   Lease& lease_now(std::uint8_t channel, hal::Time now);
-  /// Neither 0 nor this one.
+  /// Neither 0 nor `last`.
   std::uint16_t random_except(std::uint16_t last);
 
   hal::Duration lasts_;

@@ -10,25 +10,25 @@
 
 namespace supercoil::telemetry {
 
-/// Of firmware/io/can/supercoil.dbc; a change that an old reader would misunderstand gives a
+/// Version of firmware/io/can/supercoil.dbc; a change that an old reader would misunderstand gets a
 /// new number.
 inline constexpr std::uint8_t protocol_version = 5;
 
-/// An opcode has 4 bits, and each means something. A verb has its own number, but for those that
-/// compare with a meter or a thermometer: they share what is no verb's, and the value tells which.
-/// Up to version 3 claim was 14, and release 15 with value 0.
+/// An opcode has 4 bits, and every value is used. A verb's opcode is its own number, except for the
+/// verbs that compare with a meter or a thermometer: they share one that is no verb's, and the
+/// value tells them apart. Up to version 3 claim was 14, and release 15 with value 0.
 enum Opcode : std::uint8_t { compare = 0, claim_of_version_3 = 14, lease = 15 };
 
-/// What a command of the lease carries as its value, beside the number that claim_again told.
+/// Values of a lease command, besides the nonce that claim_again gave.
 inline constexpr float claims = 0.0F;
 inline constexpr float releases = -1.0F;
 
 inline constexpr std::size_t opcodes = 16;
 
-/// A rise of 0 K is sent as this many; no supply has so many volts.
+/// A rise of 0 K is sent as this value; no supply has that many volts.
 inline constexpr double rises_from = 1000.0;
 
-/// The place of a controller to be tuned is sent as `controller` with this much added.
+/// Verb::tune is sent as `controller`, with this added to the controller's place.
 inline constexpr double tunes_from = 1000.0;
 
 /// A command as it is sent.
@@ -37,7 +37,7 @@ struct Sent {
   double value;
 };
 constexpr Sent sent(Verb verb, double value) {
-  // A meter's value of the wrong sign must not become the other sense's.
+  // A meter's value with the wrong sign must not be taken for the other sense's.
   constexpr double nonsense = std::numeric_limits<double>::quiet_NaN();
   if (verb == Verb::compare_supply) {
     const bool volts = value >= 0.0 && value < rises_from;
@@ -51,7 +51,7 @@ constexpr Sent sent(Verb verb, double value) {
   }
   return {static_cast<std::uint8_t>(verb), value};
 }
-/// What was sent; opcode: not the lease's. A NaN is no current.
+/// The command that was sent; opcode: not the lease's. NaN is not taken for a current.
 constexpr Command meant(std::uint8_t opcode, double value) {
   if (opcode == static_cast<std::uint8_t>(Verb::controller) && value >= tunes_from)
     return {0, Verb::tune, value - tunes_from};

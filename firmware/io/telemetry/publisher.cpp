@@ -4,8 +4,8 @@ namespace supercoil::telemetry {
 
 namespace {
 
-/// That wait for the bus, with the values that they refuse. Each master waits for one before it
-/// asks again.
+/// Answers that wait for the bus, refused values included. Each master waits for an answer before
+/// it asks again.
 constexpr std::size_t max_answers = 32;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The board's own frames, in order and in time, through a bounded queue onto the bus.
+// Sends the board's own frames, in order and on time, through a bounded queue onto the bus.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,20 @@
 
 namespace supercoil::telemetry {
 
-/// A plain object of one thread, which is not the loop's. Nothing blocks and nothing allocates
-/// after construction. What the bus does not take waits for the next poll; when the queue is full
-/// the oldest frame gives way and is counted. What waits when the bus is lost is dropped: it is no
-/// news when the bus is back.
+/// Used by one thread, never the loop's. Nothing blocks, and nothing allocates after construction.
+/// Frames that the bus does not take wait for the next poll; when the queue is full, the oldest is
+/// dropped and counted. When the bus is lost, waiting frames are dropped: they are outdated when it
+/// is back.
 class Publisher {
  public:
   /// channels: the board's. timing and bus outlive the publisher.
   Publisher(const CanSettings& settings, const std::vector<ChannelSettings>& channels,
             LoopTiming& timing, hal::CanBus& bus);
 
-  /// The newest row of its channel. A change of its fault is sent at once, before all that waits.
+  /// The newest row of its channel. A change of its fault is sent before all that waits.
   void offer(const Row& row);
-  /// Sends what is due and what waits. leased: whether a channel is commanded over CAN. From a row
-  /// that a message was sent from already it is not sent again: when the loop stands still, the
-  /// board falls silent.
+  /// Sends what is due and what waits. leased: whether a channel is commanded over CAN. No message
+  /// is sent twice from the same row: when the loop stops, the board falls silent.
   template <class Leased>
   void poll(hal::Time now, const Leased& leased) {
     flush();
@@ -38,14 +37,14 @@ class Publisher {
     });
     flush();
   }
-  /// An answer: before the messages that wait, so that a bus which is too slow can be commanded.
+  /// Sends an answer before the messages that wait, so that an overloaded bus can be commanded.
   void send(const hal::CanFrame& frame);
-  /// Of each channel.
+  /// The rates of each channel.
   const std::vector<Rates>& rates_Hz() const { return schedule_.rates_Hz(); }
-  /// From now on; all messages take new places in their periods.
+  /// Takes effect at once; all messages get new places in their periods.
   void set_rates(const std::vector<Rates>& rates_Hz) { schedule_ = Schedule(rates_Hz); }
 
-  /// Frames that gave way or were lost with the bus.
+  /// Frames dropped from a full queue or lost with the bus.
   std::uint32_t dropped() const { return dropped_; }
   std::size_t waiting() const { return emergencies_.size() + answers_.size() + messages_.size(); }
 
@@ -55,9 +54,9 @@ class Publisher {
     bool known = false;                            ///< there was a row
     std::array<std::int64_t, messages> sent_ns{};  ///< time of the row that each was made from
     MultiplexedValues multiplexed;
-    std::uint8_t parameter = 0;             ///< the next one of Estimate
+    std::uint8_t parameter = 0;             ///< the last one sent in Estimate
     std::uint8_t counter = 0;               ///< of Status
-    std::uint8_t joint_part = 0;            ///< the next one of Joint
+    std::uint8_t joint_part = 0;            ///< the next one to send in Joint
     control::KnownParameters muscle{};      ///< what θ alone cannot tell
     control::Lever lever;                   ///< of its joint
     std::optional<std::size_t> antagonist;  ///< channel of the muscle that turns it back

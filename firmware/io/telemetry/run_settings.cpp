@@ -89,7 +89,7 @@ Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate
   std::vector<Rates> rates = publisher_->rates_Hz();
   rates[channel][static_cast<std::size_t>(message)] = rate_Hz;
   const double load = bus_load(rates, can_.bit_rate);
-  // Less is always allowed.
+  // A lower load is always allowed.
   if (load > can_.max_load && load > bus_load(publisher_->rates_Hz(), can_.bit_rate))
     return Refusal::out_of_range;
   publisher_->set_rates(rates);

@@ -12,10 +12,9 @@
 
 namespace supercoil::telemetry {
 
-/// 0: the power that a channel gets at most, in W, up to the configured maximum. The others: how
-/// often each message of its node is sent, in Hz, in the order of Message; that of Joint is the
-/// file's. The last three are only read: what the channel's senses were found to be by a comparison
-/// with a meter.
+/// 0: a channel's max power in W, up to the configured maximum. Then the rate in Hz of each message
+/// of its node, in the order of Message; that of Joint is fixed by the file. The last three can
+/// only be read: the result of comparing the channel's senses with a meter.
 enum SenseSetting : std::uint8_t {
   supply_gain = 1 + static_cast<std::uint8_t>(Message::joint),
   current_gain,
@@ -26,18 +25,18 @@ static_assert(run_settings <= 16, "a setting has 4 bits");
 /// As in the DBC, with its unit.
 std::string run_setting_name(std::uint8_t setting);
 
-/// What became of a frame that may write something. All empty: it has nothing to do with it.
+/// The result of a frame that may write something. All empty: the frame is not of this kind.
 struct TakenWrite {
   std::optional<std::uint8_t> damaged;  ///< the channel whose write was damaged
   std::optional<hal::CanFrame> answer;
-  std::optional<hal::CanFrame> refused_value;  ///< goes after the answer
+  std::optional<hal::CanFrame> refused_value;  ///< sent after the answer
 };
 
 /// Neither sends nor receives. Writing needs the channel's lease, as a command does; reading does
-/// not. Whatever came whole is answered with what holds from then on.
+/// not. Every intact frame is answered with the value that holds from then on.
 class RunSettings {
  public:
-  /// board: as the loop was made with. All others outlive it.
+  /// board: the settings that the loop was made with. All others must outlive it.
   RunSettings(CanSettings can, const BoardSettings& board, Leases& leases, Publisher& publisher,
               Loop& loop);
 
@@ -47,9 +46,9 @@ class RunSettings {
   TakenWrite take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Refusal set(std::uint8_t channel, std::uint8_t setting, double value);
   Refusal set_rate(std::uint8_t channel, Message message, double rate_Hz);
-  /// NaN: there is no such setting of this channel.
+  /// NaN: the channel has no such setting.
   double value_of(std::uint8_t channel, std::uint8_t setting) const;
-  /// Of the values of a setting that may be written, to this one. NaN: none is known.
+  /// The allowed value of a setting that is nearest to this one. NaN: not known.
   double nearest(std::uint8_t channel, std::uint8_t setting, double value) const;
   hal::CanFrame told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
                      std::uint8_t counter, std::uint16_t session) const;

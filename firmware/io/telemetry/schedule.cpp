@@ -9,7 +9,7 @@ namespace supercoil::telemetry {
 
 namespace {
 
-/// Multiples of it modulo 1 lie as far from each other as can be, however many there are.
+/// Its multiples modulo 1 are as far apart as possible, however many there are.
 constexpr double golden = 0.6180339887498949;
 
 bool is_sent(const Rates& rates_Hz, std::size_t message, std::size_t channel) {
@@ -68,7 +68,7 @@ Schedule::Schedule(std::vector<Rates> of_channels_Hz) : rates_Hz_(std::move(of_c
           {static_cast<std::uint8_t>(channel), static_cast<Message>(i), period, hal::Time{}});
     }
   }
-  // Those of one period share it evenly; the groups are set off against each other.
+  // Messages with the same period share it evenly; such groups are offset against each other.
   int groups = 0;
   for (std::size_t first = 0; first < slots_.size(); ++first) {
     const hal::Duration period = slots_[first].period;

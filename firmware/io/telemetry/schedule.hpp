@@ -1,4 +1,4 @@
-// When which message of which channel is sent, and how much of the bus that takes.
+// When each message of each channel is sent, and how much of the bus that takes.
 #pragma once
 
 #include <algorithm>
@@ -10,30 +10,30 @@
 
 namespace supercoil::telemetry {
 
-/// Bits on the wire of a frame with an 11-bit identifier and so many bytes, with the most bits that
-/// stuffing can add and the pause to the next frame (Davis, Burns, Bril, Lukkien: Controller Area
-/// Network schedulability analysis, 2007, equation 1, with 3 bits of pause).
+/// Bits on the wire of a frame with an 11-bit identifier and this many bytes, with the max number
+/// of stuffed bits and the pause before the next frame (Davis, Burns, Bril, Lukkien: Controller
+/// Area Network schedulability analysis, 2007, equation 1, with 3 bits of pause).
 constexpr int max_bits(int bytes) {
-  constexpr int exposed = 34;  // of the frame without data, what may need stuffing
+  constexpr int exposed = 34;  // bits of a frame without data that may need stuffing
   const int stuffed = (exposed + 8 * bytes - 1) / 4;
   return exposed + 8 * bytes + 13 + stuffed;
 }
 
-/// The part of the bus that is busy with what is sent at a rate and with Boot: 1 is all of it.
-/// Commands, their answers and emergencies come on top.
+/// The fraction of the bus that periodic messages and Boot take: 1 is all of it. Commands, their
+/// answers and emergencies come on top.
 double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate);
-/// With the rates that are configured.
+/// The same with the configured rates.
 double bus_load(const CanSettings& can, const std::vector<ChannelSettings>& channels);
 
 /// Each message of each channel has its own place within its period, evenly spread, so that frames
-/// do not come in bursts. What was missed is not made up for.
+/// do not come in bursts. Missed messages are not made up for.
 class Schedule {
  public:
   struct Slot {
     std::uint8_t channel;
     Message message;
     hal::Duration period;
-    hal::Time next;  ///< before the first due(): within the period
+    hal::Time next;  ///< before the first due(): its offset within the period
   };
 
   explicit Schedule(std::vector<Rates> of_channels_Hz);

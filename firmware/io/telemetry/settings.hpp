@@ -11,22 +11,22 @@
 
 namespace supercoil::telemetry {
 
-/// Of each message for each channel, in Hz, in the order of Message; 0: never.
+/// The rate of each message in Hz, for each channel, in the order of Message; 0: never.
 using Rates = std::array<double, messages>;
 Rates default_rates();
 
-/// A heartbeat that is rarer is none; what is rarer than the other is meant to be never.
+/// A slower heartbeat would be none; a lower rate of another message is meant as never.
 inline constexpr double min_status_Hz = 1.0;
 inline constexpr double min_rate_Hz = 0.01;
-/// No message more often than there is news.
+/// No message is sent more often than there is new data.
 constexpr double max_rate(double tick_Hz) {
   return tick_Hz < 1000.0 ? tick_Hz : 1000.0;
 }
-/// Each node tells so often which program it runs (Boot): no load that needs a setting.
+/// How often each node reports which program it runs (Boot); too little load for a setting.
 inline constexpr hal::Duration boot_period = std::chrono::seconds(1);
-/// Between the least and the most, or 0 for never, which a heartbeat may not be.
+/// Whether the rate is between min and max, or 0 for never, which a heartbeat must not be.
 bool is_allowed(Message message, double rate_Hz, double tick_Hz);
-/// Whether this channel's node (from 0) sends it; the board's first node sends what is the board's.
+/// Whether this channel's node (from 0) sends it; a board's messages come from its first node only.
 inline bool is_of(std::size_t channel, Message message) {
   return channel == 0 || !periodic_messages()[static_cast<std::size_t>(message)].of_board;
 }
@@ -36,12 +36,12 @@ struct CanSettings {
   double bit_rate = 500e3;   ///< bit/s
   can::Node first_node = 1;  ///< the first channel's; the others follow
   Rates rates_Hz = default_rates();
-  double max_load = 0.5;   ///< of the bus, by what is sent at a rate: the rest is for commands
-  double lease_s = 1.0;    ///< a master that is silent for so long loses its lease
-  std::size_t queue = 64;  ///< frames that wait for the bus at most
+  double max_load = 0.5;   ///< of the bus, for periodic messages: the rest is for commands
+  double lease_s = 1.0;    ///< a master that is silent for this long loses its lease
+  std::size_t queue = 64;  ///< max number of frames that wait for the bus
 };
 
-/// Of each channel's node: 0 of Joint where it is not the node of a joint.
+/// The rates of each channel's node; the rate of Joint is 0 unless it is the node of a joint.
 std::vector<Rates> rates_of(const CanSettings& can, const std::vector<ChannelSettings>& channels);
 
 }  // namespace supercoil::telemetry

@@ -19,7 +19,7 @@ constexpr bool states_have_their_names() {
 }
 static_assert(states_have_their_names(), "the states of playback have the same names over CAN");
 
-/// A master sends one a second: Play that comes behind its Sync means the last one or the one
+/// A master sends one Sync a second: a Play that comes after its Sync means the last one or the one
 /// before.
 constexpr double max_sync_age_s = 2.0;
 
@@ -47,9 +47,9 @@ TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
   };
   std::uint16_t session = leases_->session(channel);
   const std::uint16_t replaced = leases_->replaced(channel);
-  // A master that does not know yet that it was replaced damages nothing, and is told.
+  // A master that does not know yet that it was replaced gets an answer; its frame is not damaged.
   if (!is_of(session) && replaced != 0 && is_of(replaced)) session = replaced;
-  // While nobody has the lease there is no session to judge it by, and it is only refused.
+  // While nobody has the lease there is no session to check the frame with: it is only refused.
   if (!whole || (!is_of(session) && leases_->held(channel, now))) return {channel, {}};
   const Header header{channel, answers_knot, m.get<std::uint8_t>("counter"), session};
   const Refusal checked = leases_->check(channel, session, header.counter, now);
@@ -62,7 +62,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
   Command command{channel, Verb::knot, m.get("position_m"), Source::can};
   command.after_s = m.get<float>("after_s");
   command.velocity_m_per_s = m.get<float>("velocity_m_per_s");
-  // The first knot of another trajectory: a start that still waits was the last one's.
+  // The first knot of a new trajectory: a start that still waits belongs to the previous one.
   if (command.after_s == 0.0F) channels_[channel].start.reset();
   taken.answer = hand_on(header, command);
   return taken;
@@ -84,8 +84,8 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
     return taken;
   }
   const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
-  channels_[channel].start.reset();  // the one that Play was told before
-  // By an earlier one the start would be over. This order also bounds an after_s that is no number.
+  channels_[channel].start.reset();  // that of an earlier Play
+  // From an earlier Sync, the start would be over. This order also bounds an after_s that is NaN.
   const hal::Time earliest = now - hal::duration_from(std::min(max_sync_age_s, asked.after_s));
   if (when == at_once) {
     channels_[channel].anchor.reset();
@@ -116,7 +116,7 @@ void TrajectoryFrames::take_sync(const hal::CanFrame& frame, hal::Time now) {
     if (!channel.start || channel.start->sync != sync.number) continue;
     const Start waited = *channel.start;
     channel.start.reset();
-    // Told already that it waits; the loop may still find it too late.
+    // The master knows already that the start waits; the loop may still find it too late.
     if (leases_->held(i, now) && waited.header.session == leases_->session(i)) start(waited, sync);
   }
 }

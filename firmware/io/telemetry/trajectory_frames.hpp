@@ -1,4 +1,4 @@
-// How trajectories come over CAN, and start on several boards at once.
+// Receives trajectories over CAN, and starts them on several boards at once.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace supercoil::telemetry {
 
-/// Of the one Sync that all boards of a bus hear.
+/// Identifier of the one Sync that all boards of a bus hear.
 inline constexpr std::uint16_t sync_id = can::id_of(can::message::sync, 1);
 
 /// Values of Trajectory.answers, and of Play.when.
@@ -26,26 +26,26 @@ constexpr bool is_of_trajectory(Verb verb) {
 }
 
 /// Neither sends nor receives. Knots and Play need the channel's lease, as commands do, and are
-/// answered when the loop has done them. Sync needs nothing: it moves nothing by itself.
+/// answered when the loop has done them. Sync needs no lease: it moves nothing by itself.
 class TrajectoryFrames {
  public:
-  /// All outlive it. first_node: of the board's first channel.
+  /// leases and loop must outlive it. first_node: that of the board's first channel.
   TrajectoryFrames(can::Node first_node, Leases& leases, Loop& loop);
 
-  /// What became of a frame. All empty: it has nothing to do with it.
+  /// The result of a frame. All empty: the frame is not about trajectories.
   struct Taken {
     std::optional<std::uint8_t> damaged;  ///< the channel whose frame was damaged
     std::optional<hal::CanFrame> answer;
   };
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
-  /// The frame that answers a command of a trajectory; empty: it was none that came over CAN.
+  /// The frame that answers a trajectory command; empty: the command did not come over CAN.
   std::optional<hal::CanFrame> answered(const Answer& answer);
-  /// The next frame of a channel whose playback became another; empty: there is none.
+  /// The next frame of a channel whose playback state changed; empty: none has changed.
   std::optional<hal::CanFrame> news();
 
  private:
-  /// As much of a frame as its answer repeats.
+  /// The part of a frame that its answer repeats.
   struct Header {
     std::uint8_t channel;
     std::uint8_t answers;
@@ -58,15 +58,15 @@ class TrajectoryFrames {
     double after_s;
   };
   struct Channel {
-    std::optional<Start> start;            ///< that waits for its Sync
-    std::optional<BusClock::Sync> anchor;  ///< by which it was started last
+    std::optional<Start> start;            ///< waits for its Sync
+    std::optional<BusClock::Sync> anchor;  ///< the Sync of the last start
     PlaybackState told = PlaybackState::empty;
   };
 
   Taken take_knot(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Taken take_play(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   void take_sync(const hal::CanFrame& frame, hal::Time now);
-  /// Empty: the loop has it, and will answer.
+  /// Empty: the loop has taken it, and will answer.
   std::optional<hal::CanFrame> hand_on(const Header& header, Command command);
   std::optional<hal::CanFrame> start(const Start& start, const BusClock::Sync& sync);
   hal::CanFrame told(const Header& header, Refusal refusal) const;

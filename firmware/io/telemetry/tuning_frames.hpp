@@ -7,17 +7,17 @@
 
 namespace supercoil::telemetry {
 
-/// In TuningWrite: not one value but the whole prepared set.
+/// In TuningWrite: the whole prepared set instead of one value.
 inline constexpr std::uint8_t all_tunables = 255;
 
-/// The number that was meant by whoever made a float of it: the shortest that it stands for.
+/// The number that the sender converted to this float: the shortest decimal that gives it.
 double shortest_decimal(float value);
 
-/// Neither sends nor receives. Writing prepares, and needs the channel's lease; reading does not.
-/// What is prepared is taken into use by Verb::tune.
+/// Neither sends nor receives. A write prepares a value, and needs the channel's lease; a read does
+/// not. Verb::tune takes the prepared values into use.
 class TuningFrames {
  public:
-  /// All outlive it. first_node: of the board's first channel.
+  /// leases and loop must outlive it. first_node: that of the board's first channel.
   TuningFrames(can::Node first_node, Leases& leases, Loop& loop)
       : first_node_(first_node), leases_(&leases), loop_(&loop) {}
 

@@ -1,4 +1,4 @@
-// Commands that were handed to the loop, until it has answered them.
+// Commands that were passed to the loop and are not answered yet.
 #pragma once
 
 #include <algorithm>
@@ -8,24 +8,24 @@
 
 namespace supercoil::telemetry {
 
-/// Header: as much of a frame as its answer repeats.
+/// Header: the part of a frame that its answer repeats.
 template <class Header>
 class Unanswered {
  public:
   bool full() const { return waiting_.size() == max_waiting; }
-  /// Not while it is full. Gives the id by which the answer is known.
+  /// Not while it is full. Returns the id that the answer will carry.
   std::uint32_t add(const Header& header) {
     waiting_.push_back({++last_id_, header});
     return last_id_;
   }
-  /// The loop did not take the last one that was added.
+  /// Removes the last one that was added, because the loop did not take it.
   Header take_back() {
     const Header header = waiting_.back().header;
     waiting_.pop_back();
     return header;
   }
-  /// Empty: it is not waited for. The loop answers in order: what was added before it, and is not
-  /// answered, is no longer waited for.
+  /// Empty: nothing waits for this id. The loop answers in order, so what was added earlier and has
+  /// no answer is given up.
   std::optional<Header> answered(std::uint32_t id) {
     const auto found = std::ranges::find(waiting_, id, &Waiting::id);
     if (found == waiting_.end()) return std::nullopt;
@@ -35,7 +35,7 @@ class Unanswered {
   }
 
  private:
-  /// What the loop's ring of commands holds.
+  /// The capacity of the loop's command ring.
   static constexpr std::size_t max_waiting = 256;
 
   struct Waiting {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t max_channels = 16;
 
-/// In the order of the file; what [every_channel] has wrong is reported once, not for each channel.
+/// In the order of the file; a mistake in [every_channel] is reported once, not for each channel.
 Errors in_order(Errors problems) {
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Error& a, const Error& b) { return a.line < b.line; });
@@ -28,14 +28,14 @@ Errors in_order(Errors problems) {
   return result;
 }
 
-/// The channel whose position this one has; empty: it has its own.
+/// The channel whose position this one uses; empty: it has its own.
 std::optional<std::size_t> position_owner(std::size_t channel, const JointReader& joints,
                                           const BundleReader& bundles) {
   const auto agonist = joints.agonist_of(channel);
   return agonist ? agonist : bundles.leader_of(channel);
 }
 
-/// As they are numbered, but each after the one whose position it has.
+/// In the order of their numbers, but each after the channel whose position it uses.
 std::vector<std::size_t> reading_order(std::size_t channels, const JointReader& joints,
                                        const BundleReader& bundles) {
   std::vector<std::size_t> order;
@@ -70,7 +70,7 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
   }
 }
 
-/// 0, or more than a board can have.
+/// Refuses 0 channels, or more than a board can have.
 bool refuse_number(const std::vector<Section>& channels, Diagnostics& diagnostics) {
   if (!channels.empty() && channels.size() <= max_channels) return false;
   const int line = channels.empty() ? 0 : channels[max_channels].line();
@@ -79,9 +79,9 @@ bool refuse_number(const std::vector<Section>& channels, Diagnostics& diagnostic
   return true;
 }
 
-/// What check() refuses, said at its key.
+/// Reports what check() refuses, at its key.
 void refuse_settings(Section& board, const BoardSettings& settings, Diagnostics& diagnostics) {
-  if (std::isnan(settings.supervision.charge_pump_decay_s)) return;  // said already
+  if (std::isnan(settings.supervision.charge_pump_decay_s)) return;  // reported already
   const auto problem = check(settings);
   if (!problem) return;
   if (problem->key.empty()) {

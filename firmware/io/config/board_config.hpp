@@ -16,10 +16,10 @@ namespace supercoil::config {
 
 enum class Preset { nylon, skin };
 
-/// What describes a channel and the loop does not need.
+/// Describes a channel; the loop does not need it.
 struct ChannelLabel {
   std::string name;
-  std::string joint;  ///< its name, of one that it turns alone; may be empty
+  std::string joint;  ///< name of the joint that the channel turns alone; may be empty
   Preset preset = Preset::nylon;
   bool position_in_deg = false;  ///< its sensor, of a joint's angle, is configured in degrees
   std::optional<double>
@@ -29,18 +29,18 @@ struct ChannelLabel {
 
 struct JointLabel {
   std::string name;
-  std::optional<double> max_pull_N{};  ///< of one muscle, that it bears; empty: not configured
+  std::optional<double> max_pull_N{};  ///< that one muscle bears; empty: not configured
   double pretension_N = 0.0;           ///< each muscle's pull when both are cold, at the angle 0
 };
 
 struct BoardConfig {
   std::string name;
-  std::uint32_t crc32 = 0;  ///< of what the file says, as of a scenario
+  std::uint32_t crc32 = 0;  ///< of the file's content, as for a scenario
   BoardSettings settings;   ///< passes check()
   BoardWiring wiring;       ///< as many channels as the settings
   std::vector<ChannelLabel> labels;
   std::vector<JointLabel> joints;    ///< as many as the settings have
-  std::vector<std::string> bundles;  ///< their names, likewise
+  std::vector<std::string> bundles;  ///< their names; as many as the settings have
   std::optional<telemetry::CanSettings> can;
   std::string storage_folder;  ///< what was learned is kept here
 };
@@ -51,7 +51,7 @@ using BoardConfigOrProblems = tl::expected<BoardConfig, Errors>;
 /// path: a .toml file.
 BoardConfigOrProblems read_board_config(const std::string& path);
 
-/// The same from text; name: how messages call it.
+/// The same from text; name: as in messages.
 BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name);
 
 }  // namespace supercoil::config

@@ -8,7 +8,7 @@
 
 namespace supercoil::config {
 
-/// Of a tick; more is refused: the rest is for retries and for a kernel that is busy.
+/// Fraction of a tick; more is refused. The rest is for retries and for a busy kernel.
 inline constexpr double max_bus_load = 0.7;
 
 struct BusUser {
@@ -21,7 +21,7 @@ struct BusTime {
   double total_s = 0.0;  ///< every device served once
 };
 
-/// One transaction of that many bytes, in s.
+/// Duration of one transaction of this many bytes.
 double transaction_s(const BusAddress& bus, int bytes);
 
 BusTime bus_time(const BoardWiring& wiring, const BusAddress& bus);

@@ -15,7 +15,7 @@ namespace supercoil::config {
 
 namespace {
 
-/// To a few digits: times and parts are for people.
+/// Rounds times and fractions for people.
 double rounded(double value, double to) {
   return std::nearbyint(value / to) * to;
 }

@@ -1,4 +1,4 @@
-// What was understood of a configuration, in words.
+// A configuration as it was understood, in words.
 #pragma once
 
 #include <cstddef>
@@ -11,38 +11,38 @@
 namespace supercoil::config {
 
 /// What `supercoild --check` prints: the board, each channel, bus time, CAN, which detectors cannot
-/// work, and at last memory, to which the daemon adds what only it knows.
+/// work and, last, memory, to which the daemon adds what only it knows.
 std::string describe(const BoardConfig& config);
 
 /// Its parts.
 std::string describe_channel(const BoardConfig& config, std::size_t index);
-/// index: of BoardSettings::joints.
+/// index: into BoardSettings::joints.
 std::string describe_joint(const BoardConfig& config, std::size_t index);
-/// index: of BoardSettings::bundles.
+/// index: into BoardSettings::bundles.
 std::string describe_bundle(const BoardConfig& config, std::size_t index);
-/// One line, of a channel whose joint a spring or a weight draws back.
+/// One line about a channel whose joint is drawn back by a spring or a weight.
 std::string describe_turned(const BoardConfig& config, std::size_t channel);
-/// One line, where it is a weight: what holding it takes, by the angle.
+/// One line if that is a weight: the power that holding it takes, by the angle.
 std::string describe_weight(const ChannelSettings& channel);
 /// By how much all parameters may be off at once; NaN: the controller works in open loop.
 double tolerated_ratio(const control::ControllerSettings& controller,
                        const ChannelSettings& channel, double step_s);
-/// Of a controller's feedback; NaN: it has no such setting.
+/// Bandwidth of a controller's feedback; NaN: it has no such setting.
 double bandwidth_rad_per_s(const control::ControllerSettings& controller);
 /// How far the sensor's noise makes a controller's power swing, rms; NaN: it works in open loop.
 double noise_power_W(const control::ControllerSettings& controller, const ChannelSettings& channel,
                      double step_s);
-/// A swing that is told, of the power's range: three deviations to both sides are more than half of
-/// it.
+/// A swing above this fraction of the power's range is reported: three deviations to both sides are
+/// then more than half of the range.
 inline constexpr double much_noise_ratio = 0.1;
-/// What makes it less; never less bandwidth than is recommended.
+/// What reduces the swing; never a bandwidth below the recommended one.
 std::string noise_remedy(const control::ControllerSettings& controller,
                          const ChannelSettings& channel, const BoardSettings& board);
-/// The room that a controller leaves on the channel's muscle, how far that may be off, and its
-/// bandwidth; empty: it works in open loop.
+/// A controller's margin on the channel's muscle, how far the muscle's parameters may be off, and
+/// its bandwidth; empty: it works in open loop.
 std::string describe_margin(const control::ControllerSettings& controller,
                             const ChannelSettings& channel, double step_s);
-/// What narrows the bounds of the muscle's heat, and what would.
+/// What narrows the bounds of the muscle's heat, and what else would.
 std::string describe_heat(const ChannelSettings& channel);
 /// How far the true power may be from the measured one, and since which comparison with a meter.
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
@@ -52,23 +52,23 @@ std::string describe_small_motions(const ChannelSettings& channel, const BoardSe
 /// controller holds it, and how closely it will follow. One line each: the same for `supercoild
 /// --check`, `supercoil-sim run` and `supercoil setup`.
 std::vector<std::string> describe_feasibility(const BoardSettings& board, std::size_t channel);
-/// The error that each controller promises, or the one that would; of a muscle that identify found
-/// to be as far from linear as it lets pass. Of a joint none is known.
+/// The error that each controller promises once the muscle is identified, or that the recommended
+/// one would. Empty for a joint, where no error is known.
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel);
-/// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and from what.
+/// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and what contributes to it.
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
-/// The controller and the reference model that suit the channel's muscle, and why; which of its own
-/// that is, or why it can have none. None, where another channel leads it.
+/// The controller and the reference model that suit the channel's muscle, and why; which of the
+/// channel's own controllers that is, or why it cannot have it. Empty if another channel leads it.
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
-/// Likewise, where its muscle lifts an arm.
+/// Likewise, for a muscle that lifts an arm.
 void advise_weight(const ChannelSettings& channel, std::vector<std::string>& lines);
-/// Likewise, so that a joint's muscles last. index: of BoardSettings::joints.
+/// Likewise, so that a joint's muscles last. index: into BoardSettings::joints.
 std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t index);
-/// The same of every channel, each line with the channels that share it, and of every joint.
+/// The same for every channel, each line with the channels that share it, and for every joint.
 std::vector<std::string> advice(const BoardConfig& config);
-/// One line for each detector that this configuration leaves blind, whose it is, and why.
+/// One line for each detector that this configuration leaves blind: the channels, and why.
 std::vector<std::string> warnings(const BoardConfig& config);
 
 /// Bytes that are locked for a board's data: programs, libraries and stacks come on top.

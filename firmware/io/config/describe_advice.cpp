@@ -15,10 +15,10 @@ std::string length_text(double metres) {
   return number_text(1e3 * metres, 3) + " mm";
 }
 
-/// A smaller part of the travel is little.
+/// Less than this fraction of the travel deserves advice.
 constexpr double little_ratio = 0.25;
 
-/// What allows more power for good.
+/// What allows more continuous power.
 std::string remedy(LimitedBy held_by) {
   switch (held_by) {
     case LimitedBy::temperature:
@@ -48,7 +48,7 @@ void advise_travel(const ChannelSettings& c, const Feasibility& f,
   }
 }
 
-/// The current must be seen before a probe is over.
+/// The current must be seen before a probe ends.
 void advise_probe(const ChannelSettings& c, double step_s, std::vector<std::string>& lines) {
   constexpr double rounding_s = 1e-9;
   const HeaterSettings& h = c.heater;
@@ -59,7 +59,7 @@ void advise_probe(const ChannelSettings& c, double step_s, std::vector<std::stri
                   "armed; shorten the delay");
 }
 
-/// Where noise makes the power swing.
+/// For controllers whose power swings with the sensor's noise.
 void advise_noise(const ChannelSettings& c, const BoardSettings& board,
                   std::vector<std::string>& lines) {
   const double range_W = c.limiter.max_W - c.limiter.min_W;

@@ -68,7 +68,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << std::nearbyint(c.thermal.air.warmest_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
 
-/// What differs from the file, by name.
+/// The values that differ from the file, by name.
 void describe_tuning(std::ostream& out, const board::StoredValues& tuned) {
   const char* before = "\n              stored by tune: ";
   for (std::size_t i = 0; i < tuned.values.size(); ++i) {

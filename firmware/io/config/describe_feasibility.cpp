@@ -44,17 +44,17 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
   return line;
 }
 
-/// What becomes of a set point that stays above what is held; empty: none is taken.
+/// What happens to a set point that stays above the held travel; empty: none is accepted.
 std::string beyond_text(const Feasibility& f, const FeasibleSteps& steps,
                         const ChannelSettings& c) {
   if (f.travel_m >= c.supervision.max_travel_m) return "";
   const std::string line = "; a set point that stays above " + in_mm(f.travel_m);
-  // Shaping knows of no load.
+  // Shaping does not know the load.
   if (steps.shaped && c.simulated.load_N <= 0.0) return line + " comes back to it";
   return line + " ends in controller_invalid after " + in_digits(c.supervision.saturated_s) + " s";
 }
 
-/// Empty: they are too fine to tell.
+/// Empty: the steps are too fine to mention.
 std::string pwm_line(const ChannelSettings& c, const BoardSettings& board) {
   constexpr double fine_ratio = 1e-5;
   const double supply_V = board.supervision.max_supply_V;

@@ -51,7 +51,7 @@ std::string radius(const control::Lever& lever) {
   return out.str();
 }
 
-/// Of both springs at the lever: "0.0036 Nm/rad"
+/// Stiffness of both springs at the lever: "0.0036 Nm/rad"
 std::string turning_stiffness(double stiffness_N_per_m, const control::Lever& lever) {
   const double min = stiffness_N_per_m * lever.min_radius_m() * lever.min_radius_m();
   const double max = stiffness_N_per_m * lever.max_radius_m() * lever.max_radius_m();
@@ -62,8 +62,8 @@ std::string turning_stiffness(double stiffness_N_per_m, const control::Lever& le
   return out.str();
 }
 
-/// By how much it resists being turned. Where the lever depends on the angle, what both pull with
-/// changes nothing either as long as their moments are equal: a load makes them differ.
+/// How strongly the joint resists being turned. Even with a lever that depends on the angle, the
+/// pull of both muscles does not change it while their moments are equal; a load makes them differ.
 std::string stiffness_text(const JointSettings& joint, double stiffness_N_per_m) {
   const bool constant = joint.lever.is_constant();
   std::ostringstream out;
@@ -74,7 +74,7 @@ std::string stiffness_text(const JointSettings& joint, double stiffness_N_per_m)
   return out.str();
 }
 
-/// What both muscles describe of the whole joint, as it is configured, is the same of both.
+/// Both muscles' configurations describe the whole joint, so they must agree.
 void advise_alike(const BoardSettings& board, const JointSettings& joint,
                   std::vector<std::string>& lines) {
   constexpr double max_ratio = 1.3;
@@ -102,7 +102,7 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
   }
 }
 
-/// What both muscles pull with at most, of what they bear.
+/// The max pull of both muscles, and what they bear.
 std::string greatest_pull(const JointLabel& label, double agonist_N, double antagonist_N) {
   std::ostringstream out;
   out << "the heat of these measured watts adds at most " << up_to_hundredth(agonist_N) << " N and "
@@ -115,8 +115,8 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
   return out.str();
 }
 
-/// From where on each muscle is slack when it gets no power, and what keeps it taut at the ends of
-/// the range, whatever holds the joint there.
+/// The angle from which on each muscle is slack without power, and the power that keeps it taut at
+/// the end of its travel, whatever holds the joint there.
 std::string slack_text(const BoardSettings& board, const JointSettings& joint) {
   if (!std::isfinite(joint.pretension_N)) return "not told: pretension_N is not configured";
   std::ostringstream out;

@@ -1,4 +1,4 @@
-// What an arm's weight takes of the muscle that lifts it, in words.
+// What an arm's weight demands of the muscle that lifts it, in words.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

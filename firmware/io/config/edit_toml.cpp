@@ -8,7 +8,7 @@ namespace supercoil::config {
 
 namespace {
 
-/// toml++ counts code points, and text has bytes.
+/// toml++ counts code points; the text is in bytes.
 std::size_t offset_of(const std::string& text, const toml::source_position& at) {
   std::size_t offset = 0;
   for (toml::source_index line = 1; line < at.line; ++line)
@@ -34,7 +34,7 @@ std::size_t begin_of_next_line(const std::string& text, std::size_t offset) {
   return end == std::string::npos ? text.size() : end + 1;
 }
 
-/// What stands on a line of its own, behind the line of this place.
+/// Inserts a line after the line at this offset.
 std::string inserted_behind(std::string text, std::size_t offset, const std::string& line) {
   const std::size_t at = begin_of_next_line(text, offset);
   const bool ended = at > 0 && text[at - 1] == '\n';
@@ -43,7 +43,7 @@ std::string inserted_behind(std::string text, std::size_t offset, const std::str
 
 std::string into_inline_table(std::string text, const toml::table& table,
                               const std::string& entry) {
-  // Its end stands behind the brace; spaces before that are kept there.
+  // The table's end is behind the brace; spaces before the brace stay there.
   std::size_t brace = offset_of(text, table.source().end);
   while (brace > 0 && text[brace] != '}')
     --brace;

@@ -1,4 +1,4 @@
-// What is said of several channels, each line once.
+// Collects findings about several channels, each line once.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace supercoil::config {
 
 class Findings {
  public:
-  /// What is added from now on concerns this channel, from 1.
+  /// Findings that are added from now on concern this channel, from 1.
   void enter(std::size_t channel) { channel_ = channel; }
 
   void add(Fault fault, const std::string& reason) { add(name(fault), reason); }

@@ -14,7 +14,7 @@ void read_time(Section& section, BoardSettings& settings) {
   s.late_in_a_row = static_cast<int>(section.integer("late_in_a_row", s.late_in_a_row, 1, 1000));
   s.overruns_in_a_row =
       static_cast<int>(section.integer("overruns_in_a_row", s.overruns_in_a_row, 1, 100));
-  // Longer than a second would be no cut.
+  // More than a second would not count as a cut.
   s.charge_pump_decay_s = 1e-3 * section.required_number("charge_pump_decay_ms", {0.1, 1000.0});
 }
 

@@ -1,4 +1,4 @@
-// The tables that a board has once. Each finishes its section.
+// Readers of the tables that a board has once. Each finishes its section.
 #pragma once
 
 #include "config/board_config.hpp"
@@ -6,14 +6,14 @@
 
 namespace supercoil::config {
 
-/// [board] with [board.watchdog]: rate, borne lateness, charge pump, where things are kept.
+/// [board] with [board.watchdog]: rate, tolerated lateness, charge pump, storage folder.
 void read_board(Section& section, BoardConfig& config);
 /// [lines]: heartbeat, stop circuit, light.
 void read_lines(Section& section, WiringReader& reader, BoardWiring& wiring);
 /// [supply].
 void read_supply(Section section, WiringReader& reader, BoardConfig& config);
 
-/// [ambient] with [ambient.sensor]: bounds of the air around the muscles, and what measures it.
+/// [ambient] with [ambient.sensor]: bounds of the air around the muscles, and its sensor.
 board::AirSettings read_ambient(Section section, WiringReader& reader, BoardConfig& config);
 
 struct CommandRules {
@@ -24,7 +24,7 @@ struct CommandRules {
 /// [command].
 CommandRules read_command(Section section, double step_s);
 
-/// [can]. channels: the board's, which know their joints.
+/// [can]. channels: the board's, with their joints.
 telemetry::CanSettings read_can(Section section, double tick_Hz,
                                 const std::vector<ChannelSettings>& channels);
 

@@ -12,23 +12,23 @@
 
 namespace supercoil::config {
 
-/// Read in two steps, as JointReader's.
+/// Read in two steps, as JointReader does.
 class BundleReader {
  public:
-  /// channels: that the board has. None may be in a joint.
+  /// channels: how many the board has. None may be in a joint.
   BundleReader(std::vector<Section> sections, std::size_t channels, const JointReader& joints);
 
   /// The channel that leads the bundle in which this one follows; both from 0.
   std::optional<std::size_t> leader_of(std::size_t channel) const;
-  /// A bundle's channels are wrong: what a channel then lacks may come from it.
+  /// A bundle's channels are wrong: that may be why a channel lacks something.
   bool is_wrong() const { return is_wrong_; }
-  /// After the channels. Finishes the sections.
+  /// Call it after reading the channels. Finishes the sections.
   void finish(BoardConfig& config);
 
  private:
   struct Read {
     Section section;
-    BundleSettings bundle;  ///< without channels: it is wrong
+    BundleSettings bundle;  ///< no channels: the table is wrong
   };
   std::vector<std::size_t> read_channels(Section& section, std::size_t channels,
                                          const JointReader& joints);

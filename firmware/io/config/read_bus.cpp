@@ -16,7 +16,7 @@ BusAddress read_bus(Section& section) {
   bus.name = section.required_text("name");
   const bool spi = bus.name.starts_with("spi");
   bus.kind = section.choice("kind", spi ? BusKind::spi : BusKind::i2c, bus_kind_names);
-  // What Linux clocks an I²C bus with unless it is told otherwise; a slow SPI.
+  // The default clock of I²C in Linux; a slow one for SPI.
   bus.clock_Hz = section.number("clock_Hz", bus.kind == BusKind::i2c ? 100e3 : 1e6, {10e3, 100e6});
   bus.overhead_s = 1e-6 * section.number("overhead_us", 1e6 * bus.overhead_s, {0.0, 10000.0});
   section.finish();

@@ -10,7 +10,7 @@ namespace supercoil::config {
 
 namespace {
 
-/// What the keys of [channel.position] are in: lengths, or of a joint's sensor angles.
+/// Unit of the keys of [channel.position]: a length, or an angle for a joint's sensor.
 struct PositionUnit {
   const char* name;
   double one_m;  ///< in metres
@@ -60,8 +60,8 @@ void read_position(Section section, const std::string& owner, const BoardContext
   section.finish();
 }
 
-/// One sensor tells where a joint or a bundle is: the antagonist's position is the agonist's with
-/// the other sign, and at its own lever.
+/// One sensor measures where a joint or a bundle is: the antagonist's position is the agonist's
+/// with the opposite sign, at its own lever.
 void take_position(Section& section, const PositionOwner& owner, ReadChannel& channel) {
   const ChannelSettings& from = owner.settings;
   ChannelSettings& c = channel.settings;
@@ -85,13 +85,13 @@ void take_position(Section& section, const PositionOwner& owner, ReadChannel& ch
   const double ratio = c.joint.lever.zero_radius_m() / from.joint.lever.zero_radius_m();
   c.position.scaling = {-ratio * from.position.scaling.per_count,
                         -ratio * from.position.scaling.offset};
-  // No -0.
+  // Avoids -0.
   c.supervision.min_position_m = 0.0 - ratio * from.supervision.max_position_m;
   c.supervision.max_position_m = 0.0 - ratio * from.supervision.min_position_m;
   c.supervision.position_noise_rms_m *= ratio;
 }
 
-/// Nothing is compared with it.
+/// Without a position: nothing is compared with it.
 void leave_position_out(Section& section, ChannelSettings& c) {
   section.allow({"position"});
   c.position.scaling.per_count = NAN;
@@ -123,7 +123,7 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
   c.controllers.clear();
   for (Section& table : tables("controller")) {
     const auto controller = read_controller(table, c.muscle, model, c.limiter.max_W);
-    // What contradicts itself has been refused already.
+    // Settings that contradict each other have been refused already.
     const bool contradicts = !contradictions(controller).empty();
     const auto problem = contradicts ? std::nullopt : check(controller, c, step_s);
     if (problem) table.wrong(problem->key, problem->message);

@@ -1,4 +1,4 @@
-// One [[channel]], with what [every_channel] says laid under it.
+// One [[channel]], with [every_channel] laid under it.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ namespace supercoil::config {
 
 /// What a channel is read with and checked against.
 struct BoardContext {
-  const BoardSettings& board;  ///< complete but for its channels
+  const BoardSettings& board;  ///< complete except for its channels
   WiringReader& wiring;
   board::AirSettings air;
   double command_timeout_s;
   int damaged_in_a_row;
   int refused_in_a_row;
-  // What a channel lacks may come from what is wrong:
+  // A wrong joint or bundle may be why a channel lacks:
   bool joint_is_wrong;   ///< position, max_travel_m
   bool bundle_is_wrong;  ///< position
 };
@@ -39,11 +39,11 @@ struct PositionOwner {
 /// What is known of the channel from its joint or bundle before it is read.
 struct ReadGroup {
   PlaceInJoint joint;
-  std::optional<double> max_travel_m;  ///< by range_deg; empty: by the channel's own limits
+  std::optional<double> max_travel_m;  ///< from range_deg; empty: from the channel's own limits
   std::optional<PositionOwner> position_owner;  ///< empty: it has a sensor of its own
 };
 
-/// number: from 1, as messages call it.
+/// number: from 1, as in messages.
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
                          const ReadGroup& group);
 
@@ -52,7 +52,7 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
 /// [channel.muscle] and [channel.thermal]. After the limits.
 void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c);
 /// [channel.limits]: power, temperature, travel, energy. After heater and position.
-/// joint_travel_m: by range_deg of its joint.
+/// joint_travel_m: from range_deg of its joint.
 void read_limits(Section section, const BoardContext& context, ChannelSettings& c,
                  ChannelLabel& label, const std::optional<double>& joint_travel_m);
 /// [channel.heater]. After the current.

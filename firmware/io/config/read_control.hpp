@@ -17,7 +17,7 @@ namespace supercoil::config {
 control::PhysicalParameters read_parameters(Section& section,
                                             const control::PhysicalParameters& fallback);
 
-/// Empty when the table is absent: the controller's own default is then taken.
+/// Empty when the table is absent: the controller then uses its own default.
 std::optional<control::ReferenceModelSettings> read_reference_model(Section section);
 
 /// Finishes the section. MRAC's premises are checked here, with the model that it will follow.
@@ -30,8 +30,8 @@ control::ControllerSettings read_controller(
 control::EstimatorSettings read_estimator(Section& section,
                                           const control::PhysicalParameters& muscle, double max_W);
 
-/// The single values of a controller or an estimator, but for kinds, reference models and lists,
-/// which are read apart. settings: whose kind is known.
+/// Reads the single values of a controller or an estimator; kinds, reference models and lists are
+/// read elsewhere. settings: their kind is known.
 template <class Settings>
 void read_tunables(Section& section, Settings& settings) {
   using control::TunableType;

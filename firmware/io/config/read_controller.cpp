@@ -14,7 +14,7 @@ MracSettings::Parameters read_six(Section& section, const char* key,
   return Eigen::Map<const MracSettings::Parameters>(list.data());
 }
 
-/// Those that are no single values.
+/// Reads lists, and what else is not a tunable.
 void read_mrac_lists(Section& section, MracSettings& m) {
   const auto alpha = section.numbers("alpha", {m.alpha[0], m.alpha[1]}, {1e-6, 1e6}, 2, 2);
   m.alpha = {alpha[0], alpha[1]};
@@ -53,7 +53,7 @@ control::ControllerSettings read_controller(
   control::ControllerSettings c;
   c.kind = section.choice("kind", c.kind, control::controller_names);
   c.set_nominal(muscle, max_W);
-  // Its premises hold for this model.
+  // The premises of adaptive controllers hold for wm16.
   c.model =
       model.value_or(control::adapts(c.kind) ? control::wm16_model() : control::design_model());
   if (c.kind != ControllerKind::power)

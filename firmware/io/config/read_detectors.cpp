@@ -1,4 +1,4 @@
-// The thresholds that are left: those with a default that suits most muscles.
+// The other thresholds: their defaults suit most muscles.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -9,8 +9,8 @@ namespace supercoil::config {
 
 namespace {
 
-/// A time that a detector must see something for: at a slow rate, some ticks at least, or one wild
-/// reading would do.
+/// How long a detector must see something: at a slow rate at least some ticks, or one wild reading
+/// would be enough.
 double at_least_ticks(double time_s, double ticks, double step_s) {
   return std::max(time_s, ticks * step_s);
 }
@@ -33,8 +33,8 @@ class Thresholds {
   double step_s_;
 };
 
-/// Each bus keeps its own time between two ticks, and its thread may be a moment late: then a tick
-/// has a current from before the duty that it is judged by, or behind it.
+/// Each bus is served at its own time between two ticks, and its thread may be a little late. A
+/// tick may then see a current from before or after the duty that it is compared with.
 bool current_may_be_of_another_tick(const ChannelWiring& wiring) {
   return wiring.pwm.access.buffered() || wiring.current.access.buffered();
 }
@@ -52,7 +52,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   }
   read.time("short_ms", s.short_s, current_may_be_of_another_tick(wiring) ? 2.0 : 1.0,
             {0.1, 100.0});
-  // 50 ms is what the way to the charge pump is promised within.
+  // The path to the charge pump is promised to take 50 ms at most.
   read.time("stuck_on_ms", s.stuck_on_s, 2.0, {5.0, 50.0});
   const double full_A = context.board.supervision.min_supply_V / cold_Ohm;
   if (s.off_current_A > 0.5 * full_A) {
@@ -71,7 +71,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
                   "cannot be had in a joint: the other muscle moves it as well; leave it out, or "
                   "say false");
   }
-  // A buffered duty reads back as what it was until the bus's thread has written it.
+  // A buffered duty reads back its old value until the bus's thread has written the new one.
   const double lag_ticks = wiring.pwm.access.buffered() ? 5.0 : 2.0;
   read.time("wrong_duty_ms", s.wrong_duty_s, lag_ticks, {1.0, 1000.0});
   read.number("resistance_ratio", s.resistance_ratio, {0.01, 2.0});

@@ -12,7 +12,7 @@ control::Theta read_four(Section& section, const char* key, const control::Theta
   return control::Theta{list[0], list[1], list[2], list[3]};
 }
 
-/// Those that are lists.
+/// Reads the values that are lists.
 void read_gradient(Section& section, control::GradientSettings& g) {
   const control::Tunable& gain = control::tunables()[control::tunable_named("gain_1")];
   g.gain = read_four(section, "gain", g.gain, {gain.lowest, gain.highest});

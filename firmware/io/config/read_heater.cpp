@@ -7,7 +7,7 @@ namespace supercoil::config {
 
 namespace {
 
-/// A probe's second half is what is measured: one tick at least.
+/// Only a probe's second half is measured: at least one tick.
 constexpr double min_probe_ticks = 2.0;
 
 void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSettings& h) {
@@ -31,7 +31,7 @@ void read_thermal_fuse(Section& section, ChannelLabel& label) {
     section.allow({"thermal_fuse_C"});
     return;
   }
-  // None is made for less than 60 °C, and nylon melts at 260 °C.
+  // No fuse is made for less than 60 °C, and nylon melts at 260 °C.
   constexpr Range range_C{60.0, 260.0};
   const double opens_at_C = section.number("thermal_fuse_C", 0.0, {0.0, range_C.highest});
   label.thermal_fuse_C = opens_at_C;
@@ -57,7 +57,7 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   h.error_feedback = section.flag("error_feedback", h.error_feedback);
   h.pwm_steps = pwm.steps;
   const double max_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::max_ticks);
-  // The thread of a PWM's bus sets a duty within the tick in which it was asked to.
+  // A PWM's bus thread sets a duty within the tick in which it was requested.
   const double default_ms = pwm.access.buffered() ? 1e3 * step_s : 0.0;
   h.delay_s = 1e-3 * section.number("delay_ms", default_ms, {0.0, max_ms});
   section.finish();

@@ -14,7 +14,7 @@ constexpr control::Names<OpposedBy, 3> opposed_by_names{{{"muscle", OpposedBy::m
                                                          {"spring", OpposedBy::spring},
                                                          {"gravity", OpposedBy::gravity}}};
 
-/// Empty: it is none of them, which has been said.
+/// Empty: it is not one of these names, which has been reported.
 std::optional<OpposedBy> read_opposed_by(Section& section) {
   constexpr const char* key = "opposed_by";
   const OpposedBy read = section.choice(key, OpposedBy::muscle, opposed_by_names);
@@ -30,7 +30,7 @@ constexpr double usual_co_contraction_ratio = 0.2;  ///< of what both heaters ca
 void read_co_contraction(Section& section, const BoardSettings& board, JointSettings& joint) {
   const double both_W = feasible_co_contraction_W(board, joint);
   joint.co_contraction_W = 0.0;
-  // What a channel lacks is told there.
+  // What a channel lacks is reported there.
   if (!(both_W > 0.0)) return;
   joint.max_co_contraction_W = section.number(
       "max_co_contraction_W", JointSettings::usual_limit_ratio * both_W, {0.0, both_W});
@@ -57,7 +57,7 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
                                                    std::size_t channels) {
   const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, channels));
   const std::int64_t number = section.required_integer(key, 1, most);
-  // Missing, or said to be wrong.
+  // Missing, or reported as wrong.
   if (!section.has(key) || (*section.table())[key].value<std::int64_t>() != number)
     return std::nullopt;
   const auto place = static_cast<std::size_t>(number - 1);
@@ -74,7 +74,7 @@ void JointReader::read(Read& joint, std::size_t channels) {
   const auto opposed_by = read_opposed_by(section);
   const bool is_alone = opposed_by && opposed_by != OpposedBy::muscle;
   const auto agonist = read_place(section, "agonist", channels);
-  // What is opposed by who knows what may have one or not.
+  // With an unknown opposed_by, the joint may have an antagonist or not.
   const bool has_antagonist = opposed_by ? !is_alone : section.has("antagonist");
   const auto antagonist =
       has_antagonist ? read_place(section, "antagonist", channels) : std::nullopt;

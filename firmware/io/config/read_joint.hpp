@@ -19,33 +19,33 @@ void read_pull(Section& section, const BoardSettings& board, JointSettings& join
 
 /// weight_Nm and hangs_at_deg.
 void read_weight(Section& section, PlaceInJoint& joint);
-/// An arm that nothing draws back, or whose muscle's description leaves the weight out. number: of
-/// the channel, from 1.
+/// Refuses an arm that nothing draws back, or whose muscle is described without the weight. number:
+/// the channel's, from 1.
 void refuse_weight(Section& section, const ChannelSettings& channel, std::size_t number);
 
-/// Read in two steps: which channels a joint has must be known before they are read, and what their
-/// muscles may have only afterwards.
+/// Read in two steps: a joint's channels must be known before they are read; what their muscles may
+/// get can be checked only afterwards.
 class JointReader {
  public:
-  /// channels: that the board has.
+  /// channels: how many the board has.
   JointReader(std::vector<Section> sections, std::size_t channels);
 
   /// The agonist of the joint in which this channel is the antagonist; both from 0.
   std::optional<std::size_t> agonist_of(std::size_t channel) const;
-  /// Likewise, of any channel.
+  /// The place of any channel in its joint.
   PlaceInJoint place_of(std::size_t channel) const;
   /// How far the joint's range_deg lets this channel's muscle contract; empty: it has none.
   std::optional<double> max_travel_m(std::size_t channel) const;
-  /// A joint's channels or its range are wrong: what a channel then lacks may come from its joint.
+  /// A joint's channels or its range are wrong: that may be why a channel lacks something.
   bool is_wrong() const { return is_wrong_; }
-  /// After the channels. Finishes the sections.
+  /// Call it after reading the channels. Finishes the sections.
   void finish(BoardConfig& config);
 
  private:
   struct Read {
     Section section;
     std::optional<JointSettings> pair{};     ///< empty: one muscle turns it, or it is wrong
-    std::optional<JointTravel> travel{};     ///< empty: by the limits of its channels
+    std::optional<JointTravel> travel{};     ///< empty: from the limits of its channels
     std::optional<std::size_t> turned_by{};  ///< the channel that turns it alone
     PlaceInJoint alone{};                    ///< of that channel
     control::Lever lever{};

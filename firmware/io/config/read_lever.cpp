@@ -25,7 +25,7 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
     section.allow({range_key});
     const double lever_m = fallback_m ? section.number(lever_key, *fallback_m, radius_m)
                                       : section.required_number(lever_key, radius_m);
-    // What is missing or wrong has been said.
+    // What is missing or wrong has been reported.
     return control::Lever(std::isfinite(lever_m) ? lever_m : radius_m.highest);
   }
   const auto radii_m = section.numbers(lever_key, {radius_m.highest, radius_m.highest}, radius_m, 2,

@@ -15,13 +15,13 @@ constexpr control::Names<Preset, 2> preset_names{
 struct Temperatures {
   double derate_C;
   double trip_C;
-  double max_C;  ///< that the trip may be set to
+  double max_C;  ///< max value of the trip
 };
 
 Temperatures temperatures_of(Preset preset) {
-  // ISO 13732-1: skin that stays in contact is burnt from 43 °C on within 8 hours, from 48 °C
-  // within 10 minutes, whatever the material. So it trips at 43 °C, and power falls from 38 °C on,
-  // just above the body's own temperature. What is between muscle and skin only makes it cooler.
+  // ISO 13732-1: skin in lasting contact is burnt within 8 hours from 43 °C on, within 10 minutes
+  // from 48 °C on, whatever the material. So the trip is at 43 °C, and power falls from 38 °C on,
+  // just above the body's own temperature. Anything between muscle and skin only makes it cooler.
   if (preset == Preset::skin) return {38.0, 43.0, 43.0};
   // Nylon 6,6 softens well below its melting point of about 260 °C; coils lose their training
   // there.
@@ -44,7 +44,7 @@ void read_power(Section& section, const BoardContext& context, ChannelSettings& 
             << full_W << " W";
     section.wrong("max_W", message.str());
   }
-  // Absent keys follow max_W; while that is missing any number will do.
+  // Absent keys follow max_W; while that is missing, any number will do.
   const double max_W = std::isfinite(l.max_W) ? l.max_W : 1.0;
   s.max_measured_W = section.number("max_measured_W", default_max_measured_W(max_W), {1e-3, 1e4});
   if (s.max_measured_W <= l.max_W) {
@@ -69,7 +69,7 @@ void read_temperatures(Section& section, const BoardContext& context, ChannelSet
   }
 }
 
-/// By the key that says it. An antagonist's sensor is its agonist's, with the other sign.
+/// The limit as its key states it. An antagonist's sensor is its agonist's, with the opposite sign.
 std::string sensor_limit(const ChannelSettings& c, const ChannelLabel& label) {
   const bool agonists = c.joint.direction < 0;
   const double limit_m =
@@ -84,11 +84,11 @@ std::string sensor_limit(const ChannelSettings& c, const ChannelLabel& label) {
   return text.str();
 }
 
-/// In the channel's own metres, or by the range of its joint, or as both agree.
+/// From the channel's own max_travel_m, from its joint's range, or from both if they agree.
 void read_travel(Section& section, const BoardContext& context, ChannelSettings& c,
                  const ChannelLabel& label, const std::optional<double>& joint_travel_m) {
   constexpr const char* key = "max_travel_m";
-  // Of metres that were rounded.
+  // Allows for rounded metres.
   constexpr double max_disagreement_ratio = 0.01;
   ChannelSupervision& s = c.supervision;
   if (!joint_travel_m && context.joint_is_wrong && !section.has(key)) {

@@ -1,4 +1,4 @@
-// The muscle as it is believed to be, and what it is known to lie between.
+// The believed muscle, and the bounds that it is known to lie within.
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -88,14 +88,14 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
   }
   t.thermal_mass_J_per_K =
       thermal.number("weighed_mass_J_per_K", c.muscle.thermal_mass_J_per_K, {1e-4, 1e3});
-  const bool weighed = thermal.has("weighed_mass_J_per_K");  // else said above
+  const bool weighed = thermal.has("weighed_mass_J_per_K");  // else checked above
   if (weighed && (t.thermal_mass_J_per_K < t.bounds.min_mass_J_per_K ||
                   t.thermal_mass_J_per_K > t.bounds.max_mass_J_per_K)) {
     thermal.wrong("weighed_mass_J_per_K", "must lie between min_mass_J_per_K and max_mass_J_per_K");
   }
   read_heat_errors(thermal, weighed, t);
   t.air = context.air;
-  // The last life of this board may have ended a moment ago, just below the trip.
+  // The board may have stopped a moment ago, with the muscle just below the trip.
   const double below_trip_K = std::fmax(0.0, c.supervision.trip_C - t.air.warmest_C);
   const double boot_K = std::isfinite(below_trip_K) ? below_trip_K : 0.0;
   t.boot_rise_K = thermal.number("boot_rise_K", boot_K, {0.0, 300.0});

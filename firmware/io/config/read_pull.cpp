@@ -1,4 +1,4 @@
-// What the muscles of a joint bear, and what they may be made to pull with.
+// What a joint's muscles bear, and what they may be made to pull with.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,13 +13,13 @@ namespace {
 
 constexpr Range pull_range_N{1e-3, 1e4};
 
-/// One of the two, under the joint's greatest co-contraction.
+/// One of a joint's two muscles, at the max co-contraction.
 struct Puller {
   std::size_t channel;  ///< from 0
   double pretension_N;
   double heat_N;           ///< that heat may add to it
-  double agonist_W_per_N;  ///< co-contraction that adds as much, where the temperature allows it
-  double power_W;          ///< its own
+  double agonist_W_per_N;  ///< co-contraction per newton of it, where the temperature allows it
+  double power_W;          ///< its own power
 };
 
 Puller puller(const BoardSettings& board, std::size_t channel, double pretension_N,
@@ -30,7 +30,7 @@ Puller puller(const BoardSettings& board, std::size_t channel, double pretension
   return {channel, pretension_N, hottest_pull_N(c, power_W), ratio * W_per_N, power_W};
 }
 
-/// So that what is printed can be taken as it is.
+/// So that a printed value can be configured as it is.
 double rounded_down(double value) {
   return std::floor(1e3 * value) / 1e3;
 }
@@ -81,7 +81,7 @@ void read_pull(Section& section, const BoardSettings& board, JointSettings& join
                                    puller(board, joint.antagonist, antagonist_N, most_W, ratio)};
   const auto pull_N = [](const Puller& p) { return p.pretension_N + p.heat_N; };
   const Puller& hardest = pull_N(both[0]) < pull_N(both[1]) ? both[1] : both[0];
-  // What a channel lacks is told there.
+  // What a channel lacks is reported there.
   if (!std::isfinite(most_W) || !(pull_N(hardest) > *label.max_pull_N)) return;
   double allowed_W = most_W;
   for (const Puller& p : both)

@@ -1,4 +1,4 @@
-// The weight of an arm, in place of a spring or a second muscle.
+// The weight of an arm, instead of a spring or a second muscle.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,7 +27,7 @@ void refuse_upright(Section& section, const ChannelSettings& channel) {
   section.wrong(angle_key, message.str());
 }
 
-/// What describes muscle and weight together is stiffer than the weight alone.
+/// The configured stiffness is of muscle and weight together, so it must exceed the weight's.
 void refuse_heavier(Section& section, const ChannelSettings& channel, std::size_t number) {
   const double weight_N_per_m = HangingArm::stiffness_at_zero_N_per_m(channel.joint);
   const double all_N_per_m = channel.muscle.stiffness_N_per_m;
@@ -45,7 +45,7 @@ void refuse_heavier(Section& section, const ChannelSettings& channel, std::size_
 void read_weight(Section& section, PlaceInJoint& joint) {
   const double weight_Nm = section.required_number(weight_key, weight_range_Nm);
   const double hangs_at_deg = section.required_number(angle_key, hangs_at_range_deg);
-  // What is missing or wrong has been said.
+  // What is missing or wrong has been reported.
   if (!std::isfinite(weight_Nm) || !std::isfinite(hangs_at_deg)) return;
   joint.weight_Nm = weight_Nm;
   joint.hangs_at_rad = hangs_at_deg / deg_per_rad;

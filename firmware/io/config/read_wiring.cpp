@@ -14,10 +14,10 @@ constexpr int pwm_bytes = 3;
 /// An ADS1115: its address, the register, the address again, two bytes.
 constexpr int converter_transactions = 1;
 constexpr int converter_bytes = 5;
-/// A converter is read once a tick, and its value may be missed twice.
+/// A converter is read once per tick, and its value may be missing twice.
 constexpr double age_ticks = 3.0;
 constexpr double min_max_age_s = 0.01;
-/// Of a channel.
+/// Ends the owner's name of a channel's position.
 constexpr std::string_view position_of = "'s position";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Addresses, each read from its own table, none given twice.
+// Reads addresses, each from its own table, and refuses duplicates.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,26 @@
 
 namespace supercoil::config {
 
-/// Reads addresses and remembers to whom each was given.
+/// Reads addresses and remembers the owner of each.
 class WiringReader {
  public:
   WiringReader(std::vector<BusAddress> buses, std::string chip, double step_s)
       : buses_(std::move(buses)), chip_(std::move(chip)), step_s_(step_s) {}
 
-  /// {line, chip}. owner: how messages call it. Finishes the section.
+  /// {line, chip}. owner: its name in messages. Finishes the section.
   LineAddress line(Section section, const std::string& owner);
   /// {device, number, period_ns, steps or bits, …}. Finishes the section.
   PwmAddress pwm(Section section, const std::string& owner);
-  /// {device, input, …} of a table that holds more: the caller finishes it.
+  /// {device, input, …} of a table with more keys: the caller finishes it.
   ConverterAddress converter(Section& section, const std::string& owner);
   /// max_age_ms of a converter, in s.
   double max_age_s(Section& section, const ConverterAddress& converter) const;
 
  private:
   Access access(Section& section, int transactions, int bytes);
-  /// Converters that the kernel reads; notes inputs of one device that are not read in the same
-  /// way.
+  /// Converters that the kernel reads; notes inputs of one device that are read in different ways.
   std::optional<Capture> capture(Section& section, const ConverterAddress& converter);
-  /// Notes at the key when the address has an owner already.
+  /// Notes at the key that the address already has an owner.
   void claim(Section& section, const char* key, const std::string& address,
              const std::string& owner);
 
@@ -42,7 +41,7 @@ class WiringReader {
   std::vector<std::pair<std::string, std::optional<Capture>>> captures_;  ///< by device
 };
 
-/// [[bus]], and names that are given twice.
+/// Reads [[bus]]; notes duplicate names.
 std::vector<BusAddress> read_buses(std::vector<Section> sections);
 
 /// Notes each bus that would be busy for more than max_bus_load of a tick.

@@ -18,24 +18,24 @@ using control::ControllerSettings;
 constexpr ControllerKind recommended_kind = ControllerKind::learned_ff;
 constexpr double max_bandwidth_rad_per_s = 8.0;
 constexpr double min_bandwidth_rad_per_s = 0.01;
-/// Of the paper's muscle, for which the controllers' defaults are.
+/// Of the paper's muscle, which the controllers' defaults are meant for.
 constexpr double usual_time_constant_s = 1.82;
 constexpr double telling_ratio = 0.1;
 constexpr int told_digits = 4;
 
-/// The least: clear of where it rings (docs/control.md). Without a delay the muscles of tests/setup
-/// have it.
+/// The min margin, well clear of ringing (docs/control.md). Without a delay, the muscles of
+/// tests/setup have it.
 constexpr double min_margin = 0.4;
 
-/// From the middle of the travel a step by a quarter of it has twice what it moves by to draw on:
-/// falling, all the power that holds it there; rising, at least as much.
+/// A step of a quarter of the travel, from its middle, can use twice the power that it needs in the
+/// end: falling, all the power that holds the middle; rising, at least as much.
 constexpr double peak_ratio = 2.0;
 
 constexpr std::string_view closest = "follows closest";
-/// Of what a controller promises that is in use: less is no reason to change its bandwidth.
+/// A promise above this fraction of that in use is no reason to change the bandwidth.
 constexpr double clearly_less_ratio = 0.95;
-/// Of the recommended bandwidth: a slower loop leaves what disturbs it for too long, whatever it
-/// promises of a motion that nothing disturbs.
+/// Fraction of the recommended bandwidth. A slower loop corrects disturbances too late, whatever it
+/// promises for a motion without any.
 constexpr double slow_ratio = 0.5;
 
 bool differ(double value, double from) {
@@ -46,7 +46,7 @@ control::ReferenceModelSettings model_with(double pole_rad_per_s) {
   return control::poles_model({pole_rad_per_s, pole_rad_per_s, pole_rad_per_s});
 }
 
-/// Of a model whose step asks for just that, if the greatest one asks for more.
+/// The fastest pole whose model's step stays within peak_ratio, at most `greatest`.
 double quickest_pole_rad_per_s(const control::PhysicalParameters& muscle, double greatest) {
   const auto fits = [&](double pole_rad_per_s) {
     return peak_W_per_m(model_with(pole_rad_per_s), muscle) * muscle.dc_gain_m_per_W() <=
@@ -72,7 +72,7 @@ bool has_margin(const control::PhysicalParameters& muscle, const LoopTime& time,
   return margin.stable() && margin.modulus >= min_margin;
 }
 
-/// The greatest with that margin; the less of it, the more.
+/// The greatest bandwidth with that margin: a lower bandwidth has more margin.
 double bandwidth_with_margin(const control::PhysicalParameters& muscle, const LoopTime& time,
                              double greatest) {
   if (has_margin(muscle, time, greatest)) return greatest;
@@ -97,7 +97,7 @@ void choose_model(const control::PhysicalParameters& muscle, RecommendedControll
                 number_text(fall_s, 3) + " s by itself, would allow more";
 }
 
-/// What is in use promises too: nothing is to be called closer that promises more.
+/// The controller in use promises an error too: one that promises more must not be called closer.
 void compare_with(const ControllerSettings& in_use, const ChannelSettings& channel,
                   const BoardSettings& board, RecommendedController& suits) {
   if (channel.joint.has_other() || !is_promised_for(in_use, channel, board.step_s())) return;
@@ -163,7 +163,7 @@ bool RecommendedController::differs_from(const ControllerSettings& controller) c
 
 RecommendedController recommended_controller(const control::PhysicalParameters& muscle,
                                              const LoopTime& time) {
-  // A slow muscle's feedback need not be fast: with the default its noise and its friction show.
+  // A slow muscle's feedback need not be fast: at the default, noise and friction would show.
   const double tau_s = -1.0 / muscle.thermal_pole_rad_per_s();
   const double slowness = std::max(1.0, tau_s / usual_time_constant_s);
   const std::string usual = number_text(usual_time_constant_s, 3) + " s";

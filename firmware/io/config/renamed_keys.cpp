@@ -7,7 +7,7 @@ namespace {
 constexpr std::string_view common_channel = "every_channel";
 constexpr std::string_view one_channel = "channel";
 
-/// Without the places in lists, and with the name of a channel's own table:
+/// The path without list indices and with the name of a channel's own table:
 /// "channel[1].estimator[2]" and "every_channel.estimator" are both channel.estimator.
 std::string plain(const std::string& path) {
   std::string result;

@@ -13,7 +13,7 @@ struct RenamedKey {
   std::string_view key;
 };
 
-/// What 0.1.0 called otherwise: board.toml, scenarios, and settings of a running board.
+/// Keys that 0.1.0 named differently: board.toml, scenarios, and settings of a running board.
 inline constexpr std::array<RenamedKey, 26> renamed_keys{{
     {"board", "telemetry_silence_ms", "telemetry_timeout_ms"},
     {"board", "can_off_ms", "can_bus_off_ms"},
@@ -43,8 +43,8 @@ inline constexpr std::array<RenamedKey, 26> renamed_keys{{
     {"setting", "most_power_W", "max_power_W"},
 }};
 
-/// The name that a key has now; empty when it was not renamed. path: of its table, as messages have
-/// it, such as channel[1].estimator[2].
+/// The present name of a key; empty when it was not renamed. path: its table's as in messages, such
+/// as channel[1].estimator[2].
 std::string_view renamed_to(const std::string& path, std::string_view old_key);
 
 /// "was renamed in 0.2.0: write can.max_load"; empty when it was not renamed.

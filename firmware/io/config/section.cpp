@@ -26,7 +26,7 @@ std::string joined_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
-/// The value as its author wrote it, near enough: toml++ prints 0.09 as 0.089999999999999997.
+/// The value roughly as its author wrote it: toml++ prints 0.09 as 0.089999999999999997.
 std::string shown(const toml::node& node) {
   if (const toml::array* list = node.as_array()) {
     std::string text;

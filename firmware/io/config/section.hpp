@@ -1,4 +1,4 @@
-// A table of a TOML file of which every key is checked as it is read.
+// A table of a TOML file. Every key is checked as it is read.
 #pragma once
 
 #include <algorithm>
@@ -28,13 +28,13 @@ struct Range {
 /// required one that is absent.
 class Section {
  public:
-  /// table may be null: every key is then absent. path: how the table is called in messages. line:
-  /// where a null table would stand, for messages.
+  /// table may be null: every key is then absent. path: the table's name in messages. line: where a
+  /// null table would stand, for messages.
   Section(const toml::table* table, std::string path, Diagnostics& diagnostics, int line = 0)
       : table_(table), path_(std::move(path)), line_(line), diagnostics_(&diagnostics) {}
 
   /// The same with another table laid under this one: a key that this one lacks is looked up there,
-  /// table by table. A list is not mixed.
+  /// table by table. Lists are not merged.
   Section over(const toml::table* under, std::string under_path) const;
 
   double number(std::string_view key, double fallback, Range range);
@@ -63,7 +63,7 @@ class Section {
   /// Each of [[key]], named key[1], key[2], …; a single table counts as one. Empty when absent.
   std::vector<Section> sections(std::string_view key);
 
-  /// As those above, for keys without a default. NaN, the lowest or empty when it is absent or
+  /// Like those above, for keys without a default. NaN, the lowest or empty if the key is absent or
   /// wrong.
   double required_number(std::string_view key, Range range);
   std::vector<double> required_numbers(std::string_view key, Range range, std::size_t least,
@@ -78,15 +78,15 @@ class Section {
   }
 
   bool has(std::string_view key) const { return look(key).node != nullptr; }
-  /// The table is there, or one is laid under it.
+  /// Whether the table exists, or one is laid under it.
   bool given() const { return table_ != nullptr || under_ != nullptr; }
-  /// Not in the table laid under it.
+  /// Without the table laid under it.
   bool has_own(std::string_view key) const { return table_ != nullptr && table_->contains(key); }
   const toml::table* table() const { return table_; }
-  /// Of the table; of the one around it when it is absent; 0 at the top.
+  /// The table's line; that of the table around it when it is absent; 0 at the top.
   int line() const;
-  /// Notes a mistake at the key: "path.key = value: message". Where the key is absent, and its
-  /// default is what does not fit, at the table.
+  /// Notes a mistake at the key: "path.key = value: message". If the key is absent and its default
+  /// does not fit, notes it at the table.
   void wrong(std::string_view key, const std::string& message);
   /// Notes each unknown key, with the known one that was probably meant.
   void finish();
@@ -100,7 +100,7 @@ class Section {
     std::string key;
     std::string rule;
   };
-  /// A key that is named again is the same one.
+  /// Remembers a key once.
   void know(std::string_view key) {
     if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   }

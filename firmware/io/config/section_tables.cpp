@@ -1,4 +1,4 @@
-// Tables in tables, and what is left over when everything has been asked for.
+// Tables in tables, and keys that are left over when everything has been read.
 #include <algorithm>
 
 #include "config/renamed_keys.hpp"
@@ -70,7 +70,7 @@ std::vector<std::string> Section::refuse_unknown(const toml::table* table,
 void Section::refuse_missing(const std::vector<std::string>& meant) {
   std::string keys;
   for (const Missing& missing : missing_) {
-    // Said already: it is there under a misspelt name.
+    // Reported already, under its misspelt name.
     if (std::find(meant.begin(), meant.end(), missing.key) != meant.end()) continue;
     if (given()) {
       diagnostics_->add(line(), path_.empty() ? missing.key : path_ + "." + missing.key,

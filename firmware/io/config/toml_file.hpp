@@ -1,4 +1,4 @@
-// A TOML file from disk, with every way in which that can fail said in words.
+// Reads a TOML file from disk, and says in words why that fails.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics);
 /// The text as a table; notes a syntax error with its line.
 toml::table parse(const std::string& text, Diagnostics& diagnostics);
 
-/// Of what a document says: without comments, spaces and the order of its keys.
+/// Of a document's content: comments, spaces and the order of keys do not count.
 std::uint32_t crc32_of(const toml::table& document);
 
 }  // namespace supercoil::config

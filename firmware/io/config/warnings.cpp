@@ -11,10 +11,10 @@ namespace supercoil::config {
 
 namespace {
 
-/// Counts of current below which a probe says little.
+/// With fewer counts of current, a probe says little.
 constexpr double min_probe_counts = 10.0;
-/// Ratings come in steps of up to 25 K, and the smallest is for 72 °C: near skin nothing else is to
-/// be had.
+/// Ratings come in steps of up to 25 K, and the smallest is for 72 °C: near skin there is no other
+/// choice.
 constexpr double max_fuse_above_trip_K = 30.0;
 
 void judge_sensors(const ChannelSettings& c, Findings& findings) {
@@ -41,7 +41,7 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
            << probe_A / h.current.scaling.per_count << " counts: the resistance is hardly measured";
     findings.add(Fault::resistance_drift, reason.str());
   }
-  // What run_self_test() takes for current that flows.
+  // What run_self_test() counts as a current that flows.
   const double idle_A = 0.3 * probe_A;
   if (s.off_current_A > idle_A) {
     std::ostringstream reason;
@@ -89,7 +89,7 @@ void judge_muscle(const ChannelSettings& c, Findings& findings) {
   }
 }
 
-/// The only part that sees how hot one place of the thread is, and that cuts without a board.
+/// Only a thermal fuse senses how hot one place of the thread is, and cuts without a board.
 void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
                         Findings& findings) {
   std::ostringstream reason;
@@ -109,7 +109,7 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
   findings.add("thermal fuse", reason.str());
 }
 
-/// Parallel threads of which one could break unseen are refused: read_bundle.cpp.
+/// Parallel threads of which one could break unseen are refused in read_bundle.cpp.
 void judge_bundle(const Bundle& bundle, const ChannelSettings& c, Findings& findings) {
   if (bundle.parallel() || bundle.one_lost_ratio() > bundle.unseen_ratio(c)) return;
   std::ostringstream reason;

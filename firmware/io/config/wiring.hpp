@@ -1,4 +1,4 @@
-// Which device of the operating system is which part of the board: addresses only, nothing is
+// Which device of the operating system is which part of the board. Addresses only; nothing is
 // opened here.
 #pragma once
 
@@ -22,7 +22,7 @@ struct Access {
   std::string bus;  ///< empty: direct, called in the tick
   int transactions = 0;
   int bytes = 0;        ///< of each transaction, addresses included
-  double wait_s = 0.0;  ///< beside them, the bus's thread is blocked (a conversion)
+  double wait_s = 0.0;  ///< time that the bus's thread is blocked besides (a conversion)
 
   bool buffered() const { return !bus.empty(); }
 };
@@ -36,7 +36,7 @@ struct PwmAddress {
   Access access;
 };
 
-/// The kernel converts at the times of a trigger and keeps what came; a tick takes the newest.
+/// The kernel converts at a trigger's times and keeps the results; a tick takes the newest.
 struct Capture {
   std::string trigger;  ///< its name
   int length = 64;      ///< conversions that the kernel keeps; more than come in a tick
@@ -59,7 +59,7 @@ struct BusAddress {
   std::string name;  ///< e.g. i2c-1
   BusKind kind = BusKind::i2c;
   double clock_Hz = 100e3;
-  double overhead_s = 20e-6;  ///< of a transaction, beside its bits: the kernel's and the driver's
+  double overhead_s = 20e-6;  ///< of a transaction, besides its bits: the kernel's and the driver's
 };
 
 struct WatchdogAddress {
@@ -72,7 +72,7 @@ struct ChannelWiring {
   PwmAddress pwm;
   ConverterAddress position;
   ConverterAddress current;
-  /// The other channel that has this position's converter; empty: it is its own.
+  /// The channel that owns this position's converter; empty: this one.
   std::optional<std::size_t> position_of;
 };
 
@@ -82,7 +82,7 @@ struct BoardWiring {
   std::optional<LineAddress> light;
   std::optional<WatchdogAddress> watchdog;
   ConverterAddress supply;
-  std::optional<ConverterAddress> air;  ///< of its temperature
+  std::optional<ConverterAddress> air;  ///< the air's temperature
   std::vector<BusAddress> buses;
   std::vector<ChannelWiring> channels;
 };

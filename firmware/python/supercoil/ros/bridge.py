@@ -1,6 +1,6 @@
-"""Between ROS 2 and the boards: takes commands, publishes states, at a fixed rate in one task.
+"""Connects ROS 2 and the boards: takes commands and publishes states, at a fixed rate in one task.
 
-Where this task hangs, commands are renewed no more, and the boards let the muscles cool by themselves.
+If this task hangs, commands are no longer renewed, and the boards let the muscles cool by themselves.
 """
 
 import asyncio
@@ -46,7 +46,7 @@ class Bridge:
                 self._services.append(graph.service(name(f"~/{joint.name}/{verb}"), one))
 
     async def run(self) -> None:
-        """Until it is cancelled; then every muscle that was commanded is disarmed."""
+        """Runs until it is cancelled; then disarms every muscle that was commanded."""
         async with asyncio.TaskGroup() as tasks:
             for joint in self._joints.values():
                 tasks.create_task(joint.run())
@@ -70,17 +70,17 @@ class Bridge:
                 diagnosed_s = loop.time()
                 self._diagnostics.write(diagnostics_of(list(self._joints.values()), self._stopped))
                 self._arm_at_start()
-            at_s = max(at_s + period_s, loop.time())  # what is late is left out
+            at_s = max(at_s + period_s, loop.time())  # missed periods are left out
             await asyncio.sleep(at_s - loop.time())
 
     def _publish_states(self) -> None:
-        """Velocity and effort are not measured, so they are empty."""
+        """Velocity and effort are not measured, so they stay empty."""
         joints = self._own_joints()
         self._states.write(JointState(Header(Time.now()), [joint.name for joint in joints],
                                       [joint.position for joint in joints]))
 
     def _own_joints(self) -> list[Joint]:
-        """Without muscles that turn another one's joint back."""
+        """All joints but muscles that turn another one's joint back."""
         return [joint for joint in self._joints.values() if not joint.is_led]
 
     def _take(self) -> None:
@@ -102,13 +102,13 @@ class Bridge:
             self._run_aside(joint, joint.disarm)  # whatever its heartbeat says
 
     def _hold_stopped(self, joint: Joint) -> None:
-        """Disarms it, and again for as long as it is armed: by a command that was under way, or by somebody else."""
+        """Disarms it, again and again while it is armed by a command that was under way or by another master."""
         joint.let_go()
         if joint.muscle is not None and joint.muscle.state in (State.armed, State.active):
             self._run_aside(joint, joint.disarm)
 
     def _run_aside(self, joint: Joint, do: Callable[[], Awaitable[str]]) -> None:
-        """Unless the same is under way for this joint."""
+        """Unless the same action is under way for this joint."""
         async def run() -> None:
             try:
                 await do()
@@ -121,14 +121,14 @@ class Bridge:
             task.add_done_callback(lambda _: self._aside.pop(name))
 
     def _arm_at_start(self) -> None:
-        """Each joint once, when its board is first there."""
+        """Arms each joint once, when its board is first reached."""
         for joint in self._own_joints() if self._options.arm else ():
             if joint.muscle is not None and joint.name not in self._armed_once and not self._stopped:
                 self._armed_once.add(joint.name)
                 self._run_aside(joint, joint.arm)
 
     def _command(self, command: JointState) -> None:
-        """Positions of our joints among those that it names."""
+        """Takes the positions of our joints from the command."""
         if self._stopped or not command.position:
             return
         until_s = time.monotonic() + self._options.command_timeout_s
@@ -144,7 +144,7 @@ class Bridge:
                 joint.refuse(f"a command of {position} {joint.unit} is left out")
 
     def _follow(self, trajectory: JointTrajectory, sender_is_there: Callable[[], bool]) -> None:
-        """All of its joints, or none."""
+        """Takes the trajectory for all of its joints, or for none."""
         if self._stopped:
             return
         try:
@@ -177,7 +177,7 @@ class Bridge:
         return knots
 
     async def _serve_all(self, do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
-        """What one of a joint's muscles does, both do."""
+        """An action on one of a joint's muscles applies to both."""
         if not (joints := self._own_joints()):
             return False, "each muscle turns another one's joint back: --joint names the other one"
         return await self._serve(joints, do)

@@ -15,7 +15,7 @@ from supercoil.generated.version import __version__
 from supercoil.ros.options import Options
 
 _NODES = range(1, 64)
-_DOMAINS = range(233)  # more have no port of their own
+_DOMAINS = range(233)  # higher ones have no port of their own
 
 
 def _joint(text: str) -> tuple[str, int]:
@@ -73,7 +73,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
                         help="of DDS (default: ROS_DOMAIN_ID, or 0)")
     parser.add_argument("--version", action="version", version=f"supercoil-ros {__version__}")
     arguments = list(sys.argv[1:] if given is None else given)
-    if "--ros-args" in arguments:  # a launch file of ROS adds it, and its own after it
+    if "--ros-args" in arguments:  # a launch file of ROS adds it, followed by its own arguments
         del arguments[arguments.index("--ros-args"):]
     read = parser.parse_args(arguments)
     names = [name for name, _ in read.joint]
@@ -101,7 +101,7 @@ async def _run(read: argparse.Namespace) -> None:
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """0: it was ended; 1: it could not run; 2: wrong arguments, as argparse has it."""
+    """0: it was ended; 1: could not run; 2: wrong arguments, as by argparse."""
     read = _arguments(given)
     logging.basicConfig(format="supercoil-ros: %(message)s", level=logging.INFO)
     if find_spec("cyclonedds") is None:

@@ -1,4 +1,4 @@
-"""How each joint is, for rqt_robot_monitor and whoever else reads /diagnostics."""
+"""The state of each joint, for rqt_robot_monitor and other readers of /diagnostics."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,7 +9,7 @@ from supercoil.muscle import Muscle
 from supercoil.ros.joint import Joint
 from supercoil.ros.messages import ERROR, OK, STALE, WARN, DiagnosticArray, DiagnosticStatus, Header, KeyValue, Time
 
-# Which values of the newest messages are shown.
+# The values of the newest messages that are shown.
 _SHOWN: dict[type[Any], tuple[str, ...]] = {
     messages.Status: ("state", "mode", "fault", "leased"),
     messages.Measurement: ("position_m", "resistance_Ohm"),
@@ -33,7 +33,7 @@ def _values(muscle: Muscle) -> list[KeyValue]:
 
 
 def _angles(joint: Joint) -> list[KeyValue]:
-    """Of one that turns: what its muscle's values are at the joint."""
+    """For a joint that turns: its muscle's values, as angles of the joint."""
     if not joint.turns or joint.muscle is None:
         return []
     told = [KeyValue("position_rad", f"{joint.position:.7g}")]
@@ -78,7 +78,7 @@ def _status_of(joint: Joint) -> DiagnosticStatus:
 
 
 def _status_of_antagonist(joint: Joint, node: int) -> DiagnosticStatus:
-    """Its power is how hard both pull."""
+    """Its power shows how hard both pull."""
     name, hardware_id = f"supercoil: {joint.name} antagonist", f"{joint.address} node {node}"
     muscle = joint.antagonist
     if muscle is None:

@@ -20,10 +20,10 @@ from supercoil.ros import messages, names
 _log = logging.getLogger("supercoil.ros")
 M = TypeVar("M", bound=IdlStruct)
 
-_DEPTH = 10  # of ROS's default, and of its services
+_DEPTH = 10  # ROS's default, also for services
 _CLIENT_WITHIN_S = 0.1
 _LOOK_EVERY_S = 0.005
-# How many of a flood one look takes: the rest is older than what matters.
+# How many messages of a flood are taken at once: the rest is older than what matters.
 _MOST_AT_ONCE = 100
 _HANDLE = 0xFFFFFFFFFFFFFFFF
 
@@ -52,7 +52,7 @@ class Publisher(Generic[M]):
         self._writer = writer
 
     def write(self, message: M) -> None:
-        """What Cyclone does not take is told, and no reason to let go of the muscles."""
+        """A message that Cyclone refuses is logged, and is no reason to let go of the muscles."""
         try:
             self._writer.write(message)
         except DDSException as error:
@@ -63,26 +63,26 @@ class Publisher(Generic[M]):
 
 
 class Subscription(Generic[M]):
-    """A best-effort reader hears every publisher; a reliable one hears reliable publishers only, but all they say."""
+    """A best-effort reader hears every publisher; a reliable one only reliable publishers, but all they send."""
 
     def __init__(self, kind: type[M], readers: list[DataReader[M]]) -> None:
         self._kind = kind
         self._readers = readers
 
     def take(self) -> list[tuple[M, int]]:
-        """What has come since, and whose it is, in the order in which it was sent. What is no message of the type is
-        left out."""
+        """Messages since the last call, and their publishers, in the order in which they were sent. Samples that are
+        not of the type are left out."""
         found = []
         for reader in self._readers:
             for message in _taken(reader):
                 if isinstance(message, self._kind):
                     info = message.sample_info  # type: ignore[attr-defined]
-                    # Cyclone gives this handle with a sign, and others without.
+                    # Cyclone gives this handle as a signed number, and others as unsigned.
                     found.append((info.source_timestamp, message, info.publication_handle & _HANDLE))
         return [(message, publisher) for _, message, publisher in sorted(found, key=lambda each: each[0])]
 
     def has(self, publisher: int) -> bool:
-        """Whether it is still there."""
+        """Whether the publisher still exists."""
         return any(handle & _HANDLE == publisher for reader in self._readers
                    for handle in reader.get_matched_publications())
 
@@ -101,7 +101,7 @@ class Trigger:
         self._running: set[asyncio.Task[None]] = set()
 
     def serve(self) -> None:
-        """Begins to answer the requests that came since."""
+        """Begins to answer the requests that have arrived."""
         for request in _taken(self._requests):
             if isinstance(request, messages.TriggerRequest):
                 task = asyncio.create_task(self._respond(request))
@@ -111,10 +111,10 @@ class Trigger:
     async def _respond(self, request: messages.TriggerRequest) -> None:
         try:
             success, message = await self._answer()
-        except Exception as error:  # a client waits
+        except Exception as error:  # a client waits for an answer
             _log.exception("a service failed")
             success, message = False, f"{type(error).__name__}: {error}"
-        # A client that is new here may not hear the answer yet.
+        # A client that has just joined may not hear the answer yet.
         for _ in range(int(_CLIENT_WITHIN_S / _LOOK_EVERY_S)):
             if self._responses.has_readers():
                 break
@@ -136,7 +136,7 @@ class Graph:
                                    for each in reliable])
 
     def service(self, name: str, answer: Answer) -> Trigger:
-        # By it a client knows that request and response belong to one server.
+        # From this a client knows that request and response belong to one server.
         identity = "serviceid=" + ".".join(f"{byte:x}" for byte in secrets.token_bytes(16)) + ";"
         requests = Topic(self._participant, names.request(name), messages.TriggerRequest)
         responses = Topic(self._participant, names.response(name), messages.TriggerResponse)

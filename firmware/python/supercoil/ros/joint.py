@@ -1,4 +1,4 @@
-"""A muscle, or two that turn it both ways, as a joint of ROS: connected while its board is there, told where to be."""
+"""A muscle, or two that turn it both ways, as a joint of ROS: connected while its board is reached, and commanded."""
 
 import asyncio
 import contextlib
@@ -16,33 +16,33 @@ from supercoil.ros.motion import Motion
 _TRY_AGAIN_S = 1.0
 _STALE_S = 0.5
 _TELL_REFUSALS_S = 5.0
-# What holds is said again for as long as it does, so that a board that was told to rest by others moves again.
+# A set point that holds is sent again this often, so that a board that others put to rest moves again.
 _SAY_AGAIN_S = 0.5
 
 _UNKNOWN_RANGE_M = (-math.inf, math.inf)
-_ENDED = "its connection has ended"  # until it is known why
+_ENDED = "its connection has ended"  # until the cause is known
 
 _log = logging.getLogger("supercoil.ros")
 
 
 def reason_of(error: BaseException) -> str:
-    """The first line of its text, or its kind where it has none: never empty."""
+    """The first line of the error's text, or its kind if it has none: never empty."""
     return str(error).partition("\n")[0] or type(error).__name__
 
 
 class _Refused(Exception):
-    """Here, before the board was asked."""
+    """Refused here, before the board was asked."""
 
 
 class Joint:
-    """Its positions are in metres, or in radians where its muscle and another one turn a joint: in what unit says."""
+    """Its positions are in metres, or in radians if its muscle and another one turn a joint: `unit` tells which."""
 
     def __init__(self, name: str, address: str, node: int) -> None:
         self.name = name
         self.node = node
         self.hardware_id = f"{address} node {node}"
-        self.pair: Pair | None = None  # as the board told it last
-        self.problem = "not connected yet"  # why the board is not reached, while it is not
+        self.pair: Pair | None = None  # as the board last reported it
+        self.problem = "not connected yet"  # why the board is not reached, if it is not
         self.motion: Motion | None = None
         self.address = address
         self._muscle: Muscle | None = None
@@ -72,12 +72,12 @@ class Joint:
 
     @property
     def is_led(self) -> bool:
-        """It turns another one's joint back, and is no joint of ROS."""
+        """Whether it turns another one's joint back, and is no joint of ROS."""
         return self.pair is not None and self.pair.lever_m < 0.0
 
     @property
     def antagonist_node(self) -> int | None:
-        """Of the muscle that turns it back; None: there is none."""
+        """The node of the muscle that turns it back; None: there is none."""
         return self.pair.other_node if self.pair is not None and self.turns else None
 
     @property
@@ -92,12 +92,12 @@ class Joint:
 
     @property
     def refusal(self) -> str:
-        """Of the last seconds; empty: none."""
+        """The refusal of the last seconds; empty: none."""
         return self._refusal if time.monotonic() - self._refused_at_s < _TELL_REFUSALS_S else ""
 
     @property
     def position(self) -> float:
-        """NaN: no fresh reading."""
+        """The position; NaN: no fresh reading."""
         now_s = time.monotonic()
         measured = self._muscle.telemetry.newest(messages.Measurement) if self._muscle else None
         if measured is None:
@@ -111,13 +111,13 @@ class Joint:
         return self._wanted
 
     def refuse(self, why: str) -> None:
-        """For diagnostics, and once in the log."""
+        """Reports a refusal to diagnostics, and once in the log."""
         if why != self.refusal:
             _log.warning("%s: %s", self.name, why)
         self._refusal, self._refused_at_s = why, time.monotonic()
 
     def follow(self, now_s: float) -> None:
-        """now_s: of the monotonic clock."""
+        """now_s: by the monotonic clock."""
         wanted = self.motion.at(now_s) if self.motion else None
         if wanted is None:
             self.motion = None
@@ -131,7 +131,7 @@ class Joint:
         self._look.set()
 
     async def run(self) -> None:
-        """Connects, again and again, and obeys meanwhile."""
+        """Connects, again and again, and obeys while connected."""
         while True:
             try:
                 async with Muscle(self.address, self.node) as muscle:
@@ -142,7 +142,7 @@ class Joint:
                         # A task of its own: Python 3.11 leaves the one in which a TaskGroup fails cancelled.
                         await asyncio.create_task(self._use(muscle))
                     finally:
-                        # It tells nothing any more, but to let go of a silent board takes a while.
+                        # The board is silent, and letting go of a silent one takes a while.
                         self._muscle = None
                         self._stop_arming()
             except* SupercoilError as errors:
@@ -162,13 +162,13 @@ class Joint:
             tasks.create_task(self._listen())
 
     async def _watch(self, muscle: Muscle) -> None:
-        """Ends when the board is silent. What was wanted before a stop or a fault is not wanted after it."""
+        """Ends when the board is silent. What was wanted before a stop or a fault is dropped."""
         async for status in muscle.stream(messages.Status):
             if status.state not in (State.armed, State.active):
                 self.let_go()
 
     async def _listen(self) -> None:
-        """To the muscle that turns it back. Where that one is silent this one goes on: its board judges that."""
+        """Listens to the muscle that turns it back. Its silence does not stop this one: its board judges that."""
         while True:
             if (node := self.antagonist_node) is not None:
                 with contextlib.suppress(SupercoilError):
@@ -182,7 +182,7 @@ class Joint:
             await asyncio.sleep(_TRY_AGAIN_S)
 
     async def _obey(self, muscle: Muscle) -> None:
-        ours = False  # what the muscle does, it does for us
+        ours = False  # whether the muscle moves because of us
         while True:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_SAY_AGAIN_S):
@@ -195,16 +195,16 @@ class Joint:
                     ours = True
                     await muscle.set_position(wanted_m)
                 elif ours:
-                    # Heartbeats are slower than commands: it may be active and still told as armed.
+                    # Heartbeats are slower than commands: the muscle may be active and still be reported as armed.
                     if muscle.state in (State.armed, State.active):
                         await muscle.rest()
                     ours = False
             except (RefusalError, FaultError, _Refused) as error:
                 self.refuse(self._told(error, wanted_m))
-                self.let_go()  # and rests, if it moved
+                self.let_go()  # the muscle then rests, if it moved
 
     def _check(self, muscle: Muscle, position_m: float) -> None:
-        """Before the board is asked, to which ten refusals in a row are a fault."""
+        """Checks before the board is asked: there, ten refusals in a row are a fault."""
         if self.pair is not None and self.is_led:
             raise _Refused(f"turns a joint back: command that of node {self.pair.other_node}")
         if muscle.state not in (State.armed, State.active):
@@ -219,7 +219,7 @@ class Joint:
         return f"{position:.6f} {self.unit} is out of its range, {nearest:.6f} {self.unit} is in"
 
     def _told(self, error: Exception, position_m: float | None) -> str:
-        """In the joint's unit. The ends of its range, as the board tells them, are remembered."""
+        """The error in the joint's unit. Remembers the ends of its range when the board reports them."""
         if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and position_m is not None:
             low_m, high_m = self._range_m
             self._range_m = (low_m, error.nearest) if position_m > error.nearest else (error.nearest, high_m)
@@ -227,7 +227,7 @@ class Joint:
         return reason_of(error)
 
     async def arm(self) -> str:
-        """What came of it; so do the others. SupercoilError: it did not."""
+        """Returns the outcome, as do the others. Raises SupercoilError if it failed."""
         muscle = self._connected()
         self.let_go()
         if muscle.state in (State.armed, State.active):
@@ -242,7 +242,7 @@ class Joint:
         return "armed"
 
     async def _arm(self, muscle: Muscle) -> None:
-        """What is known of the board may have been changed since."""
+        """What is known of the board may have changed since."""
         self._range_m = _UNKNOWN_RANGE_M
         self.pair = await muscle.joint()
         await muscle.arm()

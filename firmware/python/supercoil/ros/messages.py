@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from cyclonedds.idl import IdlStruct, annotations, types
 
 if TYPE_CHECKING:
-    sequence = list  # what such a field holds
+    sequence = list  # what such a field contains
 else:
     from cyclonedds.idl.types import sequence
 
 _NS_IN_A_SECOND = 1_000_000_000
-OK, WARN, ERROR, STALE = range(4)  # of DiagnosticStatus.level
+OK, WARN, ERROR, STALE = range(4)  # values of DiagnosticStatus.level
 
 
 @dataclass
@@ -108,7 +108,7 @@ class DiagnosticArray(IdlStruct, typename="diagnostic_msgs::msg::dds_::Diagnosti
 @dataclass
 @annotations.final
 class TriggerRequest(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Request_"):
-    """What rmw_cyclonedds puts before each request comes first: whose it is, and its number."""
+    """Begins with what rmw_cyclonedds puts before each request: its client, and its number."""
 
     client: types.uint64 = 0
     sequence: types.int64 = 0
@@ -118,7 +118,7 @@ class TriggerRequest(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Request_"
 @dataclass
 @annotations.final
 class TriggerResponse(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Response_"):
-    """To the request of this client with this number."""
+    """Answers the request of this client with this number."""
 
     client: types.uint64 = 0
     sequence: types.int64 = 0
@@ -126,7 +126,7 @@ class TriggerResponse(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Response
     message: str = ""
 
 
-# REP 2011: by them newer versions of ROS 2 see that both sides mean the same type.
+# REP 2011: newer versions of ROS 2 compare these to see that both sides mean the same type.
 TYPE_HASHES: dict[type[IdlStruct], str] = {
     Bool: "RIHS01_feb91e995ff9ebd09c0cb3d2aed18b11077585839fb5db80193b62d74528f6c9",
     JointState: "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e",

@@ -1,6 +1,6 @@
-"""Where a joint is to be, from what ROS has sent: a set point for a while, or a trajectory.
+"""Where a joint is to be, from what ROS has sent: a set point for some time, or a trajectory.
 
-Positions and velocities are in the joint's unit: m and m/s, or rad and rad/s of one that turns."""
+Positions and velocities are in the joint's unit: m and m/s, or rad and rad/s for one that turns."""
 
 import bisect
 import math
@@ -10,14 +10,14 @@ from typing import NamedTuple, Protocol
 from supercoil.ros import messages
 
 _LONGEST_S = 600.0
-# A clock that is wrong must not hold a muscle where it is for a year.
+# A wrong clock must not hold a muscle where it is for a year.
 _LATEST_S = 60.0
 
 
 class Motion(Protocol):
     def at(self, now_s: float) -> float | None:
-        """The set point at this time; None: it has ended. Times are those of the monotonic clock: a wall clock
-        that is set back must not keep a muscle hot."""
+        """The set point at this time; None: it has ended. Times are those of the monotonic clock: a wall clock that is
+        set back must not keep a muscle hot."""
 
 
 class Held(NamedTuple):
@@ -35,18 +35,18 @@ class Knot(NamedTuple):
 
 
 def _between(before: Knot, after: Knot, time_s: float) -> float:
-    """A cubic where both velocities are known, else a straight line."""
+    """A cubic if both velocities are known, otherwise a straight line."""
     length = after.time_s - before.time_s
     t = (time_s - before.time_s) / length
     if before.velocity is None or after.velocity is None:
         return before.position + t * (after.position - before.position)
-    # Hermite's cubic.
+    # Hermite cubic.
     return ((1 + 2 * t) * (1 - t) ** 2 * before.position + t * (1 - t) ** 2 * length * before.velocity
             + t * t * (3 - 2 * t) * after.position - t * t * (1 - t) * length * after.velocity)
 
 
 class Trajectory:
-    """of: who sent it is still there. Its last point is held for as long."""
+    """of: tells whether its sender still exists. Its last point is held for as long as that."""
 
     def __init__(self, knots: list[Knot], of: Callable[[], bool]) -> None:
         self._knots = knots
@@ -73,8 +73,8 @@ def _column(values: list[float], joint: int, joints: int, what: str, point: int)
 
 
 def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_clock_s: float) -> list[Knot]:
-    """Of one of its joints. start: now, and where the joint is. A header without a time begins now, one with a time
-    when the wall clock, as it is now, will have that.
+    """Knots for one of its joints. start: now, and where the joint is. A header without a time begins now; one with a
+    time begins when the wall clock, as it is set now, reaches it.
 
     ValueError says what is wrong with the message."""
     stamp_s = messages.in_seconds(message.header.stamp)
@@ -99,7 +99,7 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     if knots[-1].time_s < start.time_s:
         raise ValueError(f"was over {start.time_s - knots[-1].time_s:.3g} s ago")
     if knots[0].time_s > start.time_s:
-        # It stays where it is until the trajectory begins, and goes to the first point from there.
+        # The joint stays where it is until the trajectory begins, and goes to the first point from there.
         at_rest = start._replace(time_s=max(begins_s, start.time_s))
         if at_rest.time_s < knots[0].time_s:
             knots.insert(0, at_rest)

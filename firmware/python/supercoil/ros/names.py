@@ -1,4 +1,4 @@
-"""Names of ROS 2, and what they are called on DDS."""
+"""Names of ROS 2, and the matching names of DDS."""
 
 import re
 
@@ -7,7 +7,7 @@ _NAME = re.compile(rf"~?/?{_TOKEN}(/{_TOKEN})*")
 
 
 def checked(name: str, what: str) -> str:
-    """what: "joint", for the error."""
+    """what: "joint", for the error message."""
     if not re.fullmatch(_TOKEN, name):
         raise ValueError(f"{what} {name!r}: must be letters, digits and _, and begin with no digit")
     return name

@@ -1,4 +1,4 @@
-"""What supercoil-ros may be told: names of ROS, rates, times."""
+"""The options of supercoil-ros: names of ROS, rates, times."""
 
 from dataclasses import dataclass
 

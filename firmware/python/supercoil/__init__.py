@@ -107,14 +107,14 @@ __all__ = [
 
 
 def load(path: str | Path, *, node: int | None = None) -> "pandas.DataFrame":
-    """A can.log, a flight recording or a trace (CSV or npy) as a table of pandas; attrs["units"]: each column's unit.
+    """Loads can.log, a flight recording or a trace (CSV or npy) as a pandas table; attrs["units"]: units of columns.
 
-    node: of which node of a can.log, where it has several."""
+    node: which node of a can.log, if it has several."""
     from supercoil import loading
     return loading.load(path, node=node)
 
 
 def plot(table: "pandas.DataFrame", path: str | Path | None = None) -> Any:
-    """A figure of matplotlib: position, power and temperature of a table. path: where the picture goes."""
+    """Draws position, power and temperature of a table as a matplotlib figure. path: where the picture is written."""
     from supercoil import plots
     return plots.plot(table, path)

@@ -1,4 +1,4 @@
-"""Where a board is reached: a CAN bus of python-can, or the board's own socket."""
+"""How a board is reached: by a CAN bus of python-can, or by the board's own socket."""
 
 import logging
 import re
@@ -15,19 +15,19 @@ _GREETED_WITHIN_S = 10.0
 _TRIES = 5
 _FIRST_RELIABLE = (4, 4)
 
-# It warns of every frame that TCP brings in two parts; none is lost.
+# python-can warns of every frame that TCP delivers in two parts; none is lost.
 logging.getLogger("can.interfaces.socketcand.socketcand").setLevel(logging.ERROR)
 
 
 def _is_reliable() -> bool:
-    """Whether this python-can's socketcand is. Debian 13's 4.5 says that it is 0.0.0: what came with 4.4 tells then."""
+    """Whether this python-can's socketcand is. Debian 13's 4.5 calls itself 0.0.0, so a feature of 4.4 decides then."""
     if can.__version__ == "0.0.0":
         return hasattr(socketcand, "detect_beacon")
     return tuple(int(number) for number in re.findall(r"\d+", can.__version__)[:2]) >= _FIRST_RELIABLE
 
 
 def is_local(address: object) -> bool:
-    """Whether it is the socket of the board's own supercoild."""
+    """Whether the address is the socket of the board's own supercoild."""
     return isinstance(address, str) and address.startswith(("/", "./", "../"))
 
 
@@ -35,14 +35,14 @@ def _open_socketcand(host: str, port: int, channel: str) -> can.BusABC:
     if not _is_reliable():
         raise BusError(f"socketcand needs python-can 4.4 or newer, this is {can.__version__}: older ones lose frames "
                        "that TCP brings in two parts")
-    # python-can asks for 10 s without a pause where nobody listens, and waits without end where nobody speaks.
+    # If nobody listens, python-can retries for 10 s without a pause; if nobody speaks, it waits without end.
     try:
         with socket.create_connection((host, port), _CONNECT_WITHIN_S) as tried:
             tried.settimeout(_GREETED_WITHIN_S)
             tried.recv(1)
     except OSError as error:
         raise BusError(f"socketcand on {host}:{port}: {error}") from error
-    # It wants each answer alone in what it reads, and fails where it was kept from reading.
+    # It needs each answer alone in one read, and fails if it was kept from reading.
     for attempt in range(_TRIES):
         try:
             return can.Bus(interface="socketcand", host=host, port=port, channel=channel, tcp_tune=True)
@@ -60,14 +60,14 @@ def open_bus(address: str, options: dict[str, object]) -> can.BusABC:
         interface, colon, channel = address.partition(":")
         if not colon:
             interface, channel = "socketcan", address
-        number = int(channel) if channel.isdecimal() else channel  # devices that are counted
+        number = int(channel) if channel.isdecimal() else channel  # numbered devices
         return can.Bus(interface=interface, channel=number, **options)  # type: ignore[arg-type]
     except (can.CanError, OSError, ValueError, ImportError, TypeError) as error:
         raise BusError(f"{address}: {error}") from error
 
 
 def has_ended(bus: can.BusABC) -> bool:
-    """Whether a socketcand server has closed the connection, which python-can passes over without a pause."""
+    """Whether a socketcand server has closed the connection, which python-can ignores in a busy loop."""
     connection = getattr(bus, "_SocketCanDaemonBus__socket", None)
     if not isinstance(connection, socket.socket):
         return False

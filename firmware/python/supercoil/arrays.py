@@ -1,4 +1,4 @@
-"""Many frames of one message at once, as arrays of numpy."""
+"""Decodes many frames of one message at once into numpy arrays."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -14,7 +14,7 @@ Array = numpy.ndarray[Any, Any]
 def _column(signal: Signal, frames: Array, selectors: Array) -> Array:
     raw = frames >> numpy.uint64(signal.start) & numpy.uint64(signal.mask)
     if signal.raw is Raw.floating:
-        with numpy.errstate(invalid="ignore"):  # a NaN is a value here
+        with numpy.errstate(invalid="ignore"):  # NaN is a valid value here
             values = raw.astype("<u4").view("<f4").astype(float)
     elif signal.type is not float:
         return raw.astype(bool if signal.type is bool else int)
@@ -32,7 +32,7 @@ def _column(signal: Signal, frames: Array, selectors: Array) -> Array:
 
 
 def decode_all(base: int, frames: Sequence[tuple[float, bytes]]) -> dict[str, Array]:
-    """time_s and every signal; frames of another length are left out. Names are numbers here."""
+    """time_s and every signal; frames of another length are left out. Names are given as numbers."""
     layout = codec.LAYOUTS[base]
     whole = [(time_s, data) for time_s, data in frames if len(data) == layout.length]
     packed = numpy.frombuffer(b"".join(data.ljust(8, b"\0") for _, data in whole), "<u8")

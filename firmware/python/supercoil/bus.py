@@ -1,4 +1,4 @@
-"""One bus of python-can, which all muscles on it share. A thread of its own reads it."""
+"""One python-can bus, shared by all muscles on it. A thread of its own reads it."""
 
 import asyncio
 import contextlib
@@ -21,7 +21,7 @@ _NAP_S = 0.001
 
 
 class Bus:
-    """take of a node is called in the bus's thread, for each of the node's frames."""
+    """A node's take is called in the bus's thread, for each of the node's frames."""
 
     _shared: dict[tuple[object, object], "Bus"] = {}  # noqa: RUF012
 
@@ -40,13 +40,13 @@ class Bus:
 
     @classmethod
     async def join(cls, address: str | can.BusABC, options: dict[str, object]) -> "Bus":
-        """The bus of this address, opened unless this event loop has it open. To be left as often as it was joined."""
+        """The bus of this address, opened unless this event loop has it open. Must be left as often as joined."""
         loop = asyncio.get_running_loop()
         key = (loop, address if isinstance(address, str) else id(address))
         cls._forget_useless()
         if key not in cls._shared:
             bus = await asyncio.to_thread(open_bus, address, options) if isinstance(address, str) else address
-            if key in cls._shared:  # another one was faster
+            if key in cls._shared:  # another task was faster
                 bus.shutdown()
             else:
                 cls._shared[key] = cls(key, bus, isinstance(address, str))
@@ -56,7 +56,7 @@ class Bus:
 
     @classmethod
     def _forget_useless(cls) -> None:
-        """What is broken, and what belongs to an event loop that was closed before its buses were left."""
+        """Drops buses that are broken, or whose event loop was closed before they were left."""
         for key, shared in list(cls._shared.items()):
             abandoned = isinstance(key[0], asyncio.AbstractEventLoop) and key[0].is_closed()
             if abandoned or shared._broken:
@@ -82,7 +82,7 @@ class Bus:
 
     @contextlib.contextmanager
     def overhear(self, hear: Callable[[int, int, float, bytes], None]) -> Iterator[None]:
-        """hear(node, base, time_s, data) is called for everybody's frames."""
+        """Calls hear(node, base, time_s, data) for the frames of all nodes."""
         self._everybody.append(hear)
         try:
             yield
@@ -90,7 +90,7 @@ class Bus:
             self._everybody.remove(hear)
 
     async def send(self, identifier: int, data: bytes) -> None:
-        """Waits while the bus takes nothing."""
+        """Waits while the bus does not accept frames."""
         frame = can.Message(arbitration_id=identifier, data=data, is_extended_id=False, check=False)
         end = time.monotonic() + _SEND_WITHIN_S
         while True:

@@ -1,4 +1,4 @@
-"""Clocks by which several muscles start together and stay in step."""
+"""Clocks that start several muscles together and keep them in step."""
 
 import secrets
 import time
@@ -16,31 +16,31 @@ _NUMBERS = 256
 
 class Clock(Protocol):
     def next_number(self) -> int:
-        """Of a start that is still to come."""
+        """The number of a start that is still to come."""
     async def sync(self, number: int) -> None:
-        """All that were told this number start."""
+        """Starts all muscles that were given this number."""
 
 
 class BusClock:
-    """The master's, one for each bus: whoever plays on it at the same time takes numbers in turn."""
+    """The master's clock, one for each bus: all players that use the bus at the same time take numbers in turn."""
 
     def __init__(self, send: Send) -> None:
         self._send = send
         self._number = secrets.randbelow(_NUMBERS)
 
     def next_number(self) -> int:
-        """Of a Sync that is still to be sent."""
+        """The number of a Sync that is still to be sent."""
         self._number = (self._number + 1) % _NUMBERS
         return self._number
 
     async def sync(self, number: int) -> None:
-        """All boards of the bus hear it."""
+        """Sends a Sync that all boards of the bus hear."""
         told = codec.encode(_SYNC, {"sync": number, "master_time_s": time.monotonic()})
         await self._send(_IDENTIFIER, e2e.protected(_IDENTIFIER, told))
 
 
 class SocketClock:
-    """Of a board that is commanded by its own socket: its channels start at one of its times."""
+    """The clock of a board that is commanded over its own socket: its channels start at a time of the board."""
 
     _of_paths: ClassVar[weakref.WeakValueDictionary[str, "SocketClock"]] = weakref.WeakValueDictionary()
 
@@ -50,7 +50,7 @@ class SocketClock:
 
     @classmethod
     def of(cls, path: str) -> "SocketClock":
-        """The same for all links to one socket."""
+        """The clock shared by all links to one socket."""
         return cls._of_paths.setdefault(path, cls())
 
     def next_number(self) -> int:
@@ -58,9 +58,9 @@ class SocketClock:
         return self._number
 
     def start_s(self, number: int, board_s: float, after_s: float) -> float:
-        """For all of this number what it is for the first: after_s after board_s, the board's time."""
+        """The same start time for all that use this number: after_s after the first caller's board_s, in board time."""
         return self._starts_s.setdefault(number, board_s + after_s)
 
     async def sync(self, number: int) -> None:
-        """They start by themselves."""
+        """Nothing to do: the channels start by themselves."""
         self._starts_s.pop(number, None)

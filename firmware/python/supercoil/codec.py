@@ -1,4 +1,4 @@
-"""Frames to messages and back, by the table that is generated from the DBC."""
+"""Converts frames to messages and back, by the table generated from the DBC."""
 
 import math
 import struct
@@ -10,13 +10,13 @@ from supercoil.layout import Layout, Raw, Signal
 
 BASE_MASK = 0x7C0
 NODE_MASK = 0x03F
-# compare has one opcode for volts, amperes and kelvins: kelvins are sent as this and so many more.
+# compare has one opcode for volts, amperes and kelvins: kelvins are sent with this added.
 RISES_FROM = 1000.0
-# The place of a controller that takes its prepared values over is sent as controller with this much added.
+# Taking over prepared values is sent as opcode controller, with this added to the controller's place.
 TUNES_FROM = 1000.0
-# Places of what is tuned: controllers' from 0, estimators' from here.
+# Places of what is tuned: controllers count from 0, estimators from here.
 FIRST_ESTIMATOR = 8
-# Of store.
+# Values of store.
 FORGET, STORE, STORE_TUNING, FORGET_TUNING = 0.0, 1.0, 2.0, 3.0
 
 LAYOUTS: Mapping[int, Layout] = {layout.base: layout for layout in messages.LAYOUTS}
@@ -27,7 +27,7 @@ _Read = Callable[[int], Any]
 
 
 def _reader(signal: Signal) -> _Read:
-    """A function that gets the signal's value out of a frame that is read as one number."""
+    """A function that gets the signal's value out of a frame that was read as one number."""
     start, mask, steps, absent = signal.start, signal.mask, signal.steps, signal.not_available
     kind = signal.type
     if signal.raw is Raw.floating:
@@ -90,7 +90,7 @@ def _raw(signal: Signal, value: float) -> int:
 
 
 def encode(layout: Layout, values: Mapping[str, float]) -> bytes:
-    """A value beyond its signal's range is sent as the range's end. A signal that is not named is 0."""
+    """A value beyond its signal's range is sent as the nearest end of the range. Signals that are not named are 0."""
     frame = 0
     for signal in layout.signals:
         if signal.name in values:

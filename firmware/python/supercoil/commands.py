@@ -1,4 +1,4 @@
-"""What a muscle can be told."""
+"""The commands of a muscle."""
 
 import asyncio
 import contextlib
@@ -25,7 +25,7 @@ class Order(NamedTuple):
 
 class Commands(Connection):
     async def arm(self, timeout_s: float = 5.0) -> None:
-        """Ready to heat, and the heater measured, when it returns. A board that is not ready yet is waited for."""
+        """Waits for a board that is not ready yet. On return, the heater is measured and ready to heat."""
         end = time.monotonic() + timeout_s
         while True:
             try:
@@ -46,30 +46,30 @@ class Commands(Connection):
                 raise NoAnswerError(f"node {self.node}: obeyed arm, but is {heartbeat.state}")
 
     async def disarm(self) -> None:
-        """Off. Needs no lease: it is obeyed from everybody."""
+        """Switches off. Needs no lease: the board obeys it from any master."""
         self._kept.rests()
         self._kept.alive()
         await self._link.disarm()
         await self._leave(State.armed, State.active)
 
     async def reset(self) -> None:
-        """Leaves the state fault, if its cause is gone; then the muscle is disarmed."""
+        """Leaves the state fault if its cause is gone; the muscle is then disarmed."""
         self._kept.rests()
         await self._obey(Opcode.reset)
         await self._leave(State.fault)
 
     async def _leave(self, *states: State) -> None:
-        """Until the heartbeat shows what was obeyed."""
+        """Waits until the heartbeat shows that the command was obeyed."""
         end = time.monotonic() + HEARTBEAT_S
         while self.state in states and time.monotonic() < end:
             await self._link.heartbeat.change(HEARTBEAT_S)
 
     async def set_position(self, position_m: float) -> None:
-        """From now on the set point, until another one, rest() or the deadline. Returns at once."""
+        """Holds until the next set point, rest() or the deadline. Returns at once."""
         await self._heat(Opcode.position, position_m)
 
     async def set_power(self, power_W: float) -> None:
-        """Likewise, without control of the position."""
+        """Likewise, in open loop."""
         await self._heat(Opcode.power, power_W)
 
     async def move_to(self, position_m: float, *, tolerance_m: float = 2e-4, timeout_s: float = 30.0) -> None:
@@ -88,14 +88,14 @@ class Commands(Connection):
                 raise NotReachedError(f"node {self.node}: not at {position_m:.6f} m within {timeout_s:g} s: at {at}")
 
     async def hold(self, seconds: float) -> None:
-        """Waits, and keeps the muscle where it is meanwhile. A fault is raised at once."""
+        """Waits, and meanwhile keeps the muscle where it is. A fault is raised at once."""
         end = time.monotonic() + seconds
         self._kept.raise_if_let_go()
         while (rest := end - time.monotonic()) > 0:
             await self._wait(min(rest, _LOOK_EVERY_S))
 
     async def rest(self) -> None:
-        """Active becomes armed: the muscle cools. One that was let go, or never heated, rests already."""
+        """Active becomes armed: the muscle cools. Does nothing if it was let go or never heated: it rests already."""
         self._kept.rests()
         try:
             await self._obey(Opcode.rest)
@@ -105,25 +105,25 @@ class Commands(Connection):
         await self._leave(State.active)
 
     async def renew(self) -> None:
-        """The last command to heat still holds. It is renewed in the background too, until the deadline."""
+        """Renews the last command to heat. It is renewed in the background too, until the deadline."""
         await self._heat(Opcode.renew)
 
     async def setting(self, setting: Setting) -> float:
         return await self._link.read(setting)
 
     async def settings(self) -> dict[Setting, float]:
-        """All that this node has."""
+        """All settings of this node."""
         told = {setting: await self._link.read(setting) for setting in Setting}
         return {setting: value for setting, value in told.items() if value == value}
 
     async def change(self, setting: Setting, value: float) -> float:
-        """Until the board starts again; what holds from now on."""
+        """Changes a setting until the board starts again. Returns the value that now holds."""
         self._kept.alive()
         return await self._link.write(setting, value)
 
     async def program(self) -> str:
-        """Which program the board runs, "0.2.0 (2780ebf)": version, and commit unless it is a release. Boards tell it
-        once a second, over CAN; NoAnswerError: an older board, or over the board's own socket."""
+        """The program that the board runs, "0.2.0 (2780ebf)": version, and commit unless it is a release. Boards send
+        it once a second over CAN; NoAnswerError: an older board, or the board's own socket."""
         if (boot := self.telemetry.newest(messages.Boot)) is None:
             async with contextlib.aclosing(self.stream(messages.Boot)) as boots:
                 boot = await anext(boots)
@@ -131,11 +131,11 @@ class Commands(Connection):
         return f"{boot.version_major}.{boot.version_minor}.{boot.version_patch}{commit}"
 
     async def quantities(self) -> dict[Quantity, float]:
-        """What the board knows of its muscle and goes by now; NaN: not known."""
+        """What the board knows of its muscle and uses now; NaN: not known."""
         return {quantity: await self._link.quantity(quantity) for quantity in Quantity}
 
     async def joint(self) -> Joint | None:
-        """The joint that it turns with another muscle; None: it moves alone."""
+        """The joint that the muscle turns with another muscle; None: it moves alone."""
         return joint_of(self.node, {quantity: await self._link.quantity(quantity) for quantity in TOLD})
 
     def make_position(self, position_m: float) -> Order:
@@ -151,7 +151,7 @@ class Commands(Connection):
         return Order(self, Opcode.rest, 0.0)
 
     async def execute(self, order: Order) -> messages.Measurement:
-        """An order, and the newest measurement."""
+        """Executes an order, and returns the newest measurement."""
         if order.opcode == Opcode.rest:
             self._kept.rests()
             await self._obey(order.opcode)

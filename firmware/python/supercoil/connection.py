@@ -1,4 +1,4 @@
-"""A connection to one muscle's node: its start, its end, and what the node tells."""
+"""A connection to one muscle's node: its start, its end, and what the node reports."""
 
 import asyncio
 import contextlib
@@ -26,15 +26,15 @@ M = TypeVar("M", bound=tuple[Any, ...])
 _NODES = range(1, 64)
 _FIRST_HEARTBEAT_S = 2.0
 HEARTBEAT_S = 2.0
-# Before this many heartbeats an older one may have waited in the board's queue.
+# Before this many heartbeats have come, the newest may be an old one that waited in the board's queue.
 FRESH_BEATS = 2
 
 
 class Connection:
     def __init__(self, address: str | can.BusABC, node: int = 1, *, deadline_s: float = 2.0, **options: object) -> None:
         """address: can0; socketcand:[HOST:]PORT; any INTERFACE:CHANNEL of python-can, which gets the options; a bus of
-        python-can; or the path of the board's own socket, then node is the channel. deadline_s: for so long the muscle
-        is kept where it is while the program says nothing."""
+        python-can; or the path of the board's own socket: node is then the channel. deadline_s: how long the muscle is
+        kept where it is while the program is silent."""
         if node not in _NODES:
             raise ValueError(f"node {node}: must be 1 to 63")
         if not deadline_s > 0:
@@ -79,14 +79,14 @@ class Connection:
             raise VersionMismatchError(self.node, heartbeat.status.protocol_version)
 
     async def close(self) -> None:
-        """Disarms the muscle if it was commanded, and gives the lease back."""
+        """Disarms the muscle if it was commanded, and releases the lease."""
         if self._open_link is None:
             return
         link, self._open_link = self._open_link, None
         assert self._keeper is not None
         await self._keeper.stop()
         try:
-            # The lease may have been given back at the deadline; another master that has it now is not stopped.
+            # The lease may have been released at the deadline; another master that now has it is not stopped.
             leased = link.heartbeat.status is not None and link.heartbeat.status.leased
             if link.holds_lease or (self._commanded and not leased):
                 await link.disarm()
@@ -115,7 +115,7 @@ class Connection:
 
     @property
     def telemetry(self) -> Telemetry:
-        """The newest of everything that the board sends."""
+        """The newest value of everything that the board sends."""
         return self._link.telemetry
 
     @property
@@ -124,21 +124,21 @@ class Connection:
 
     @property
     def fault(self) -> Fault:
-        """What first led to the state fault; Fault.none."""
+        """The first cause of the state fault, or Fault.none."""
         return self._link.heartbeat.fault
 
     @property
     def position_m(self) -> float:
-        """NaN: no fresh reading."""
+        """The position; NaN: no fresh reading."""
         return self.telemetry.measurement.position_m
 
     def record(self, *kinds: type[Any] | str, most_frames: int | None = None) -> Recording:
-        """with muscle.record() as recording: ... keeps every message, or those of the kinds that are named; the newest
-        ones, where there may be most_frames at most."""
+        """with muscle.record() as recording: ... keeps every message, or those of the named kinds; only the newest
+        most_frames if that is given."""
         return Recording(self.telemetry, tuple(base_of(kind) for kind in kinds), most_frames)
 
     async def stream(self, kind: type[M]) -> AsyncGenerator[M, None]:
-        """Each message of one kind, from now on. A program that takes them is not silent."""
+        """Yields each message of one kind from now on. A program that takes them does not count as silent."""
         loop = asyncio.get_running_loop()
         queue: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue()
         wanted = base_of(kind)
@@ -163,7 +163,7 @@ class Connection:
             self._link.telemetry.forget(listen)
 
     async def _obey(self, opcode: Opcode, value: float = 0.0) -> None:
-        """A refusal because of a fault is told as the fault."""
+        """Raises a refusal because of a fault as that fault."""
         self._kept.alive()
         try:
             await self._link.command(opcode, value)
@@ -175,7 +175,7 @@ class Connection:
             raise
 
     async def _hear_of_fault(self) -> None:
-        """Of one that the board's answer is ahead of."""
+        """Waits for the report of a fault that the board's answer may have overtaken."""
         if self.fault == Fault.none:
             with contextlib.suppress(NoAnswerError):
                 await self._link.heartbeat.change(HEARTBEAT_S)

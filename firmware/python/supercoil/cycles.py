@@ -1,4 +1,4 @@
-"""Several muscles in one call."""
+"""Commands several muscles in one call."""
 
 import asyncio
 from collections.abc import Awaitable, Iterable, Sequence
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 async def all_of(calls: Iterable[Awaitable[T]]) -> list[T]:
-    """At the same time, each to its end; then the first exception is raised."""
+    """Runs all calls at the same time, each to its end; then raises the first exception."""
     results = []
     for result in await asyncio.gather(*calls, return_exceptions=True):
         if isinstance(result, BaseException):
@@ -21,6 +21,6 @@ async def all_of(calls: Iterable[Awaitable[T]]) -> list[T]:
 
 
 async def cycle(orders: Sequence[Order]) -> list[messages.Measurement]:
-    """All orders are sent before an answer is waited for. The newest measurement of each, in their order; where one is
-    refused, all others are obeyed all the same, and the first refusal is raised."""
+    """Sends all orders before waiting for an answer. Returns the newest measurement of each, in the order of the
+    orders. If one is refused, all others are still obeyed, and the first refusal is raised."""
     return await all_of(order.muscle.execute(order) for order in orders)

@@ -1,4 +1,4 @@
-"""Who is on a bus; and stopping a muscle without more ado."""
+"""Finds the nodes on a bus, and stops a muscle at once."""
 
 import asyncio
 from typing import NamedTuple
@@ -24,12 +24,12 @@ class Found(NamedTuple):
 
     @property
     def can_be_commanded(self) -> bool:
-        """It speaks this package's version of the protocol."""
+        """Whether it speaks this package's version of the protocol."""
         return self.protocol_version == PROTOCOL_VERSION
 
 
 async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options: object) -> list[Found]:
-    """Every node whose heartbeat is heard within this time. A board sends ten of them a second."""
+    """Every node whose heartbeat is heard within this time. A board sends ten heartbeats a second."""
     heard: dict[int, messages.Status] = {}
 
     def hear(node: int, base: int, time_s: float, data: bytes) -> None:

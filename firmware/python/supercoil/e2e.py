@@ -1,4 +1,4 @@
-"""AUTOSAR E2E Profile 2, by which commands and their answers are protected."""
+"""AUTOSAR E2E Profile 2, which protects commands and their answers."""
 
 _POLYNOMIAL = 0x2F  # CRC-8H2F
 COUNTERS = 16
@@ -14,7 +14,7 @@ _TABLE = bytes(_step(byte) for byte in range(256))
 
 
 def checksum(identifier: int, data: bytes, session: int | None = None) -> int:
-    """Over what follows the first byte, the identifier's low byte, and the session of a frame that does not tell it."""
+    """Over all bytes after the first, the identifier's low byte, and the session if the frame does not carry it."""
     tail = b"" if session is None else session.to_bytes(2, "little")
     crc = 0xFF
     for byte in data[1:] + bytes([identifier & 0xFF]) + tail:
@@ -23,7 +23,7 @@ def checksum(identifier: int, data: bytes, session: int | None = None) -> int:
 
 
 def protected(identifier: int, data: bytes, session: int | None = None) -> bytes:
-    """With its checksum in the first byte."""
+    """The frame's data with its checksum in the first byte."""
     return bytes([checksum(identifier, data, session)]) + data[1:]
 
 

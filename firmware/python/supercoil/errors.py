@@ -7,11 +7,11 @@ from supercoil.generated.version import PROTOCOL_VERSION, __version__
 
 
 class SupercoilError(Exception):
-    """All of this package's."""
+    """Base of all exceptions of this package."""
 
 
 class FaultError(SupercoilError):
-    """A fault is latched: the muscle goes cold. page has the whole text of its page."""
+    """A fault is latched: the muscle goes cold. page has the full text of its page."""
 
     number: ClassVar[int] = 0
     name: ClassVar[str] = ""
@@ -36,8 +36,8 @@ class UnknownFaultError(FaultError):
 
 class RefusalError(SupercoilError):
     """The board refused a command. nearest: the nearest value that it would have obeyed; NaN: none, or not known.
-    reason: what the board itself says of it, by its own socket only. time_s: of the knot of play() that is refused, as
-    it was given; NaN: it was another command."""
+    reason: the board's own explanation, only over its own socket. time_s: of the refused knot of play(), as it was
+    given; NaN: another command."""
 
     number: ClassVar[int] = 0
     name: ClassVar[str] = ""
@@ -64,7 +64,7 @@ class NoAnswerError(SupercoilError, TimeoutError):
 
 
 class VersionMismatchError(SupercoilError):
-    """The board speaks another version of the CAN protocol. stop() stops it all the same."""
+    """The board speaks another version of the CAN protocol. stop() still stops it."""
 
     def __init__(self, node: int, of_board: int) -> None:
         self.node = node
@@ -78,7 +78,7 @@ class VersionMismatchError(SupercoilError):
 
 
 class NotReachedError(SupercoilError, TimeoutError):
-    """The muscle did not come to its set point in time."""
+    """The muscle did not reach its set point in time."""
 
 
 class OutcomeError(SupercoilError):
@@ -91,16 +91,16 @@ class OutcomeError(SupercoilError):
 
 
 class DeadlineError(SupercoilError):
-    """The program was silent for longer than its deadline, so the muscle was let go."""
+    """The program was silent for longer than its deadline, so its muscle was let go."""
 
 
 class PlaybackError(SupercoilError):
-    """The board plays the trajectory no longer: it was told something else meanwhile, or has not started."""
+    """The board no longer plays the trajectory: another command came meanwhile, or it has not started."""
 
 
 class DryError(PlaybackError):
-    """A knot came too late: the board holds the one before it for 1 s and then lets the muscle rest."""
+    """A knot came too late: the board holds the previous one for 1 s and then lets the muscle rest."""
 
 
 class SimulationError(SupercoilError):
-    """supercoil-sim is not there, or has ended."""
+    """supercoil-sim is missing, or has ended."""

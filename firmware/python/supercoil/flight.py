@@ -47,7 +47,7 @@ def _rows(file: Path) -> tuple[dict[str, str], numpy.ndarray[Any, Any]]:
 
 
 def load_flight(file: Path) -> pandas.DataFrame:
-    """A row for each tick of each channel, channels from 1. attrs has the fault and its channel too."""
+    """One row for each tick of each channel, channels from 1. attrs also has the fault and its channel."""
     keys, rows = _rows(file)
     time_s = (rows["time_ns"] - int(keys["fault_time_ns"])) / 1e9
     columns: dict[str, Any] = {"channel": rows["channel"].astype(int) + 1}

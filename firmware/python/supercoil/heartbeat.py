@@ -1,4 +1,4 @@
-"""What a node's heartbeat and its emergencies say, and waiting for it."""
+"""What a node's heartbeats and emergencies report, and waiting for them."""
 
 import asyncio
 import contextlib
@@ -14,7 +14,7 @@ _CAUSE_WITHIN_S = 0.05
 
 
 class Heartbeat:
-    """In the event loop's thread only."""
+    """Used in the event loop's thread only."""
 
     def __init__(self, node: int) -> None:
         self.node = node
@@ -43,7 +43,7 @@ class Heartbeat:
             self.receive(message)
 
     async def change(self, within_s: float) -> None:
-        """Until the node says anything."""
+        """Waits until the node reports anything."""
         try:
             async with asyncio.timeout(within_s):
                 await self._changed.wait()
@@ -51,7 +51,7 @@ class Heartbeat:
             raise NoAnswerError(f"node {self.node}: no heartbeat within {within_s:g} s") from None
 
     async def raise_fault(self) -> None:
-        """If one is latched."""
+        """Raises the latched fault, if any."""
         if not self.is_in_fault():
             return
         if self._cause is None:
@@ -64,7 +64,7 @@ class Heartbeat:
         return self.fault != Fault.none
 
     def error(self) -> FaultError:
-        """Of the fault that is latched."""
+        """The exception for the latched fault."""
         kind = faults.BY_NUMBER.get(self.fault, UnknownFaultError)
         cause = self._cause
         return kind(self.node, cause.measured, cause.limit) if cause else kind(self.node, math.nan, math.nan)

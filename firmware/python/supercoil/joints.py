@@ -1,4 +1,4 @@
-"""The joint that a muscle turns, with another one that turns it back."""
+"""The joint that a muscle turns, against another muscle that turns it back."""
 
 import itertools
 import math
@@ -14,14 +14,14 @@ TOLD = (Quantity.joint_lever_m, Quantity.joint_other_node_offset,
 
 
 class LeverTable(NamedTuple):
-    """The lever by the joint's angle: at evenly spaced angles, a straight line between two, and constant beyond."""
+    """The lever over the joint's angle: given at evenly spaced angles, linear in between, constant beyond."""
 
     first_deg: float
     last_deg: float
     levers_m: tuple[float, ...]
 
     def _corners(self) -> list[tuple[float, float, float]]:
-        """Of each angle in rad: the lever there, and its integral from the first angle on."""
+        """For each angle in rad: the lever there, and its integral from the first angle."""
         first, last = math.radians(self.first_deg), math.radians(self.last_deg)
         step = (last - first) / (len(self.levers_m) - 1)
         corners, arc_m = [(first, self.levers_m[0], 0.0)], 0.0
@@ -46,7 +46,7 @@ class LeverTable(NamedTuple):
         return self._from_first_m(angle_rad) - self._from_first_m(0.0)
 
     def angle_rad(self, arc_m: float) -> float:
-        """At which arc_m() is this arc."""
+        """The angle at which arc_m() is this arc."""
         corners = self._corners()
         wanted_m = arc_m + self._from_first_m(0.0)
         at, lever_m, reached_m = next((corner for corner in reversed(corners) if corner[2] <= wanted_m), corners[0])
@@ -58,22 +58,22 @@ class LeverTable(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """lever_m: at the angle 0; below 0 of the muscle that turns it to negative angles, whose positions have the other
-    sign. other_node: of the muscle that turns it back; None: a spring does. table: of a lever that depends on the
-    angle."""
+    """lever_m: at the angle 0; negative for the muscle that turns the joint to negative angles, whose positions have
+    the opposite sign. other_node: of the muscle that turns it back; None: a spring does. table: for a lever that
+    depends on the angle."""
 
     lever_m: float
     other_node: int | None
     table: LeverTable | None = None
 
     def angle_deg(self, position_m: float) -> float:
-        """Of the joint, at this position of the muscle."""
+        """The joint's angle at this position of the muscle."""
         if self.table is None:
             return math.degrees(position_m / self.lever_m)
         return math.degrees(self.table.angle_rad(math.copysign(1.0, self.lever_m) * position_m))
 
     def position_m(self, angle_deg: float) -> float:
-        """What the muscle is commanded to, for this angle of the joint."""
+        """The position to command for this angle of the joint."""
         angle_rad = math.radians(angle_deg)
         if self.table is None:
             return angle_rad * self.lever_m
@@ -81,7 +81,7 @@ class Joint(NamedTuple):
 
 
 def joint_of(node: int, told: Mapping[Quantity, float]) -> Joint | None:
-    """told: what a board says of TOLD. None: the muscle is in no joint."""
+    """told: what a board reports for TOLD. None: the muscle is in no joint."""
     lever_m, offset = told[Quantity.joint_lever_m], told[Quantity.joint_other_node_offset]
     if math.isnan(lever_m):
         return None

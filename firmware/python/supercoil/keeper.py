@@ -1,7 +1,7 @@
-"""Renews what heats, and keeps the lease, for as long as the program says something itself now and then.
+"""Renews commands to heat and keeps the lease for as long as the program itself is heard from now and then.
 
-A command to heat expires on the board 250 ms after its last renewal, whatever becomes of this process. While the
-process runs but the program in it hangs, the deadline here ends the renewals.
+A command to heat expires on the board 250 ms after its last renewal, whatever happens to this process. If the process
+runs but the program in it hangs, the deadline here ends the renewals.
 """
 
 import asyncio
@@ -13,7 +13,7 @@ from supercoil.errors import DeadlineError, NoAnswerError, RefusalError, Superco
 from supercoil.generated.names import Opcode
 from supercoil.link import Link
 
-RENEW_EVERY_S = 0.06  # 250 ms have room for three
+RENEW_EVERY_S = 0.06  # three renewals fit into 250 ms
 _KEEP_EVERY_S = 0.3
 _NAP_S = 0.02
 
@@ -42,7 +42,7 @@ class Keeper:
             self._task = None
 
     def alive(self) -> None:
-        """The program says something."""
+        """The program shows that it is alive."""
         self._alive_at = time.monotonic()
 
     def heats(self) -> None:
@@ -54,7 +54,7 @@ class Keeper:
         self._heats = False
 
     def raise_if_let_go(self) -> None:
-        """Once: the program may go on from there."""
+        """Raises once: the program may continue after that."""
         if self._let_go:
             self._let_go = False
             raise DeadlineError(
@@ -67,9 +67,9 @@ class Keeper:
             try:
                 await self._look()
             except RefusalError:
-                self._heats = False  # a fault, another master, or the mode has ended: the next call tells
+                self._heats = False  # a fault, another master, or the mode has ended: the next call reports it
             except NoAnswerError:
-                pass  # the board expires by itself; the next round tries again
+                pass  # the command expires on the board; the next round tries again
             except SupercoilError as error:
                 _log.error("node %d: %s", self._node, error)
                 return

@@ -1,4 +1,4 @@
-"""A trajectory as its knots, checked as far as it can be without a board."""
+"""A trajectory as knots, checked as far as possible without a board."""
 
 import itertools
 import math
@@ -14,13 +14,13 @@ _FEWEST = 2
 
 class Knot(NamedTuple):
     time_s: float  # as it was given
-    after_s: float  # since the knot before; 0 of the first one
+    after_s: float  # since the previous knot; 0 for the first
     position_m: float
     velocity_m_per_s: float
 
 
 def _greatest(signal: str) -> float:
-    """That a knot can carry."""
+    """The greatest value that a knot can carry."""
     sent = codec.encode(codec.LAYOUTS[messages.KNOT], {signal: math.inf})
     return float(getattr(codec.decode(messages.KNOT, sent), signal))
 
@@ -28,7 +28,7 @@ def _greatest(signal: str) -> float:
 MOST_AFTER_S = _greatest("after_s")
 MOST_POSITION_M = _greatest("position_m")
 MOST_VELOCITY_M_PER_S = _greatest("velocity_m_per_s")
-# A velocity that is sent as 0.
+# A velocity up to this is sent as 0.
 _STANDSTILL_M_PER_S = 0.49e-5
 
 
@@ -51,7 +51,7 @@ def _column(name: str, values: Iterable[float], greatest: float = math.inf) -> l
 
 
 def _steps(times_s: list[float]) -> list[float]:
-    """Since the row before; the first is 0."""
+    """Times since the previous row; the first is 0."""
     counts = [round((time_s - times_s[0]) * _STEPS_A_SECOND) for time_s in times_s]
     most = round(MOST_AFTER_S * _STEPS_A_SECOND)
     for row in range(1, len(counts)):
@@ -62,7 +62,7 @@ def _steps(times_s: list[float]) -> list[float]:
 
 
 def _slopes(steps_s: list[float], positions_m: list[float]) -> list[float]:
-    """Of the parabola through three rows; 0 at both ends."""
+    """Slopes of the parabola through three rows; 0 at both ends."""
     slopes = [0.0] * len(positions_m)
     for row in range(1, len(positions_m) - 1):
         before_s, after_s = steps_s[row], steps_s[row + 1]
@@ -74,7 +74,7 @@ def _slopes(steps_s: list[float], positions_m: list[float]) -> list[float]:
 
 def knots_of(times_s: Iterable[float], positions_m: Iterable[float],
              velocities_m_per_s: Iterable[float] | None = None) -> tuple[Knot, ...]:
-    """ValueError: says which row, from 0, is wrong and what it must be."""
+    """ValueError: names the row, from 0, that is wrong, and what it must be."""
     times, positions = _column("times_s", times_s), _column("positions_m", positions_m, MOST_POSITION_M)
     columns = {"positions_m": positions}
     if velocities_m_per_s is not None:

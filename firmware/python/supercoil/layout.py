@@ -1,4 +1,4 @@
-"""How signals lie in a frame: what the DBC says of them, and nothing of CAN itself."""
+"""How signals lie in a frame: as the DBC defines it, without anything of CAN itself."""
 
 import enum
 from typing import Any, NamedTuple
@@ -17,8 +17,8 @@ class Signal(NamedTuple):
     length: int
     raw: Raw
     scale: float
-    not_available: int | None  # the raw value that says so
-    selected_by: int | None  # what the first signal must be for this one to be in the frame
+    not_available: int | None  # the raw value that means it
+    selected_by: int | None  # the value of the first signal with which this one is in the frame
     type: type[float]  # of the decoded value: float, int, bool or one of generated.names
 
     @property
@@ -27,7 +27,7 @@ class Signal(NamedTuple):
 
     @property
     def steps(self) -> int:
-        """In one unit. Dividing by them gives the nearest float to the decimal number; times the scale would not."""
+        """Steps per unit. Dividing by them gives the float nearest to the decimal number; times the scale would not."""
         return round(1 / self.scale)
 
 

@@ -1,4 +1,4 @@
-"""What a board learns of its muscle, and how it is compared with meters."""
+"""What a board learns about its muscle, and how it is compared with meters."""
 
 import contextlib
 import time
@@ -11,11 +11,11 @@ from supercoil.errors import NoAnswerError, NotReachedError, OutcomeError
 from supercoil.generated import messages, results
 from supercoil.generated.names import Mode, Opcode, Result, State
 
-_FRICTION = 1 << results.NOTES.index("friction")  # has no bit left among the others
+_FRICTION = 1 << results.NOTES.index("friction")  # its bit is in another message than the others
 
 
 class Outcome(NamedTuple):
-    """How identify or calibrate ended, and all that identify has to say beside it."""
+    """How identify or calibrate ended, and what else identify reports."""
 
     result: Result
     notes: tuple[str, ...]
@@ -23,11 +23,11 @@ class Outcome(NamedTuple):
 
 class Learning(Commands):
     async def identify(self, timeout_s: float = 3600.0) -> Outcome:
-        """Learns the muscle. Raises OutcomeError unless something was found."""
+        """Identifies the muscle. Raises OutcomeError unless something was found."""
         return await self._learn(Opcode.identify, Mode.identify, timeout_s)
 
     async def calibrate(self, timeout_s: float = 600.0) -> Outcome:
-        """Takes the cold zero and the cold resistance. Likewise."""
+        """Measures the cold zero and the cold resistance. Likewise."""
         return await self._learn(Opcode.calibrate, Mode.calibrate, timeout_s)
 
     async def _learn(self, opcode: Opcode, mode: Mode, timeout_s: float) -> Outcome:
@@ -65,7 +65,7 @@ class Learning(Commands):
         return Outcome(status.result, notes)
 
     async def scale(self, true_position_m: float) -> None:
-        """The true position now, by a ruler."""
+        """Gives the board the present true position, by a ruler."""
         await self._obey(Opcode.scale, true_position_m)
 
     async def store(self) -> None:
@@ -73,18 +73,18 @@ class Learning(Commands):
         await self._obey(Opcode.store, STORE)
 
     async def forget(self) -> None:
-        """Forgets the muscle that is kept, from the next start on."""
+        """Forgets the stored muscle from the next start on."""
         await self._obey(Opcode.store, FORGET)
 
     async def use_controller(self, place: int) -> None:
-        """By its place in the configuration, from 0."""
+        """Selects a controller by its place in the configuration, from 0."""
         await self._obey(Opcode.controller, place)
 
     async def use_estimator(self, place: int) -> None:
         await self._obey(Opcode.estimator, place)
 
     async def compare_supply(self, volts: float) -> None:
-        """What a meter shows at the supply's terminals while power is steady; 0 forgets the comparison."""
+        """What a meter shows at the supply's terminals during steady power; 0 forgets the comparison."""
         if not 0.0 <= volts < RISES_FROM:
             raise ValueError(f"{volts} V: must be 0 or more")
         await self._obey(Opcode.compare, volts)
@@ -96,7 +96,7 @@ class Learning(Commands):
         await self._obey(Opcode.compare, -amperes)
 
     async def compare_rise(self, kelvins: float) -> None:
-        """How much warmer than the air a thermometer shows the muscle, in steady heat; 0 forgets it."""
+        """How much warmer than the air a thermometer shows the muscle in steady heat; 0 forgets it."""
         if not kelvins >= 0.0:
             raise ValueError(f"{kelvins} K: must be 0 or more")
         await self._obey(Opcode.compare, RISES_FROM + kelvins)

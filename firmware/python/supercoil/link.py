@@ -1,4 +1,4 @@
-"""How a muscle's node is reached, whatever leads to it."""
+"""How a muscle's node is reached, over any kind of connection."""
 
 import asyncio
 import contextlib
@@ -20,7 +20,7 @@ from supercoil.telemetry import Telemetry
 _HEARTBEAT = frozenset((messages.STATUS, messages.EMERGENCY, messages.FIRST_CAUSE))
 _ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.TUNING, messages.TRAJECTORY,
                       messages.REFUSED_VALUE))
-# What the event loop is woken for; all else is only kept.
+# Only these messages wake the event loop; all others are just kept.
 _EVENTS = _HEARTBEAT | _ANSWERS | {messages.MUSCLE}
 
 
@@ -110,12 +110,12 @@ class CanLink:
 
     @property
     def trajectory(self) -> messages.Trajectory:
-        """The newest one."""
+        """The newest Trajectory."""
         return self._session.trajectory
 
     @property
     def clock(self) -> Clock:
-        """Of the bus."""
+        """The bus's clock."""
         if self._bus is None:
             raise BusError(f"node {self._node} is not connected")
         return self._bus.clock
@@ -134,7 +134,7 @@ class CanLink:
         await self._bus.send(identifier, data)
 
     async def _ask(self, request: int, answer: int, **which: int) -> float:
-        """Reading needs no lease, and everybody hears the answer."""
+        """Reads a value. Reading needs no lease, and everybody hears the answer."""
         waiting = self._read.setdefault((answer, *which.values()), [])
         told: asyncio.Future[float] = self._loop.create_future()
         waiting.append(told)
@@ -149,7 +149,7 @@ class CanLink:
             waiting.remove(told)
 
     def _take(self, base: int, time_s: float, data: bytes) -> None:
-        """In the bus's thread."""
+        """Called in the bus's thread."""
         self.telemetry.take(base, time_s, data)
         if base in _EVENTS:
             with contextlib.suppress(RuntimeError):  # the loop has ended

@@ -1,4 +1,4 @@
-"""Files of boards and of simulations, as tables of pandas. attrs["units"] has each column's unit."""
+"""Loads files of boards and simulations as pandas tables. attrs["units"] has each column's unit."""
 
 import re
 from pathlib import Path
@@ -14,17 +14,17 @@ from supercoil.tables import table_of
 from supercoil.units import unit_of
 
 _CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?")
-# At which a simulated run begins in its can.log, and the longest that one may take (can_client/candump.hpp).
+# When a simulated run begins in its can.log, and how long a run may be (can_client/candump.hpp).
 _SIMULATION_EPOCH_S = 1_000_000_000
 _LONGEST_RUN_S = 365 * 86400
 _NPY = b"\x93NUMPY"
 
 
 def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
-    """can.log (as candump -L writes it), a flight recording, trace.csv or trace.npy; by what is in it, not by its name.
+    """Loads can.log (as candump -L writes it), a flight recording, trace.csv or trace.npy, by content, not by name.
 
-    The index is time_s, as in the file; of a recording, before and after its fault. can.log: columns are
-    Message.signal; node: of which; it can be left out where the log has one only. attrs["damaged_lines"]: left out.
+    The index is time_s, as in the file; for a recording, relative to its fault. can.log: columns are Message.signal;
+    node: which one; optional if the log has only one. attrs["damaged_lines"]: lines left out.
     """
     file = Path(path)
     with file.open("rb") as opened:
@@ -60,14 +60,14 @@ def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
 
 
 def _time_of_run_s(text: str) -> float:
-    """Since the begin of a simulated run; of another log, and of an older simulator's, its own time."""
+    """Time since a simulated run began; for another log, or one of an older simulator, its own time."""
     whole, _, fraction = text.partition(".")
     in_run = int(whole) - _SIMULATION_EPOCH_S
     return float(f"{in_run if 0 <= in_run < _LONGEST_RUN_S else int(whole)}.{fraction}")
 
 
 def _load_csv(file: Path) -> pandas.DataFrame:
-    table = pandas.read_csv(file, float_precision="round_trip")  # pandas 2 is off by a bit else
+    table = pandas.read_csv(file, float_precision="round_trip")  # otherwise pandas 2 is off by a bit
     if not len(table.columns) or table.columns[0] != "time_s":
         raise ValueError(f"{file}: is no can.log, no flight recording, and no CSV whose first column is time_s")
     return _with_units(table)
@@ -84,7 +84,7 @@ def _load_npy(file: Path) -> pandas.DataFrame:
 
 
 def _decoded(column: NDArray[Any]) -> NDArray[Any]:
-    """Words hardly ever change from row to row: each stretch of them is decoded once."""
+    """Words rarely change from row to row: each run of equal words is decoded once."""
     if column.dtype.kind != "S" or len(column) == 0:
         return column
     begins = numpy.flatnonzero(numpy.concatenate(([True], column[1:] != column[:-1])))

@@ -22,7 +22,7 @@ _SENSES = (Setting.supply_gain, Setting.current_gain, Setting.sense_error_ratio)
 
 
 class SocketLink:
-    """The socket knows no lease: whoever may open it may command. Its state is asked for ten times a second."""
+    """The socket has no lease: whoever can open it can command. The state is requested ten times a second."""
 
     lease_age_s = 0.0
 
@@ -82,13 +82,13 @@ class SocketLink:
         raise SupercoilError(f"{setting} cannot be changed by the board's socket, only over CAN")
 
     async def read(self, setting: Setting) -> float:
-        """Those of the senses; the others are told over CAN only."""
+        """Only the settings of the senses; the others are available over CAN only."""
         if setting not in _SENSES:
             return math.nan
         return (await self._numbers("senses"))[_SENSES.index(setting)]
 
     async def quantity(self, quantity: Quantity) -> float:
-        """NaN also where the board is older than the quantity."""
+        """NaN also if the board is older than the quantity."""
         told = await self._numbers("muscle")
         return told[quantity] if quantity < len(told) else math.nan
 
@@ -118,14 +118,14 @@ class SocketLink:
             at_s = self.clock.start_s(sync, board_s, after_s) if when == When.at_sync else board_s + after_s
             try:
                 await self._obey(f"start {at_s!r}")
-            except refusals.OutOfRange:  # all that a time can be out of range by
+            except refusals.OutOfRange:  # only the start time can be out of range
                 raise PlaybackError(f"node {self._channel}: has not started: it was told too late, this machine was "
                                     "busy") from None
             await self._look_at_playback()
         return self.trajectory
 
     async def _look_at_playback(self) -> float:
-        """The board's time."""
+        """Returns the board's time."""
         *words, board_s = await self._words("playback")
         self.trajectory = trajectory_of(words)
         return float(board_s)
@@ -137,7 +137,7 @@ class SocketLink:
         self.holds_lease = False
 
     async def _ask(self, line: str) -> str:
-        """To its end also where the task that asks is cancelled: a late answer would pass for the next one's."""
+        """Completes even if the asking task is cancelled: a late answer would be taken for the next one's."""
         exchange = asyncio.ensure_future(self._exchange(line))
         self._exchanges.add(exchange)
         exchange.add_done_callback(self._exchanges.discard)
@@ -169,7 +169,7 @@ class SocketLink:
             self._socket = None
 
     async def _words(self, request: str) -> list[str]:
-        """What follows the channel's number in its line."""
+        """The words after the channel's number in its line."""
         answer = await self._ask(request)
         for line in answer.splitlines():
             channel, *words = line.split()
@@ -200,7 +200,7 @@ class SocketLink:
                 self.heartbeat.receive_frame(base, now, data)
 
     async def _look_again(self) -> None:
-        with contextlib.suppress(BusError, NoAnswerError):  # the next command tells
+        with contextlib.suppress(BusError, NoAnswerError):  # the next command reports it
             while True:
                 await asyncio.sleep(_LOOK_EVERY_S)
                 await self._look()

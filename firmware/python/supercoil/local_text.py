@@ -1,4 +1,4 @@
-"""The lines of the board's socket, and what they say in the protocol's words (docs/running.md)."""
+"""The lines of the board's socket, translated to the protocol's terms (docs/running.md)."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -14,7 +14,7 @@ _WITH_VALUE = (Opcode.position, Opcode.power, Opcode.scale, Opcode.controller, O
 
 
 def command_line(opcode: Opcode, value: float) -> str:
-    """Without the channel."""
+    """The line without the channel."""
     if opcode == Opcode.compare:
         if value >= RISES_FROM:
             return f"compare_rise {value - RISES_FROM:.9g}"
@@ -32,7 +32,7 @@ def _notes(word: str) -> int:
 
 
 def trajectory_of(words: list[str]) -> messages.Trajectory:
-    """A channel's line of "playback", but for the board's time at its end."""
+    """From a channel's line of "playback", without the board's time at its end."""
     told = {"playback": Playback[words[0]], "room": int(words[1]), "buffered_s": float(words[2])}
     decoded = codec.decode(messages.TRAJECTORY, codec.encode(codec.LAYOUTS[messages.TRAJECTORY], told))
     assert isinstance(decoded, messages.Trajectory)
@@ -40,7 +40,7 @@ def trajectory_of(words: list[str]) -> messages.Trajectory:
 
 
 def frames_of(words: list[str], *, probing: bool) -> Iterator[tuple[int, Mapping[str, float]]]:
-    """A channel's line of "state", as the values of frames. What the socket does not tell is not available."""
+    """From a channel's line of "state", as the values of frames. What the socket does not report is not available."""
     state, mode, fault = State[words[0]], Mode[words[1]], Fault[words[2]]
     reference, model, position, applied, coldest, hottest, progress = map(float, words[3:10])
     notes = _notes(words[11])

@@ -1,4 +1,4 @@
-"""Numbers that have names in the protocol, and names that it does not have."""
+"""Numbers that have names in the protocol, and errors for names that it does not have."""
 
 import difflib
 import enum
@@ -7,7 +7,7 @@ from typing import Self
 
 
 class Named(enum.IntEnum):
-    """Of one of the DBC's tables. A number that it has no name for, of a newer board, is unknown_NUMBER."""
+    """Names from one of the DBC's tables. A number without a name, from a newer board, is unknown_NUMBER."""
 
     @classmethod
     def _missing_(cls, value: object) -> Self | None:
@@ -23,7 +23,7 @@ class Named(enum.IntEnum):
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> ValueError:
-    """what: "message"; the error says which one was probably meant, or all."""
+    """what: "message"; the error names the one that was probably meant, or all."""
     names = list(known)
     near = difflib.get_close_matches(name, names, 1)
     instead = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"

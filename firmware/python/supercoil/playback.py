@@ -1,4 +1,4 @@
-"""The frames of a trajectory, and what the node tells of it (docs/trajectories.md)."""
+"""The frames of a trajectory, and the node's reports about it (docs/trajectories.md)."""
 
 from collections.abc import Awaitable, Callable
 
@@ -12,15 +12,15 @@ _PLAY = codec.LAYOUTS[messages.PLAY]
 
 
 class PlaybackSession(Session):
-    """A session that sends trajectories too. A knot never claims a lease: with another one the board has forgotten the
-    knots before it."""
+    """A session that sends trajectories too. A knot never claims a lease: under a new lease the board has forgotten the
+    earlier knots."""
 
     def __init__(self, node: int, send: Send) -> None:
         super().__init__(node, send)
         self.trajectory: messages.Trajectory = codec.decode(messages.TRAJECTORY, bytes(8))  # empty
 
     async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> None:
-        """Taken when it returns; trajectory has the room that is left. after_s 0: the first one."""
+        """Returns when the board has taken the knot; trajectory has the room that is left. after_s 0: the first one."""
         async def ask() -> Answer:
             number = self._number
             async with self._in_flight:
@@ -30,7 +30,7 @@ class PlaybackSession(Session):
         await self._go_on("knot", ask)
 
     async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> None:
-        """Starts it; When.never asks for trajectory alone."""
+        """Starts the trajectory; When.never only asks for trajectory."""
         async def ask() -> Answer:
             number = self._number
             async with self._in_flight:
@@ -39,7 +39,7 @@ class PlaybackSession(Session):
         await self._go_on("play", ask)
 
     def receive(self, base: int, data: bytes) -> None:
-        """A Trajectory of the node too."""
+        """Handles a Trajectory of the node too."""
         if base != messages.TRAJECTORY:
             super().receive(base, data)
         elif e2e.is_intact(base | self.node, data) and (told := codec.decode(base, data)) is not None:
@@ -50,6 +50,6 @@ class PlaybackSession(Session):
         if not self.holds_lease:
             raise self._refused(Refusal.no_lease, command)
         answer = await ask()
-        if answer.refusal == Refusal.wrong_counter:  # frames were lost before this one, which was not taken
+        if answer.refusal == Refusal.wrong_counter:  # earlier frames were lost, and this one was not taken
             answer = await ask()
         await self._judge(command, answer)

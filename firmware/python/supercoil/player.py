@@ -1,4 +1,4 @@
-"""One muscle's part in a motion of one or several."""
+"""Plays one muscle's part in a motion of one or several muscles."""
 
 import math
 import time
@@ -13,7 +13,7 @@ from supercoil.knots import Knot
 
 _LOOK_EVERY_S = 0.02
 _ASK_EVERY_S = 0.05
-# Between Sync and the start: by then each board has heard of both.
+# Time from Sync to the start, enough for each board to hear of both.
 _START_AFTER_S = 0.1
 _STARTED_WITHIN_S = 2.0
 
@@ -26,7 +26,7 @@ class Motion(NamedTuple):
 
 
 class Player:
-    """Sends a motion's knots as the board has room, and raises what ends it early."""
+    """Sends a motion's knots as the board has room, and raises whatever ends it early."""
 
     def __init__(self, motion: Motion) -> None:
         self.muscle = motion.muscle
@@ -42,7 +42,7 @@ class Player:
         await self.muscle.hold(settle_s)
 
     async def load(self) -> None:
-        """Knots as long as there is room, after a short while."""
+        """Sends knots for as long as there is room, after a short wait."""
         await self.muscle._wait(_LOOK_EVERY_S)
         while self._sent < len(self._knots) and (self._sent == 0 or self._link.trajectory.room > 0):
             if not await self._send(self._knots[self._sent]):
@@ -83,7 +83,7 @@ class Player:
         return self._sent == len(self._knots)
 
     async def _send(self, knot: Knot) -> bool:
-        """False: there is no room."""
+        """False: the board has no room."""
         self.muscle._kept.raise_if_let_go()
         self.muscle._kept.alive()
         try:
@@ -106,7 +106,7 @@ class Player:
             raise
 
     async def _raise_cause(self) -> None:
-        """Of a refusal because of the state."""
+        """Raises the cause of a refusal because of the state."""
         await self._raise_fault()
         if self._sent > 0:
             await self._raise_if_stopped()

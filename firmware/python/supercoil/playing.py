@@ -1,4 +1,4 @@
-"""Trajectories: knots that a board gets ahead of time, so that it goes from one to the next by itself."""
+"""Trajectories: knots that a board receives ahead of time, so that it moves from one to the next by itself."""
 
 import asyncio
 import math
@@ -17,37 +17,37 @@ class Playing(Tuning):
     async def play(self, times_s: Iterable[float], positions_m: Iterable[float],
                    velocities_m_per_s: Iterable[float] | None = None, *, settle_s: float = 3.0,
                    hold: bool = False) -> None:
-        """A motion that the board goes by itself from knot to knot, in time also where this program and its bus are a
+        """A motion that the board follows by itself from knot to knot, on time even if this program and its bus are a
         little late. Goes to the first knot, waits there for settle_s seconds, plays, and returns at the end.
 
-        times_s, positions_m, velocities_m_per_s: one column each, with a number for each knot: a list, or an array of
-        one dimension. 2 knots or more, each 0.001 to 4.094 s after the one before (sent as whole milliseconds); 50 a
-        second are plenty, and the first one's time may be any. Positions from -0.8388607 to 0.8388607 m, and what the
-        board allows; velocities from -0.32767 to 0.32767 m/s, 0 at the first and the last knot. Without velocities
-        those of the parabola through three knots are taken, and 0 at both ends.
+        times_s, positions_m, velocities_m_per_s: one column each, with a number for each knot: a list, or a
+        one-dimensional array. 2 knots or more, each 0.001 to 4.094 s after the previous one (sent as whole
+        milliseconds); 50 a second are plenty, and the first time is arbitrary. Positions from -0.8388607 to
+        0.8388607 m, and what the board allows; velocities from -0.32767 to 0.32767 m/s, 0 at the first and the last
+        knot. Without velocities, those of the parabola through three knots are taken, and 0 at both ends.
 
-        hold: the muscle is kept at the last knot, as after move_to(); else it rests.
+        hold: the muscle is kept at the last knot, as after move_to(); otherwise it rests.
 
-        ValueError: what is given is wrong; it names the row, from 0, and nothing is sent. refusals.Infeasible: the way
-        to the knot at its time_s asks for more power than there is, or would have the muscle cooled; likewise
-        refusals.OutOfRange. DryError: a knot came too late. refusals.NoLease, refusals.NotLeaseHolder: the lease was
-        lost. PlaybackError: something else was commanded meanwhile. faults.*: one has latched. After each of them, and
-        where the task is cancelled, the muscle rests."""
+        ValueError: the input is wrong; it names the row, from 0, and nothing is sent. refusals.Infeasible: the way to
+        the knot at its time_s needs more power than there is, or faster cooling; likewise refusals.OutOfRange.
+        DryError: a knot came too late. refusals.NoLease, refusals.NotLeaseHolder: the lease was lost. PlaybackError:
+        another command came meanwhile. faults.*: one has latched. After each of these, and if the task is cancelled,
+        the muscle rests."""
         await play([self.make_motion(times_s, positions_m, velocities_m_per_s)], settle_s=settle_s, hold=hold)
 
     def make_motion(self, times_s: Iterable[float], positions_m: Iterable[float],
                     velocities_m_per_s: Iterable[float] | None = None) -> Motion:
-        """Of several muscles, for supercoil.play(). Columns and ValueError are those of play(); nothing is sent."""
+        """A motion for supercoil.play() of several muscles. Columns and ValueError as for play(); nothing is sent."""
         return Motion(self, knots_of(times_s, positions_m, velocities_m_per_s))
 
 
 async def play(motions: Sequence[Motion], *, settle_s: float = 3.0, hold: bool = False) -> None:
-    """Motions of several muscles, in step: all on one bus start in the same tick, and a Sync a second keeps their
-    clocks together; so do all of one board that is commanded by its socket, whose clock is one. Those on other buses
-    start as soon after as this program can send.
+    """Plays motions of several muscles in step: all on one bus start in the same tick, and a Sync a second keeps their
+    clocks together; so do all of one board that is commanded over its socket, as they share its clock. Those on other
+    buses start as soon after as this program can send.
 
-    motions: what make_motion() of each muscle gives, each muscle once. They need not be equally long: whichever ends
-    first waits at its last knot. All else is as with play() of one muscle, and one that cannot go on ends all."""
+    motions: the results of make_motion(), each muscle once. They need not be equally long: a muscle that ends first
+    waits at its last knot. Everything else is as with play() of one muscle, and one that cannot go on ends all."""
     muscles = [motion.muscle for motion in motions]
     if len(set(map(id, muscles))) < len(muscles):
         raise ValueError("a muscle has two motions")

@@ -15,8 +15,8 @@ _PANELS = (
 
 
 def plot(table: pandas.DataFrame, path: str | Path | None = None) -> Any:
-    """A table of load() or of Recording.table(); what it does not have is left out. path: where the picture goes.
-    Gives matplotlib's figure."""
+    """Draws a table of load() or of Recording.table(); what it lacks is left out. path: where the picture is written.
+    Returns matplotlib's figure."""
     from matplotlib.figure import Figure
     figure = Figure(figsize=(9, 7), layout="constrained")
     axes = figure.subplots(len(_PANELS), sharex=True)

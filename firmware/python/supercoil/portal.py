@@ -22,7 +22,7 @@ def _loop_of_thread() -> asyncio.AbstractEventLoop:
 
 
 def run(work: Coroutine[Any, Any, T]) -> T:
-    """Its result; Ctrl-C cancels it."""
+    """The result of work; Ctrl-C cancels it."""
     future = asyncio.run_coroutine_threadsafe(work, _loop_of_thread())
     try:
         return future.result()

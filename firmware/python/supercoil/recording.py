@@ -1,4 +1,4 @@
-"""What a node sends from now on, kept as it comes: as messages, as arrays, as a table of pandas."""
+"""Records what a node sends from now on: as messages, as arrays, as a pandas table."""
 
 from collections import deque
 from collections.abc import Iterator
@@ -16,12 +16,12 @@ M = TypeVar("M", bound=tuple[Any, ...])
 
 
 class Recording:
-    """Used as 'with muscle.record() as recording'; it keeps what it has afterwards."""
+    """Used as 'with muscle.record() as recording'; it keeps its messages afterwards."""
 
     def __init__(self, telemetry: Telemetry, bases: tuple[int, ...], most_frames: int | None = None) -> None:
         self._telemetry = telemetry
         self._bases = frozenset(bases or codec.LAYOUTS)
-        # time, base, data; the oldest give way when there are most_frames
+        # time, base, data; the oldest are dropped when there are most_frames
         self.frames: deque[tuple[float, int, bytes]] = deque(maxlen=most_frames)
 
     def start(self) -> Self:
@@ -50,13 +50,13 @@ class Recording:
                 yield message
 
     def arrays(self, kind: type[Any] | str) -> dict[str, "numpy.ndarray[Any, Any]"]:
-        """Of each signal, with time_s; needs numpy."""
+        """An array for each signal, and time_s; needs numpy."""
         from supercoil.arrays import decode_all
         wanted = base_of(kind)
         return decode_all(wanted, [(time_s, data) for time_s, base, data in list(self.frames) if base == wanted])
 
     def table(self, *kinds: type[Any] | str) -> "pandas.DataFrame":
-        """A row for each time since the first frame, a column for each signal, Message.signal. Needs pandas."""
+        """A row for each time since the first frame, and a column Message.signal for each signal. Needs pandas."""
         from supercoil.tables import table_of
         bases = frozenset(base_of(kind) for kind in kinds) or self._bases
         frames = list(self.frames)

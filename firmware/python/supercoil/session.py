@@ -14,15 +14,15 @@ from supercoil.generated.names import Opcode, Refusal, Set, Setting, Tunable
 from supercoil.layout import Layout
 
 ANSWER_WITHIN_S = 0.5
-# A lease lasts a second by default; one that may have run out is asked for first.
+# A lease lasts a second by default; one that may have run out is claimed again first.
 _LEASE_LASTS_S = 0.4
-# It follows the answer at once, where the board sends it.
+# RefusedValue follows the answer at once, if the board sends it.
 _NEAREST_WITHIN_S = 0.05
 _CLAIMS_IN_A_ROW = 4
-# Of 16 counters, so that none of a frame without an answer is used again at once.
+# Of 16 counters, so that those of a frame without an answer are not used again at once.
 _MOST_IN_FLIGHT = 8
 _RELEASES = -1.0
-# Where a second try can help: the lease ran out meanwhile, or frames were lost before this one.
+# A second try can help here: the lease ran out meanwhile, or earlier frames were lost.
 _TRY_AGAIN = (Refusal.no_lease, Refusal.wrong_counter)
 
 _COMMAND = codec.LAYOUTS[messages.COMMAND]
@@ -38,24 +38,24 @@ Send = Callable[[int, bytes], Awaitable[None]]
 @dataclass
 class Answer:
     refusal: Refusal
-    value: float  # the session or number that was granted; of a setting, what holds; of a trajectory, its room
+    value: float  # the granted session or number; for a setting, its value now; for a trajectory, its room
     nearest: "asyncio.Future[float] | None" = None
 
 
 class Session:
-    """Commands may overlap; they are sent in the order in which they were given."""
+    """Commands may overlap; they are sent in the order in which they were issued."""
 
     def __init__(self, node: int, send: Send) -> None:
         self.node = node
         self._send = send
-        self._name = secrets.randbelow(0xFFFF) + 1  # by which the answer to a claim is known
-        self._number = 0  # of the session; 0: no lease
+        self._name = secrets.randbelow(0xFFFF) + 1  # identifies the answer to a claim
+        self._number = 0  # the session; 0: no lease
         self._counter = 0
         self._lease_from = -math.inf
         self._claiming = asyncio.Lock()
         self._sending = asyncio.Lock()
         self._in_flight = asyncio.Semaphore(_MOST_IN_FLIGHT)
-        # By what the answer says it answers: message, counter, and so on.
+        # Keyed by what an answer says it answers: message, counter, and so on.
         self._pending: dict[tuple[int, ...], asyncio.Future[Answer]] = {}
         self._newest_refused: asyncio.Future[float] | None = None
 
@@ -65,28 +65,28 @@ class Session:
 
     @property
     def lease_age_s(self) -> float:
-        """Since the last command that was obeyed."""
+        """Time since the last command that was obeyed."""
         return time.monotonic() - self._lease_from
 
     async def command(self, opcode: Opcode, value: float = 0.0) -> None:
-        """Obeyed when it returns. The lease is claimed where there is none."""
+        """Returns when the command was obeyed. Claims the lease if there is none."""
         await self._insist(opcode.name, lambda: self._ask(opcode, value))
 
     async def write(self, setting: Setting, value: float) -> float:
-        """What holds from then on."""
+        """Writes a setting; returns the value that holds from then on."""
         return await self._insist(f"{setting.name} = {value:.7g}", lambda: self._write(setting, value))
 
     async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
-        """A value of a controller, or with all every value of one of the sets."""
+        """Prepares a value of a controller, or with all every value of one of the sets."""
         told = Set(int(value)).name if tunable == Tunable.all else f"{value:.7g}"
         await self._insist(f"{tunable.name} = {told}", lambda: self._prepare(place, tunable, value))
 
     async def disarm(self) -> None:
-        """Obeyed from everybody, in every version of the protocol."""
+        """Obeyed from every master, in every version of the protocol."""
         await self._judge("disarm", await self._ask(Opcode.disarm, 0.0))
 
     async def keep(self) -> None:
-        """Where there is nothing to command; loses the lease that has ended."""
+        """Keeps the lease if there is nothing to command; notes a lease that has ended."""
         answer = await self._ask(Opcode.lease, 0.0)
         if answer.refusal == Refusal.none:
             self._lease_from = time.monotonic()
@@ -99,7 +99,7 @@ class Session:
             self._number = 0
 
     def receive(self, base: int, data: bytes) -> None:
-        """An Acknowledge, Setting, Tuning or RefusedValue of the node."""
+        """Handles an Acknowledge, Setting, Tuning or RefusedValue of the node."""
         message = codec.decode(base, data)
         if base == messages.REFUSED_VALUE and message is not None:
             if self._newest_refused is not None and not self._newest_refused.done():
@@ -120,7 +120,7 @@ class Session:
             answer.nearest = self._newest_refused = asyncio.get_running_loop().create_future()
 
     def _settle(self, key: tuple[int, ...], answer: Answer) -> bool:
-        """Whether anybody waits for it. Whoever does goes on later, in the event loop."""
+        """Whether a call waits for the answer. That call goes on later, in the event loop."""
         answered = self._pending.get(key)
         if answered is None or answered.done():
             return False
@@ -148,15 +148,15 @@ class Session:
 
     async def _exchange(self, layout: Layout, what: tuple[int, ...], *, checked_session: int | None = None,
                         **fields: float) -> Answer:
-        """checked_session: of a frame that has it in its checksum only."""
+        """checked_session: for a frame that has the session in its checksum only."""
         identifier = layout.base | self.node
         answered: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
         key: tuple[int, ...] = ()
         try:
-            async with self._sending:  # in the order of the counters, also when the bus is busy
+            async with self._sending:  # in the order of the counters, even if the bus is busy
                 counter = self._next_counter()
                 if counter == 0 and layout in (_SETTING_WRITE, _TUNING_WRITE):
-                    counter = self._next_counter()  # 0 is the counter of an answer to somebody who reads
+                    counter = self._next_counter()  # 0 is the counter of an answer to a read
                 key = (_ANSWERS[layout.base], counter, *what)
                 self._pending[key] = answered
                 await self._send(identifier, e2e.protected(
@@ -206,18 +206,18 @@ class Session:
                 await self._claim(0)
 
     async def _claim(self, lost: int) -> None:
-        """Unless another command has claimed meanwhile: then the session is not the lost one."""
+        """Does nothing if another command has claimed meanwhile: the session then differs from the lost one."""
         async with self._claiming:
             if self._number != lost:
                 return
             self._number = 0
             answer = await self._ask(Opcode.lease, 0.0)
-            for _ in range(_CLAIMS_IN_A_ROW):  # another master may use a number first
+            for _ in range(_CLAIMS_IN_A_ROW):  # another master may use a nonce first
                 if answer.refusal != Refusal.claim_again:
                     break
                 answer = await self._ask(Opcode.lease, answer.value)
             if answer.refusal == Refusal.no_lease:
-                # To a board of an older version the claim was a command without a lease.
+                # A board of an older version took the claim for a command without a lease.
                 raise self._refused(Refusal.protocol_mismatch, "lease")
             if answer.refusal != Refusal.none:
                 raise self._refused(answer.refusal, "lease")

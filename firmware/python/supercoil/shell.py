@@ -1,4 +1,4 @@
-"""python -m supercoil: a muscle at Python's prompt."""
+"""python -m supercoil: a muscle at the Python prompt."""
 
 import argparse
 import code
@@ -24,7 +24,7 @@ help(muscle.arm)    and so on; Ctrl-D ends it, and disarms the muscle"""
 
 
 class Shell:
-    """What its prompt has names for."""
+    """The names that its prompt offers."""
 
     def __init__(self, muscle: sync.Muscle, recording: Recording) -> None:
         self._muscle = muscle
@@ -46,7 +46,7 @@ class Shell:
 
 
 def _load_libraries() -> None:
-    """Before anything heats: loading them for the first time can keep Python's lock for as long as a command lasts."""
+    """Called before anything heats: loading them first can hold Python's lock for as long as a command lasts."""
     for name in ("supercoil.tables", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         with contextlib.suppress(ImportError):
             importlib.import_module(name)

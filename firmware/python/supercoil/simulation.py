@@ -1,4 +1,4 @@
-"""The simulated board, as a process of its own in real time, and its muscle."""
+"""The simulated board as a separate process in real time, and its muscle."""
 
 import asyncio
 import os
@@ -30,9 +30,9 @@ def _program() -> str:
 
 
 def _start(command: list[str]) -> tuple["subprocess.Popen[str]", int]:
-    """It, and the port on which it serves the board's bus."""
+    """Starts the process; also returns the port on which it serves the board's bus."""
     try:
-        # In a session of its own: Ctrl-C is for this program, which then ends the simulation in order.
+        # In a process session of its own: Ctrl-C reaches only this program, which then ends the simulation in order.
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    start_new_session=True)
     except OSError as error:
@@ -47,8 +47,8 @@ def _start(command: list[str]) -> tuple["subprocess.Popen[str]", int]:
 class Simulation:
     """async with Simulation("bench") as simulation: await simulation.muscle.arm() ...
 
-    scenario: a name of supercoil-sim list, or the path of a TOML file. folder: for what it writes; otherwise that is
-    gone at the end. options: more of supercoil-sim's, as they are on the command line. address is its bus, which other
+    scenario: a name of supercoil-sim list, or the path of a TOML file. folder: for its results; without one they are
+    deleted at the end. options: further ones of supercoil-sim, as on its command line. address is its bus, which other
     programs may join.
     """
 
@@ -80,7 +80,7 @@ class Simulation:
             await self._end()
             raise
         self._process = process
-        self._kill = weakref.finalize(self, process.kill)  # also when Python ends
+        self._kill = weakref.finalize(self, process.kill)  # also when Python exits
         self.address = f"socketcand:{port}"
         muscle = Muscle(self.address, self._node, deadline_s=self._deadline_s)
         try:
@@ -92,7 +92,7 @@ class Simulation:
         return self
 
     async def stop(self) -> None:
-        """Its results are in the folder then."""
+        """The results are then in the folder."""
         if self._muscle is not None:
             muscle, self._muscle = self._muscle, None
             try:

@@ -1,4 +1,4 @@
-"""The same without asyncio: every call here waits for the one of the same name in supercoil.Muscle."""
+"""The same without asyncio: every call here waits for the call of that name in supercoil.Muscle."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -36,7 +36,7 @@ class Muscle:
 
     @classmethod
     def of(cls, muscle: "asynchronous.Muscle") -> Self:
-        """A face of it, whether it is connected or not."""
+        """A synchronous face of the muscle, whether it is connected or not."""
         made = cls.__new__(cls)
         made._muscle = muscle
         return made
@@ -222,7 +222,7 @@ class Simulation:
 
     @classmethod
     def of(cls, simulation: AsyncSimulation) -> Self:
-        """A face of it, whether it is started or not."""
+        """A synchronous face of the simulation, whether it is started or not."""
         made = cls.__new__(cls)
         made._simulation = simulation
         return made

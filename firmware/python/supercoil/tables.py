@@ -1,4 +1,4 @@
-"""Frames as a table of pandas, with units."""
+"""Frames as a pandas table, with units."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from supercoil.layout import Signal
 
 
 def _named(signal: Signal, values: pandas.Series) -> pandas.Series:
-    """Names in place of their numbers."""
+    """Replaces numbers by their names."""
     if signal.type in (float, int, bool):
         return values
     names = {number: str(signal.type(number)) for number in values.unique()}
@@ -18,8 +18,8 @@ def _named(signal: Signal, values: pandas.Series) -> pandas.Series:
 
 
 def table_of(frames: Sequence[tuple[float, int, bytes]]) -> pandas.DataFrame:
-    """frames: time, base, data, in their order. A row for each time, a column for each signal, Message.signal; what a
-    message does not tell at that time is NaN. attrs["units"]: of each column."""
+    """frames: time, base, data, in order. A row for each time, a column Message.signal for each signal; NaN: the
+    message does not carry it at that time. attrs["units"]: of each column."""
     parts, units = [], {}
     for base in sorted({base for _, base, _ in frames if base in codec.LAYOUTS}):
         layout = codec.LAYOUTS[base]

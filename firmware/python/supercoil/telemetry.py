@@ -1,4 +1,4 @@
-"""What a node has told: the newest message of each kind, and of those that come round each of the round."""
+"""What a node has sent: the newest message of each kind, and for multiplexed ones, the newest of each value."""
 
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -11,14 +11,14 @@ from supercoil.named import unknown
 M = TypeVar("M", bound=tuple[Any, ...])
 Listener = Callable[[int, float, bytes], None]
 
-# Their first signal, which begins with the first bit, says whose value a frame carries; here the bits that it has.
+# The first signal begins with the first bit and says which value a frame carries; this is the mask of its bits.
 _ROUNDS = {base: codec.LAYOUTS[base].signals[0].mask for base in (
     messages.ESTIMATE, messages.MARGIN, messages.LIMIT, messages.GAIN, messages.MUSCLE, messages.JOINT)}
 _BASES: dict[type[Any], int] = {layout.type: layout.base for layout in messages.LAYOUTS}
 
 
 def base_of(kind: type[Any] | str) -> int:
-    """Of a message's type, or of its name."""
+    """The base of a message's type, or of its name."""
     if isinstance(kind, str):
         if kind not in codec.BY_NAME:
             raise unknown("message", kind, codec.BY_NAME)
@@ -27,7 +27,7 @@ def base_of(kind: type[Any] | str) -> int:
 
 
 class Telemetry:
-    """Frames are kept as they came and decoded when they are asked for."""
+    """Keeps frames as they came, and decodes them on request."""
 
     def __init__(self, node: int) -> None:
         self.node = node
@@ -36,7 +36,7 @@ class Telemetry:
         self._listeners: tuple[Listener, ...] = ()
 
     def take(self, base: int, time_s: float, data: bytes) -> None:
-        """From the thread that reads the bus."""
+        """Called from the thread that reads the bus."""
         self._newest[base] = (time_s, data)
         if data and base in self._rounds:
             self._rounds[base][data[0] & _ROUNDS[base]] = (time_s, data)
@@ -50,7 +50,7 @@ class Telemetry:
         self._listeners = tuple(one for one in self._listeners if one != listener)
 
     def newest(self, kind: type[M]) -> M | None:
-        """None: none has come yet."""
+        """The newest message of a kind; None: none has come yet."""
         base = base_of(kind)
         if (kept := self._newest.get(base)) is None:
             return None
@@ -97,7 +97,7 @@ class Telemetry:
 
     @property
     def joint(self) -> messages.Joint:
-        """Of the node of a joint, its agonist's: the newest frame, with the newest of what other parts carry."""
+        """From the node of a joint, its agonist's: the newest frame, with the newest values of the other parts."""
         told = self.of(messages.Joint)
         parts = {signal.name: getattr(message, signal.name) for message in self._round(messages.Joint)
                  for signal in codec.LAYOUTS[messages.JOINT].signals if signal.selected_by == message.part}
@@ -105,7 +105,7 @@ class Telemetry:
 
     @property
     def estimates(self) -> dict[names.Parameter, float]:
-        """What the board has learned, by the names of the DBC; NaN: not known."""
+        """What the board has learned, by the DBC's names; NaN: not known."""
         values = {}
         for message in self._round(messages.Estimate):
             layout = codec.LAYOUTS[messages.ESTIMATE]
@@ -115,7 +115,7 @@ class Telemetry:
 
     @property
     def gains(self) -> dict[names.Gain, float]:
-        """Of the active controller."""
+        """The gains of the active controller."""
         told = {message.gain: message.value for message in self._round(messages.Gain)}
         return {gain: value for gain, value in sorted(told.items()) if gain != names.Gain.none}
 

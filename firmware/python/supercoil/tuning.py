@@ -1,4 +1,4 @@
-"""The values of controllers and estimators, changed while the board runs (docs/tuning.md)."""
+"""Changes values of controllers and estimators while the board runs (docs/tuning.md)."""
 
 import math
 from collections.abc import Mapping
@@ -15,19 +15,19 @@ _FLAG = ("false", "true")
 
 
 class Tuned(NamedTuple):
-    """One value of a controller or estimator, in each set; None: it has none there."""
+    """One value of a controller or estimator, in each set; None: that set has none."""
 
     name: str
     unit: str
     in_use: Value
-    configured: Value  # by the board's file
+    configured: Value  # from the board's file
     stored: Value  # for the next start
     prepared: Value  # for the next take_over()
-    range: tuple[Value, ...]  # lowest and highest; of a flag or a name all that it may be
+    range: tuple[Value, ...]  # lowest and highest; for a flag or a name, all choices
 
 
 class _Place(NamedTuple):
-    """Of what is tuned: as the protocol counts, and what there may be."""
+    """What is tuned: its number in the protocol, and the tunables that it may have."""
 
     name: str
     kind: str
@@ -54,7 +54,7 @@ def _value_of(choices: tuple[str, ...] | None, told: float) -> Value:
     place = int(told)
     if choices == _FLAG:
         return bool(place)
-    return choices[place] if place < len(choices) else str(place)  # of a newer board
+    return choices[place] if place < len(choices) else str(place)  # from a newer board
 
 
 def _number_of(tunable: Tunable, choices: tuple[str, ...] | None, value: float | str) -> float:
@@ -83,7 +83,7 @@ def _set_of(name: str) -> Set:
 
 class Tuning(Learning):
     async def tuning(self, controller: int = 0, *, estimator: int | None = None) -> dict[str, Tuned]:
-        """All that this controller has, by name; or this estimator. Both: places in the configuration, from 0."""
+        """All values of this controller, by name, or of this estimator. Both: places in the configuration, from 0."""
         place = _place_of(controller, estimator)
         told = {}
         for tunable, unit in place.units.items():
@@ -103,14 +103,14 @@ class Tuning(Learning):
 
     async def tune(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
                    **values: float | str) -> None:
-        """Used from now on: by a controller without a jump of the power; an estimator begins anew. base: the set that
-        the values are changed in; "configured" is the way back. What is refused changes nothing that is in use."""
+        """Takes effect at once: a controller without a jump of the power; an estimator starts from scratch. base: the
+        set in which the values are changed; "configured" undoes changes. A refusal changes nothing that is in use."""
         await self.prepare(controller, estimator=estimator, base=base, **values)
         await self.take_over(controller, estimator=estimator)
 
     async def prepare(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
                       **values: float | str) -> None:
-        """The same for a later take_over(): nothing changes yet."""
+        """Does the same for a later take_over(): nothing changes yet."""
         place = _place_of(controller, estimator)
         wanted = {}
         for name, value in values.items():
@@ -118,17 +118,17 @@ class Tuning(Learning):
             wanted[tunable] = _number_of(tunable, place.choices.get(tunable), value)
         self._kept.alive()
         await self._link.prepare(place.number, Tunable.all, _set_of(base))
-        for tunable in sorted(wanted):  # what there is depends on the kind, and the poles on the model
+        for tunable in sorted(wanted):  # the values depend on the kind, and the poles on the model
             await self._link.prepare(place.number, tunable, wanted[tunable])
 
     async def take_over(self, controller: int = 0, *, estimator: int | None = None) -> None:
-        """Uses what was prepared."""
+        """Takes the prepared values into use."""
         await self._obey(Opcode.controller, TUNES_FROM + _place_of(controller, estimator).number)
 
     async def store_tuning(self) -> None:
-        """Keeps what is in use, and which controller and estimator are chosen, for the next start."""
+        """Stores the values in use, and which controller and estimator are chosen, for the next start."""
         await self._obey(Opcode.store, STORE_TUNING)
 
     async def forget_tuning(self) -> None:
-        """The next start goes by the board's file."""
+        """The next start uses the board's file."""
         await self._obey(Opcode.store, FORGET_TUNING)

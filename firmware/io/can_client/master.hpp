@@ -46,7 +46,7 @@ struct TunedPlace {
 };
 struct TunedValue {
   Refusal refusal;
-  double value;          ///< in use now; NaN: none
+  double value;          ///< that holds now; NaN: none
   std::uint8_t counter;  ///< that of the write; 0: answers a read
 };
 /// Asks for one value; needs no lease.
@@ -115,7 +115,7 @@ class Master {
   struct Setting {
     std::uint8_t setting;
     Refusal refusal;
-    double value;  ///< in use now; NaN: none
+    double value;  ///< that holds now; NaN: none
   };
   /// Empty: no intact answer to this master's last write, or to anybody's read.
   std::optional<Setting> receive_setting(const hal::CanFrame& frame, bool of_write);

@@ -74,7 +74,7 @@ std::string stiffness_text(const JointSettings& joint, double stiffness_N_per_m)
   return out.str();
 }
 
-/// Both muscles' configurations describe the whole joint, so they must agree.
+/// Both muscles' configurations describe the whole joint, so they should agree.
 void advise_alike(const BoardSettings& board, const JointSettings& joint,
                   std::vector<std::string>& lines) {
   constexpr double max_ratio = 1.3;
@@ -115,7 +115,7 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
   return out.str();
 }
 
-/// The angle from which on each muscle is slack without power, and the power that keeps it taut at
+/// The angle beyond which each muscle is slack without power, and the power that keeps it taut at
 /// the end of its travel, whatever holds the joint there.
 std::string slack_text(const BoardSettings& board, const JointSettings& joint) {
   if (!std::isfinite(joint.pretension_N)) return "not told: pretension_N is not configured";

@@ -18,7 +18,7 @@ struct Puller {
   std::size_t channel;  ///< from 0
   double pretension_N;
   double heat_N;           ///< that heat may add to it
-  double agonist_W_per_N;  ///< co-contraction per newton of it, where the temperature allows it
+  double agonist_W_per_N;  ///< co-contraction per newton of heat_N, if temperature allows it
   double power_W;          ///< its own power
 };
 

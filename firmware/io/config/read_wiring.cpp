@@ -17,7 +17,7 @@ constexpr int converter_bytes = 5;
 /// A converter is read once per tick, and its value may be missing twice.
 constexpr double age_ticks = 3.0;
 constexpr double min_max_age_s = 0.01;
-/// Ends the owner's name of a channel's position.
+/// Suffix of the owner's name of a channel's position.
 constexpr std::string_view position_of = "'s position";
 
 }  // namespace

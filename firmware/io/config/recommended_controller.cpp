@@ -18,7 +18,7 @@ using control::ControllerSettings;
 constexpr ControllerKind recommended_kind = ControllerKind::learned_ff;
 constexpr double max_bandwidth_rad_per_s = 8.0;
 constexpr double min_bandwidth_rad_per_s = 0.01;
-/// Of the paper's muscle, which the controllers' defaults are meant for.
+/// Time constant of the paper's muscle, which the controllers' defaults are meant for.
 constexpr double usual_time_constant_s = 1.82;
 constexpr double telling_ratio = 0.1;
 constexpr int told_digits = 4;
@@ -32,7 +32,7 @@ constexpr double min_margin = 0.4;
 constexpr double peak_ratio = 2.0;
 
 constexpr std::string_view closest = "follows closest";
-/// A promise above this fraction of that in use is no reason to change the bandwidth.
+/// A promised error above this fraction of the one in use is no reason to change the bandwidth.
 constexpr double clearly_less_ratio = 0.95;
 /// Fraction of the recommended bandwidth. A slower loop corrects disturbances too late, whatever it
 /// promises for a motion without any.

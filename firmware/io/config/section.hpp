@@ -100,7 +100,7 @@ class Section {
     std::string key;
     std::string rule;
   };
-  /// Remembers a key once.
+  /// Remembers a key, a repeated one only once.
   void know(std::string_view key) {
     if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   }

@@ -89,7 +89,7 @@ void judge_muscle(const ChannelSettings& c, Findings& findings) {
   }
 }
 
-/// Only a thermal fuse senses how hot one place of the thread is, and cuts without a board.
+/// Only the thermal fuse senses a hot place of the thread, and only it cuts without a board.
 void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
                         Findings& findings) {
   std::ostringstream reason;

@@ -122,7 +122,7 @@ bool LearnedStore::has_muscle() const {
   return may_know(path_) || may_know(previous_path_);
 }
 
-/// Removes the file that load() uses last, so that load() never gives an older set or an error.
+/// The file that load() uses goes last, so that load() never gives an older set or an error.
 Result<void> LearnedStore::clear() {
   synced_ = false;
   const bool by_current = examine(*files_, path_).learned.has_value();

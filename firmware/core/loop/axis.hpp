@@ -243,6 +243,8 @@ class Axis {
   void publish_muscle();
   static Refusal refusal_of(ModeResult kept);
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
+  ModeResult keep_fitted(const control::PhysicalParameters& muscle, double unexplained_ratio,
+                         const board::Identification& identification);
   ModeResult keep_identified();
   Refusal store_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(const board::Calibration& calibration);

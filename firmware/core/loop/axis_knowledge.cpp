@@ -1,5 +1,6 @@
 // What an axis knows of its muscle and passes to the storage worker.
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "loop/axis.hpp"
@@ -79,6 +80,17 @@ void Axis::follow_knowledge(const Axis& leader) {
   inputs_.expected_anew = leader.inputs_.expected_anew;
 }
 
+/// Keeps a muscle together with how well it was fitted.
+ModeResult Axis::keep_fitted(const control::PhysicalParameters& muscle, double unexplained_ratio,
+                             const board::Identification& identification) {
+  const auto before = std::pair(unexplained_ratio_, identification_);
+  unexplained_ratio_ = unexplained_ratio;
+  identification_ = identification;
+  const ModeResult kept = keep(muscle, calibration_);
+  if (kept == ModeResult::implausible) std::tie(unexplained_ratio_, identification_) = before;
+  return kept;
+}
+
 /// Stores them for the next start. Facts that cannot be stored hold until then.
 Refusal Axis::store_thermal_facts(const board::ThermalFacts& facts) {
   board::Learned learned = known();
@@ -123,10 +135,8 @@ Refusal Axis::store(const Command& command) {
   if (!estimation_.trusted()) return Refusal::not_ready;
   const auto muscle = estimation_.trusted_muscle(muscle_);
   if (!muscle) return Refusal::out_of_range;
-  const board::Identification before = std::exchange(identification_, {});
-  const ModeResult kept = keep(*muscle, calibration_);
-  if (kept == ModeResult::implausible) identification_ = before;
-  return refusal_of(kept);
+  // How well an earlier identify explained its strokes says nothing about this muscle.
+  return refusal_of(keep_fitted(*muscle, 0.0, {}));
 }
 
 /// Stores the values of controllers and estimators and which are chosen, or clears both.

@@ -1,8 +1,6 @@
 // How an axis measures its muscle on command: identify and calibrate.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "loop/axis.hpp"
 
@@ -60,11 +58,9 @@ bool Axis::step_small_signal() {
 
 /// What is expected follows the identified muscle from now on, as at the next start.
 ModeResult Axis::keep_identified() {
-  const auto before = std::pair(unexplained_ratio_, identification_);
-  unexplained_ratio_ = identify_.quality().unexplained_ratio;
-  identification_ = identification_of(identify_.quality());
-  const ModeResult kept = keep(identify_.found(), calibration_);
-  if (kept == ModeResult::implausible) std::tie(unexplained_ratio_, identification_) = before;
+  const auto& quality = identify_.quality();
+  const ModeResult kept =
+      keep_fitted(identify_.found(), quality.unexplained_ratio, identification_of(quality));
   if (kept == ModeResult::found || kept == ModeResult::not_stored) {
     heater_.believe(muscle_);
     inputs_.expected_anew = true;

@@ -30,10 +30,14 @@ Refusal refusal_in(const supercoil_setting_t& told) {
 
 }  // namespace
 
-/// The estimator begins at the muscle's values: it has to prove them only.
+/// The estimator starts at the muscle's values and only has to prove them. An earlier identify told
+/// how well it had found them.
 RigSettings well_known() {
   RigSettings settings = rough_board();
-  control::GradientSettings& gradient = settings.firmware.channels[0].estimators[0].gradient;
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.unexplained_ratio = 0.03;
+  channel.identification = {{0.1, 0.1, 0.1, 0.1}, 1795219200.0};
+  control::GradientSettings& gradient = channel.estimators[0].gradient;
   gradient.initial = gradient.scale.nominal;
   return settings;
 }
@@ -201,4 +205,8 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
   const control::PhysicalParameters& believed = rig.settings.firmware.channels[0].muscle;
   DOUBLES_EQUAL(believed.force_per_kelvin_N_per_K, update->muscle.force_per_kelvin_N_per_K, 0.0);
   DOUBLES_EQUAL(believed.moving_mass_kg, update->muscle.moving_mass_kg, 0.0);
+  // An earlier identify's measures belong to the muscle that it found.
+  DOUBLES_EQUAL(0.0, update->unexplained_ratio, 0.0);
+  CHECK(update->identification == board::Identification{});
+  CHECK_TRUE(std::isnan(rig.loop.channel(0).known(known_unexplained_ratio)));
 }

@@ -19,7 +19,7 @@ Fault BoardSupervisor::step(const BoardInputs& e) {
   verdict_.begin();
   const bool closed = e.stop_circuit.status == hal::Status::ok && e.stop_circuit.high;
   verdict_.note(emergency_stop, stop_.step(!closed), stop_);
-  // A supply that cannot be measured may be anything.
+  // Without a measurement the supply is unknown; NaN trips under_voltage.
   const double supply_V = e.supply.present ? e.supply.value : std::nan("");
   verdict_.note(under_voltage, under_.step(supply_V), under_);
   verdict_.note(over_voltage, over_.step(e.supply.present ? supply_V : 0.0), over_);

@@ -1,4 +1,4 @@
-// May this board be hot at all? What concerns every channel.
+// May this board be hot at all? Detects the faults that concern every channel.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace supercoil {
 struct BoardInputs {
   board::Measured supply;  ///< in V
   hal::Level stop_circuit;
-  double late_s = 0.0;       ///< how much after its time this tick woke
+  double late_s = 0.0;       ///< how late this tick woke
   std::int64_t skipped = 0;  ///< periods that the last tick overran
   bool lines_ok = true;      ///< every line of the last tick was set
   std::uint32_t telemetry_heartbeats = 0;
   hal::CanState bus = hal::CanState::active;
-  bool node_conflict = false;  ///< another board speaks as a node of this one
+  bool node_conflict = false;  ///< another board sends as a node of this one
   bool configuration_changed = false;
   bool self_test_failed = false;
-  int self_test_cut = 1;  ///< which cut failed it: 1 the charge pump, 2 an enable line
+  int self_test_cut = 1;  ///< the cut that failed: 1 the charge pump, 2 an enable line
 };
 
 class BoardSupervisor {

@@ -1,4 +1,4 @@
-// What a channel's supervisor judges by: the axis, the heater and the commands each fill their own.
+// Inputs of a channel's supervisor. The axis, the heater and the commands each fill their own.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,24 @@
 
 namespace supercoil {
 
-/// Of the muscle's motion, at this tick.
+/// The muscle's motion at this tick.
 struct AxisInputs {
   board::Measured position;         ///< in m, calibrated
-  double sensor_m = 0.0;            ///< the same as the sensor gives it
+  double sensor_m = 0.0;            ///< the same before calibration
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
   double demanded_W = 0.0;          ///< by the controller, at the last tick
   bool in_joint = false;
-  /// By how much the other muscle of the joint moves it away, as HeaterInputs::expected_m.
+  /// How far the joint's other muscle moves it the other way; as HeaterInputs::expected_m.
   detectors::NotResponding::Expected opposed_m{};
-  double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
+  double from_position_K = 0.0;  ///< by the position; compared with from_resistance_K
   bool answered = false;         ///< the muscle was seen to follow its power
-  bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
-  detectors::Margin answer;      ///< and by how much
-  std::optional<detectors::Recalibration> recalibrated;  ///< positions jumped
-  bool expected_anew = false;                            ///< what is expected of them jumped
+  bool unanswered = false;       ///< the muscle had to prove that it answers, and did not
+  detectors::Margin answer;      ///< of that proof
+  std::optional<detectors::Recalibration> recalibrated;  ///< a calibration shifted the positions
+  bool expected_anew = false;                            ///< the expected positions jumped
 };
 
-/// Of the heater, at this tick.
+/// The heater at this tick.
 struct HeaterInputs {
   board::Measured current;  ///< in A, averaged
   double supply_V = 0.0;
@@ -35,22 +35,22 @@ struct HeaterInputs {
   double duty = 0.0;  ///< as the current sense averages it
   int set_step = 0;
   int read_back = -1;
-  bool devices_ok = true;                           ///< every write of the last tick was taken
-  detectors::NotResponding::Expected expected_m{};  ///< where the models of the muscle are
+  bool devices_ok = true;                           ///< every write of the last tick succeeded
+  detectors::NotResponding::Expected expected_m{};  ///< positions of the muscle's models
   double hottest_C = 0.0;
   double applied_W = 0.0;          ///< as it was set
-  double measured_W = 0.0;         ///< the larger of that and the measured one
-  bool limited = false;            ///< what was set is less than what was wanted
-  double from_resistance_K = 0.0;  ///< the temperature that it tells; 0: none
-  bool probed = false;             ///< a probe ended at this tick with the next value
-  bool resistance_fresh = false;   ///< it was measured at this tick, by a probe or while heating
+  double measured_W = 0.0;         ///< the larger of applied and measured power
+  bool limited = false;            ///< less was set than was demanded
+  double from_resistance_K = 0.0;  ///< temperature rise by the resistance; 0: none
+  bool probed = false;             ///< a probe ended at this tick; resistance_Ohm is its result
+  bool resistance_fresh = false;   ///< measured at this tick, by a probe or while heating
   double resistance_Ohm = 0.0;
-  double min_Ohm = 0.0;  ///< between these it should be, at whichever temperature
+  double min_Ohm = 0.0;  ///< bounds of resistance_Ohm over all possible temperatures
   double max_Ohm = 0.0;
   bool probe_failed = false;  ///< a probe ended without a resistance
 };
 
-/// Of the commands since the last tick.
+/// The commands since the last tick.
 struct CommandInputs {
   bool heating = false;  ///< a command to heat is in force
   bool renewed = false;

@@ -29,19 +29,19 @@ enum class Refusal : std::uint8_t {
   none = 0,
   wrong_state = 1,     ///< this state does not allow it
   cause_persists = 2,  ///< reset: a detector still trips
-  no_edge = 3,         ///< reset: it was already asked for
-  not_ready = 4,       ///< the self-test, a fault of the board or a missing reading is in the way
+  no_edge = 3,         ///< reset: already requested; it needs a rising edge
+  not_ready = 4,       ///< blocked by the self-test, a fault of the board or a missing reading
   busy = 5,            ///< a probe, identification or calibration is under way
-  out_of_range = 6,    ///< its value
+  out_of_range = 6,    ///< the command's value
   no_such_channel = 7,
   not_lease_holder = 8,    ///< over CAN: another master holds the lease
-  no_lease = 9,            ///< over CAN: not held by any master; claim it first
+  no_lease = 9,            ///< over CAN: no master holds the lease; claim it first
   wrong_counter = 10,      ///< over CAN: repeated, or too many were lost before it
   queue_full = 11,         ///< more commands than a tick can take
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
-  protocol_mismatch = 13,  ///< over CAN: of another version of the protocol
+  protocol_mismatch = 13,  ///< over CAN: another version of the protocol
   unsuitable = 14,         ///< a prepared controller that is unstable; the scale of a joint
-  infeasible = 15,  ///< a knot: the muscle cannot move there so fast, or would have to be cooled
+  infeasible = 15,  ///< a knot: the muscle cannot move there that fast, or would have to be cooled
 };
 
 inline constexpr std::array<std::string_view, 16> refusal_names{
@@ -57,7 +57,7 @@ constexpr std::string_view name(Refusal refusal) {
 class ChannelState {
  public:
   State state() const { return state_; }
-  /// What first led to `fault`; later causes do not replace it. None in every other state.
+  /// The cause that first led to `fault`; later ones do not replace it. None in every other state.
   Fault first_cause() const { return first_cause_; }
   /// The level that the enable line must have now.
   bool enable() const { return state_ == State::armed || state_ == State::active; }
@@ -97,7 +97,7 @@ class ChannelState {
 
   State state_ = State::disarmed;
   Fault first_cause_ = Fault::none;
-  bool last_reset_ = true;  ///< a level that is high at boot is no edge
+  bool last_reset_ = true;  ///< a level that is high at boot is not an edge
 };
 
 }  // namespace supercoil

@@ -8,21 +8,21 @@ namespace {
 
 /// A muscle at a quarter of its cold conductance is as good as broken.
 constexpr double open_load_ratio = 0.25;
-/// Frozen: a live sensor's readings spread over more than this part of its own noise.
+/// Frozen: a live sensor's readings spread over more than this fraction of its noise.
 constexpr double frozen_noise_ratio = 0.5;
 /// Jump: two readings of a resting muscle differ by less than this many times the noise.
 constexpr double jump_noises = 12.0;
-/// Loose: so many times responding_min_m are expected of the muscle before it is judged.
+/// Loose: a muscle is judged once its expected motion reaches this multiple of responding_min_m.
 constexpr double loose_motions = 3.0;
-/// The resistance is smoothed; outside its span for this long it is not noise.
+/// The resistance is smoothed: outside its range for this long, it is not noise.
 constexpr double drifting_s = 0.5;
-constexpr double quiet_sensor_m = 50e-6;  ///< a jump is more than this, however quiet the sensor
+constexpr double quiet_sensor_m = 50e-6;  ///< a jump exceeds this, however quiet the sensor
 
 double frozen_band_m(const ChannelSupervision& s) {
   return s.position_noise_rms_m > 0.0 ? frozen_noise_ratio * s.position_noise_rms_m : -1.0;
 }
 
-/// Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
+/// A demand below zero is how a muscle cools; a demand above the applied power cannot last.
 bool wants_more(const AxisInputs& axis, const HeaterInputs& heater) {
   return heater.limited && axis.demanded_W > heater.applied_W;
 }
@@ -70,8 +70,8 @@ void ChannelSupervisor::judge_sensors(const AxisInputs& axis, const HeaterInputs
   verdict_.note(sensor_stale, stale_.step(absent), stale_);
   if (!axis.position.present) return;  // nothing to judge, and stale already says so
   verdict_.note(sensor_out_of_range, out_of_range_.step(axis.sensor_m), out_of_range_);
-  // A reading from outside is no position: coming and going it would look like a jump.
-  // Judged as the sensor gives it: a new calibration moves every position.
+  // A reading outside the range is not a position: an intermittent one would look like a jump.
+  // Judged before calibration, as a new calibration moves every position.
   if (axis.position_elapsed_s > 0.0 && inside(axis.sensor_m)) {
     verdict_.note(sensor_jump, jump_.step(axis.sensor_m, axis.position_elapsed_s), jump_);
   }
@@ -85,13 +85,13 @@ void ChannelSupervisor::judge_heater(const HeaterInputs& e) {
   const double current_A = e.current.present ? e.current.value : 0.0;
   verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
                 wrong_duty_);
-  // Without a reading nothing proves that the heat is off: the board is cut, to be sure.
+  // Without a reading nothing proves that the heat is off, so the board is cut to be safe.
   verdict_.note(heater_stuck_on, stuck_on_.step(e.off, e.current.present ? current_A : INFINITY),
                 stuck_on_);
   if (!e.current.present) return;
   verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_);
-  // What is above the current of the least resistance that the muscle may have. Without a supply
-  // that is known there is none; that the supply is not is under_voltage's to say.
+  // Judges the excess over the current at the muscle's minimum resistance. Not judged while the
+  // supply is unknown: under_voltage reports that.
   const double max_A = e.duty * e.supply_V / settings_.min_resistance_Ohm;
   const bool judged = !e.off && e.supply_V > 0.0;
   verdict_.note(heater_short, short_.step(judged ? current_A - max_A : 0.0), short_);
@@ -128,7 +128,7 @@ void ChannelSupervisor::judge_muscle(const AxisInputs& axis, const HeaterInputs&
     verdict_.note(over_travel, travel_.step(axis.position.value), travel_);
   }
   verdict_.note(energy_budget_exceeded, energy_.step(heater.measured_W), energy_);
-  // While heating as well: a sense that reads too little current makes the power stage give more.
+  // Also while heating: a sense that reads too little current makes the power stage give more.
   if (heater.resistance_fresh) {
     verdict_.note(resistance_drift,
                   drift_.step(heater.resistance_Ohm, heater.min_Ohm, heater.max_Ohm, heater.probed),
@@ -145,7 +145,7 @@ void ChannelSupervisor::judge_commands(const CommandInputs& commands, const Axis
   const bool unmet_demand = commands.heating && wants_more(axis, heater);
   verdict_.note(controller_invalid, lost_.step(axis.demanded_W, unmet_demand), lost_);
   verdict_.note(command_timeout, expired_.step(commands.renewed, commands.heating), expired_);
-  // Only an obeyed command ends a row: damaged and refused ones may alternate.
+  // Only an obeyed command ends a row, as damaged and refused ones may alternate.
   if (commands.damaged || commands.obeyed) {
     verdict_.note(command_damaged, damaged_.step(commands.damaged), damaged_);
   }

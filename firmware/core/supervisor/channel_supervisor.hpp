@@ -1,4 +1,4 @@
-// May this channel be hot? All of a channel's detectors, and nothing but they.
+// May this channel be hot? Holds all of a channel's detectors and nothing else.
 #pragma once
 
 #include "supervisor/channel_inputs.hpp"
@@ -17,8 +17,8 @@ class ChannelSupervisor {
  public:
   ChannelSupervisor(const ChannelSupervisor&) = delete;
   ChannelSupervisor& operator=(const ChannelSupervisor&) = delete;
-  /// cold_resistance_Ohm and min_supply_V say what current is too little, sense_filter_s how long
-  /// the current's sense shows what flowed before.
+  /// cold_resistance_Ohm and min_supply_V set the current that is too low; sense_filter_s is how
+  /// long the current sense still shows earlier current.
   ChannelSupervisor(const ChannelSupervision& settings, double cold_resistance_Ohm,
                     double min_supply_V, double sense_filter_s, double step_s);
 
@@ -26,7 +26,7 @@ class ChannelSupervisor {
   /// After an overrun it is called once for each period that passed.
   Fault step(const AxisInputs& axis, const HeaterInputs& heater, const CommandInputs& commands);
   const Verdict& verdict() const { return verdict_; }
-  /// Whether a working sensor can give this.
+  /// Whether a working sensor can give this reading.
   bool inside(double sensor_m) const {
     return sensor_m >= settings_.min_position_m && sensor_m <= settings_.max_position_m;
   }

@@ -12,22 +12,22 @@ namespace {
 
 constexpr double max_response_m = 20e-6;
 constexpr double max_counts = 2.0;
-/// Of the channel's greatest power.
+/// Of the channel's maximum power.
 constexpr double max_amplitude_ratio = 0.1;
-/// 0.2 s is the mechanical answer of the paper's muscle; slower ones need longer halves. Beyond
-/// usual_half_s only where none is decided in time: a slow dither is the harder to tell from a
-/// drift.
+/// 0.2 s is the mechanical answer of the paper's muscle; slower ones need longer halves. Halves
+/// beyond usual_half_s are used only if no shorter one is decided in time: a slow dither is harder
+/// to tell from drift.
 constexpr std::array halves_s{0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 3.5, 6.0};
 constexpr double usual_half_s = 1.2;
-/// Of a response as large as it may be, where friction lets go of the muscle during a long half.
+/// Max motion, over the max answer, if friction lets go of the muscle during a long half.
 constexpr double max_unheld_ratio = 4.0;
-/// What takes longer is no dither; of its half.
+/// The longest run of a dither, in halves.
 constexpr double max_halves = 2.5;
 
-/// Of the longest half, in steps of 6.7 ms: that is at 149 Hz.
+/// For the longest half at 149 Hz, in steps of 6.7 ms.
 constexpr std::size_t max_steps = 2250;
 
-/// What a dither must do, and how much of it.
+/// What a dither must achieve, and its limits.
 struct Needs {
   double max_m;       ///< its peak
   double max_W;       ///< its amplitude
@@ -35,12 +35,12 @@ struct Needs {
   double step_s;
 };
 
-/// What a watt of a dither moves, in one pass of the model: it is linear.
+/// Answer to a dither of one watt, from one pass of the linear model.
 class UnitAnswer {
  public:
   UnitAnswer(const Needs& needs, const Dither& dither) : needs_(needs), dither_(dither) {}
 
-  /// For longest_s; no longer than useful_s if it is not decided until then.
+  /// Runs for longest_s, or only for useful_s if it is not decided by then.
   void run(ExpectedMotion motion, double longest_s, double useful_s) {
     detectors::HighPass fast(dither_.corner_rad_per_s, needs_.step_s);
     const std::size_t steps = std::min(max_steps, steps_in(longest_s));

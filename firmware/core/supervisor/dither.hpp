@@ -1,4 +1,4 @@
-// A small, short change of power whose response stands out of the sensor's noise.
+// A small, short change of power whose response stands out from the sensor's noise.
 #pragma once
 
 #include <cmath>
@@ -10,27 +10,27 @@
 
 namespace supercoil {
 
-/// Slower motion counts less: a drift may be anything. Of any motion: higher, and a sine of 0.25
-/// rad/s and 18 mm would have moments that prove nothing for longer than a dither waits.
+/// For any motion. Slower motion counts less, as it may be drift. With a higher corner, a sine of
+/// 0.25 rad/s and 18 mm would at times prove nothing for longer than a dither waits.
 inline constexpr double motion_corner_rad_per_s = 1.0;
-/// Of a dither's answer: a load or a draught moves the muscle by more than the dither, but slower.
+/// For a dither's answer: a load or a draught moves the muscle further than the dither, but slower.
 inline constexpr double dither_corner_rad_per_s = 4.0;
 
-/// The position that a muscle's model has, step by step of some 10 ms.
+/// Position of a muscle's model, in steps of some 10 ms.
 class ExpectedMotion {
  public:
-  /// response_ratio: how much of it arrives at the sensor.
+  /// response_ratio: how much of the motion arrives at the sensor.
   ExpectedMotion(const control::PhysicalParameters& muscle, double step_s,
                  double response_ratio = 1.0);
 
-  /// power_W acted during this step: the mean position in it.
+  /// power_W: during this step. Returns the mean position in this step.
   double step(double power_W) {
     const double before_m = state_[1];
     state_ = discrete_.transition * state_ + discrete_.held.col(0) * power_W;
     return 0.5 * response_ratio_ * (before_m + state_[1]);
   }
   double response_ratio() const { return response_ratio_; }
-  /// Where another model of the same muscle is.
+  /// Continues from the state of another model of the same muscle.
   void take_over(const ExpectedMotion& other) { state_ = other.state_; }
 
  private:
@@ -39,20 +39,20 @@ class ExpectedMotion {
   control::Vector<double, 3> state_ = control::Vector<double, 3>::Zero();
 };
 
-/// What a sensor's mean over a step may be off by.
+/// Error of a sensor's mean over a step.
 struct SensorStep {
   double noise_m;  ///< standard deviation of a step's mean
   double count_m;  ///< one count of the converter
 };
 
-/// A square wave around the power that is wanted, from the middle of a half on: its answer goes
-/// round the position evenly, and whole periods leave nothing behind.
+/// A square wave around the demanded power that begins in the middle of a half: its answer is
+/// centred on the position, and whole periods leave no offset behind.
 struct Dither {
   int half_steps = 1;
   double amplitude_W = 0.0;
-  /// Of the high-passes through which its answer is looked at.
+  /// Corner of the high-passes for its answer.
   double corner_rad_per_s = dither_corner_rad_per_s;
-  /// Until its answer in open loop is needed_deviations of the noise; infinite: never.
+  /// Time until its answer in open loop is needed_deviations of the noise; infinite: never.
   double decided_s = INFINITY;
 
   /// place: steps since it began. +1 or -1.
@@ -62,9 +62,8 @@ struct Dither {
   double step_W(int place) const { return sign(place) * amplitude_W; }
 };
 
-/// The slowest and so the gentlest dither that is decided within in_time_s on a muscle that moves
-/// so, its answer at most 20 µm or two counts; where none is in time, the one that is decided
-/// soonest.
+/// The slowest, so gentlest, dither that is decided within in_time_s on a muscle with this motion,
+/// with an answer of at most 20 µm or two counts. If none is in time, the one decided soonest.
 Dither dither_for(const ExpectedMotion& motion, const SensorStep& sensor, double max_W,
                   double in_time_s, double step_s);
 

@@ -8,7 +8,7 @@
 
 namespace supercoil {
 
-/// Numbers never change and are never used again: logs, CAN and docs/faults refer to them.
+/// Numbers never change and are never reused: logs, CAN and docs/faults refer to them.
 enum class Fault : std::uint8_t {
   none = 0,
   // Sensors
@@ -53,10 +53,10 @@ enum class Fault : std::uint8_t {
   self_test_failed = 82,
 };
 
-/// Whom a fault makes safe.
+/// What a fault makes safe.
 enum class Scope : std::uint8_t {
-  channel,  ///< duty 0 and enable low, of the channel that has it
-  board,    ///< of every channel, and the heartbeat stops: the charge pump opens the supply
+  channel,  ///< the channel that has it: duty 0 and enable low
+  board,    ///< every channel likewise, and the heartbeat stops: the charge pump opens the supply
 };
 
 struct FaultInfo {
@@ -67,9 +67,9 @@ struct FaultInfo {
   std::string_view meaning;  ///< one line
 };
 
-/// All faults in the order of their numbers, `none` not among them.
+/// All faults except `none`, ordered by number.
 const std::array<FaultInfo, 32>& all_faults();
-/// Empty for none and for a number that no fault has.
+/// Empty for `none` and for unknown numbers.
 std::optional<FaultInfo> info(Fault fault);
 /// "none" for none.
 std::string_view name(Fault fault);

@@ -12,7 +12,7 @@ double Limiter::max_W(double temperature_C) const {
 }
 
 Limiter::Result Limiter::step(double demanded_W, double temperature_C) {
-  // Apart: a pair that is copied at each limit is waited for.
+  // Two variables: copying a pair at each limit would stall.
   double power_W = demanded_W;
   LimitedBy by = LimitedBy::nothing;
   const auto hold_at = [&](double limit_W, LimitedBy limit) {

@@ -1,4 +1,4 @@
-// What is left of the wanted power, and which limit took the rest.
+// Limits the demanded power, and tells which limit acted.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace supercoil {
 
-/// Not faults: conditions under which less is given than was wanted.
+/// Not faults: conditions that limit the demanded power.
 enum class LimitedBy : std::uint8_t {
   nothing = 0,
-  minimum = 1,      ///< less than the least power was wanted: a muscle cools at its own pace
-  maximum = 2,      ///< the channel's greatest power
+  minimum = 1,      ///< less than min_W was demanded: a muscle cools at its own pace
+  maximum = 2,      ///< the channel's maximum power
   slew = 3,         ///< power may not rise faster
   temperature = 4,  ///< derated: the muscle is near its limit
-  invalid = 5,      ///< the wanted power was no number; none is given
+  invalid = 5,      ///< the demanded power was not a number; none is given
   cooling = 6,      ///< the reference falls faster than the muscle cools, and was shaped
-  unproven = 7,     ///< no more is safe for a muscle that has not proven that it answers
+  unproven = 7,     ///< more is not safe for a muscle that has not proven that it answers
 };
 
 inline constexpr std::array<std::string_view, 8> limit_names{
@@ -29,9 +29,9 @@ constexpr std::string_view name(LimitedBy limit) {
 struct LimiterSettings {
   double max_W = 4.5;
   double min_W = 0.0;            ///< while active; more than 0 is for experiments only
-  double slew_W_per_s = 1e6;     ///< of rises; falls are never slowed
+  double slew_W_per_s = 1e6;     ///< of rises; falls are not limited
   double derate_from_C = 130.0;  ///< full power up to here,
-  double derate_to_C = 160.0;  ///< none from here on (the trip's temperature); nylon softens above
+  double derate_to_C = 160.0;    ///< none from here on (the trip temperature); nylon softens above
 };
 
 class Limiter {
@@ -44,8 +44,7 @@ class Limiter {
   Limiter(const LimiterSettings& settings, double step_s)
       : settings_(settings), rise_W_(settings.slew_W_per_s * step_s) {}
 
-  /// temperature_C: the hottest that the muscle may be. A temperature that is NaN gives no
-  /// power.
+  /// temperature_C: the hottest that the muscle may be; NaN gives no power.
   Result step(double demanded_W, double temperature_C);
   void set_range(double min_W, double max_W) {
     settings_.min_W = min_W;
@@ -53,13 +52,13 @@ class Limiter {
   }
   /// From an operator: a lower maximum than the configured one.
   void set_cap(double cap_W) { cap_W_ = cap_W; }
-  /// What a muscle may have by what it has proven.
+  /// The maximum for what the muscle has proven so far.
   void set_unproven(double max_W) { unproven_W_ = max_W; }
   double min_W() const { return settings_.min_W; }
   double max_W() const { return cap_W_ < settings_.max_W ? cap_W_ : settings_.max_W; }
-  /// The same for a muscle that may be so hot.
+  /// The same, derated for a muscle that may be this hot.
   double max_W(double temperature_C) const;
-  /// The channel was made safe: the next rise starts from nothing.
+  /// The channel was made safe: the next rise starts from zero.
   void reset() { last_W_ = 0.0; }
 
  private:

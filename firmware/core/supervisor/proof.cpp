@@ -6,22 +6,22 @@ namespace supercoil {
 
 namespace {
 
-/// What is left of the least heat transfer in the worst case: a muscle that is wrapped, or off its
-/// sensor and in still air.
+/// Worst-case fraction of the minimum heat transfer: a muscle that is wrapped, or off its sensor
+/// and in still air.
 constexpr double worst_cooling_ratio = 0.25;
 constexpr double wanted_step_s = 0.01;
-/// A closed loop takes part of the dither away.
+/// A closed loop cancels part of the dither.
 constexpr double loop_ratio = 1.3;
-/// Of the time to the limit: a dither has begun so that it is decided by the first, and without a
-/// decision the power is taken back at the second.
+/// Of the time to the limit: a dither begins early enough to be decided by the first; without a
+/// decision, power is lowered at the second.
 constexpr double decided_ratio = 0.5;
 constexpr double overdue_ratio = 0.75;
-/// A power is provable where a dither is decided in a closed loop before it is overdue.
+/// A power is provable if a dither is decided in closed loop before the proof is overdue.
 constexpr double provable_ratio = loop_ratio / overdue_ratio;
-/// A motion has this long to prove itself before a dither is added to it.
+/// A motion has this long to prove the muscle before a dither is added to it.
 constexpr double patience_s = 0.2;
 constexpr double usual_block_s = 2.0;
-/// Of obvious_m, rms: a position that moves this much by itself is not a dead sensor's.
+/// Of obvious_m, rms: a position that moves this much by itself is not from a dead sensor.
 constexpr double loud_ratio = 0.1;
 constexpr double max_release_s = 3.0;
 /// Powers are rounded to steps of the PWM.
@@ -48,7 +48,7 @@ double rest_K(const ProofSettings& s, double power_W) {
   return power_W * s.max_power_ratio / min_transfer_W_per_K(s);
 }
 
-/// What the interval's hot end comes to.
+/// Rise at which the interval's hot end settles.
 double hot_end_K(const ProofSettings& s, double power_W) {
   return worst_cooling_ratio * rest_K(s, power_W);
 }
@@ -57,7 +57,7 @@ double slowest_s(const ProofSettings& s) {
   return s.thermal.bounds.min_mass_J_per_K / min_transfer_W_per_K(s);
 }
 
-/// With all the power that there is, from the hottest that it may be, with the least mass.
+/// At full_W, from hottest_K, with the minimum mass.
 double time_to_limit_s(const ProofSettings& s, double full_W, double hottest_K) {
   const double full_K = rest_K(s, full_W);
   const double limit_K = s.trip_C - s.thermal.air.warmest_C;
@@ -66,14 +66,14 @@ double time_to_limit_s(const ProofSettings& s, double full_W, double hottest_K) 
   return slowest_s(s) * std::log((full_K - hottest_K) / (full_K - limit_K));
 }
 
-/// Held for ever, a quarter of the least cooling stays below derating.
+/// Held indefinitely at a quarter of the minimum cooling, this power stays below derating.
 double safe_W(const ProofSettings& s, double warmer_air_K) {
   const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
   return std::max(0.0, s.derate_from_C - s.thermal.air.warmest_C - warmer_air_K) * W_per_rest_K;
 }
 
-/// The greatest power with which the hot end, once cooling has failed, has provable_ratio of the
-/// dither's time to the limit: time_to_limit_s() with this power as full and as held.
+/// The maximum power at which the hot end, once cooling fails, takes provable_ratio of the dither's
+/// time to reach the limit: time_to_limit_s() with this power as full and as held.
 double provable_W(const ProofSettings& s, const Dither& dither, double warmer_air_K) {
   const double limit_K = s.trip_C - s.thermal.air.warmest_C - warmer_air_K;
   const bool decides = std::isfinite(dither.decided_s) || rest_K(s, s.max_W) <= limit_K;
@@ -83,7 +83,7 @@ double provable_W(const ProofSettings& s, const Dither& dither, double warmer_ai
   return std::clamp(provable_K * s.max_W / rest_K(s, s.max_W), 0.0, s.max_W);
 }
 
-/// How hot a muscle gets that was cooled worst since it last answered.
+/// Rise of a muscle with worst-case cooling since its last answer.
 control::BasicIntervalEnd<double> uncooled(const ProofSettings& s, double step_s) {
   return control::hot_end(min_transfer_W_per_K(s), s.thermal.bounds, step_s);
 }
@@ -167,26 +167,26 @@ void Proof::plan(double max_power_ratio, const control::PhysicalParameters& musc
   settings_.max_power_ratio = max_power_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
   plan_.for_air(settings_, warmer_air_K_);
-  stop_dither();  // it may have had other halves
+  stop_dither();  // its halves may differ in the new plan
   dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, settings_.response_ratio);
   settled_ = false;
   allow();
 }
 
-/// As it is given no more than it can prove.
+/// The muscle is given no more than the provable power.
 double Proof::time_to_limit_s(double hottest_K) const {
   return supercoil::time_to_limit_s(settings_, plan_.provable_W, hottest_K);
 }
 
-/// So much of the time to the limit, less a reserve: by the clock, or by the heat since it last
-/// answered.
+/// Whether this fraction of the time to the limit, less a reserve, is used up: by the clock, or by
+/// the heat since the last answer.
 bool Proof::is_used(double ratio, double reserve_s, double hottest_K) const {
   const double proven_s = time_to_limit_s(proven_K_);
   return unproven_s_ > ratio * time_to_limit_s(hottest_K) - reserve_s ||
          proven_s - time_to_limit_s(worst_K_) > ratio * proven_s - reserve_s;
 }
 
-/// Of a dither.
+/// Time in which a dither is decided in closed loop.
 double Proof::decision_s() const {
   return loop_ratio * plan_.dither.decided_s;
 }
@@ -226,7 +226,7 @@ void Proof::end_step(const Input& in) {
   sums_ = {};
 }
 
-/// Of what was before the first heating nothing else is known than the hot end.
+/// Before the first heating only the hot end is known.
 void Proof::warm(double power_W, bool heating, double hottest_K) {
   if (!heating && worst_K_ == 0.0) return;
   if (worst_K_ == 0.0) proven_K_ = hottest_K;
@@ -251,8 +251,8 @@ void Proof::compare(double position_m) {
   stage_s_ += step_s_;
 }
 
-/// It gives back no time: a muscle that was not proven is so until it answers, or must have cooled
-/// so far that there is time for a dither.
+/// Rest alone proves nothing: an unproven muscle stays so until it answers, or must have cooled far
+/// enough to leave time for a dither.
 void Proof::rest(double hottest_K) {
   unproven_s_ = 0.0;
   stop_dither();
@@ -281,7 +281,7 @@ void Proof::judge(double power_W, double hottest_K) {
   } else if (silent && (stage_ == Stage::watching || stage_ == Stage::overdue)) {
     enter(Stage::released);
   } else {
-    // What was used by heat goes on.
+    // Only the clock restarts: the heat that was used still counts.
     if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) unproven_s_ = 0.0;
     if (above_safe && is_used(overdue_ratio, 0.0, hottest_K)) {
       if (stage_ == Stage::watching) {
@@ -295,7 +295,7 @@ void Proof::judge(double power_W, double hottest_K) {
   drive_dither(power_W, hottest_K);
 }
 
-/// At this moment. From now on it may be anything again.
+/// The muscle is proven at this moment; it may lose contact from now on.
 void Proof::prove(double hottest_K) {
   unproven_s_ = 0.0;
   proven_K_ = worst_K_ = hottest_K;
@@ -347,13 +347,13 @@ void Proof::begin_block() {
   block_s_ = 0.0;
 }
 
-/// Without a decision what was seen is forgotten: it may have been before contact was lost.
+/// A block without a decision is discarded: it may be from before contact was lost.
 void Proof::end_block() {
   const double dithered_s = dither_place_ < 0 ? 0.0 : decision_s();
   if (block_s_ > std::fmax(usual_block_s, dithered_s)) begin_block();
 }
 
-/// Where the power is held down it is added too: nothing else could be answered there.
+/// Also adds the dither while the power is held down, where nothing else could be answered.
 void Proof::drive_dither(double power_W, double hottest_K) {
   const bool watching = stage_ == Stage::watching;
   const bool overdue = stage_ == Stage::overdue && power_W > 2.0 * plan_.dither.amplitude_W;
@@ -362,13 +362,13 @@ void Proof::drive_dither(double power_W, double hottest_K) {
   const bool due = (in_time || overdue) && std::isfinite(plan_.dither.decided_s);
   const int period = 2 * plan_.dither.half_steps;
   if (dither_place_ >= 0) dither_place_ = (dither_place_ + 1) % period;
-  // A period that has begun is ended: halves of it would leave the position moved.
+  // A period that has begun is completed: part of one would leave the position displaced.
   const bool between = dither_place_ <= 0;
   if (!(watching || stage_ == Stage::overdue) || (between && !due)) {
     dither_place_ = -1;
   } else if (dither_place_ < 0) {
     dither_place_ = 0;
-    begin_block();  // what moved before it says nothing of now
+    begin_block();  // earlier motion says nothing about now
   }
   dither_W_ = dither_place_ < 0 ? 0.0 : plan_.dither.step_W(dither_place_);
 }

@@ -10,7 +10,7 @@
 
 namespace supercoil {
 
-/// What a proof rests on. powers and temperatures as the channel's limits have them.
+/// Settings of a proof. Powers and temperatures are those of the channel's limits.
 struct ProofSettings {
   bool wanted = true;  ///< proof_of_response
   board::ThermalSettings thermal;
@@ -21,97 +21,95 @@ struct ProofSettings {
   double position_noise_rms_m = 0.0;
   double count_m = 0.0;
   double obvious_m = 0.001;  ///< responding_min_m
-  /// Of the model's small motions, what arrives at the sensor, as identify measured it.
+  /// How much of the model's small motions arrives at the sensor, as identify measured it.
   double response_ratio = 1.0;
 };
 
-/// What a proof can do for one muscle: for --check as well.
+/// What a proof can do for one muscle; also used by --check.
 struct ProofPlan {
   Dither dither;
-  double safe_W = 0.0;  ///< held for ever, a quarter of the least cooling stays below derating
-  /// Held, contact lost, and no more given than this: it is found out before the limit.
+  double safe_W = 0.0;  ///< held indefinitely at a quarter of min cooling, stays below derating
+  /// If contact is lost while no more than this is given, that is detected before the limit.
   double provable_W = 0.0;
 
-  /// Both powers in air that is warmer than the warmest that is configured, with the same dither.
+  /// Computes both powers for air warmer_K above the warmest configured, with the same dither.
   void for_air(const ProofSettings& settings, double warmer_K);
 };
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
 
-/// What measures the answer of a muscle that was just found, which holds its position at hold_W.
+/// Settings to measure the answer of a muscle that was just found and holds its position at hold_W.
 SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
                                         double rate_Hz);
 
-/// Any motion with the power proves a muscle, whatever the loop does. That it does not move proves
-/// nothing: a loop that holds it against a fan or a load changes the power as well. So a dither is
-/// added where there is no motion, which nothing else follows; where that is not answered the power
-/// is taken away, which moves a living muscle by far more than friction holds; and where that is
-/// not answered either, it is a fault.
+/// Any motion that follows the power proves a muscle, whatever the loop does. No motion proves
+/// nothing: a loop that holds the muscle against a fan or a load also changes the power. So, when
+/// there is no motion, a dither is added, which nothing else follows. If it is not answered, the
+/// power is removed, which moves a live muscle by far more than friction holds. If that is not
+/// answered either, it is a fault.
 class Proof {
  public:
-  /// At each tick.
+  /// The inputs of a tick.
   struct Input {
     double power_W = 0.0;      ///< that acted since the last tick
-    double dither_W = 0.0;     ///< of it
-    std::int64_t periods = 1;  ///< of which
-    bool present = false;      ///< the position
+    double dither_W = 0.0;     ///< the dither in power_W
+    std::int64_t periods = 1;  ///< since the last tick
+    bool present = false;      ///< whether there is a position
     double position_m = 0.0;
     double hottest_K = 0.0;
     bool heating = false;       ///< following a position or a power
-    double warmer_air_K = 0.0;  ///< than the warmest that is configured
+    double warmer_air_K = 0.0;  ///< above the warmest configured
   };
 
-  /// known: identified, or learned before; of a muscle that is only believed nothing is judged.
+  /// known: identified, or learned before. A muscle that is only believed is not judged.
   Proof(const ProofSettings& settings, const control::PhysicalParameters& muscle, bool known,
         double rate_Hz);
 
   void step(const Input& in);
-  /// Another muscle is known from now on. response_ratio: as in ProofSettings.
+  /// The muscle is a different one from now on. response_ratio: as in ProofSettings.
   void learn(const control::PhysicalParameters& muscle, double response_ratio);
   const ProofSettings& settings() const { return settings_; }
-  /// True over measured power may be this much from now on, of the same muscle.
+  /// Sets the max of true over measured power from now on, for the same muscle.
   void plan(double max_power_ratio, const control::PhysicalParameters& muscle);
-  /// Every position moved, by a new calibration: those of this step so far are of the former one.
+  /// A new calibration moved every position; those of this step so far belong to the old one.
   void recalibrated() {
     settled_ = false;
     sums_.position_m = 0.0;
     sums_.positions = 0;
   }
 
-  /// At this tick it was seen to follow its power.
+  /// At this tick the muscle was seen to follow its power.
   bool answered() const { return answered_; }
   /// At this tick neither a dither nor the removal of power was answered.
   bool unanswered() const { return unanswered_; }
   /// The dither at this tick; 0: none.
   double dither_W() const { return dither_W_; }
-  /// Both together, max_W at most; at the greatest power too there is room for both halves of a
-  /// dither.
+  /// Demand and dither together, at most max_W. Near the maximum the demand is lowered, so that
+  /// both halves of a dither fit.
   double added_to(double demanded_W, double max_W = std::numeric_limits<double>::infinity()) const {
     if (dither_W_ == 0.0) return demanded_W;
     const double room_W =
         std::fmin(std::fmin(settings_.max_W, max_W_), max_W) - plan_.dither.amplitude_W;
     return (demanded_W > room_W ? room_W : demanded_W) + dither_W_;
   }
-  /// No more power than this.
+  /// The maximum power allowed now.
   double max_W() const { return max_W_; }
-  /// The same for longer than it takes to see whether a muscle moves: what a reference may count
-  /// on.
+  /// The same, but not lowered by a release, which is short: what a reference may count on.
   double held_W() const { return stage_ == Stage::released ? plan_.provable_W : max_W_; }
-  /// In m: how far the position moved with the power since that was taken away, and the least that
-  /// it must have.
+  /// In m: how far the position followed the power since its removal, and the minimum required.
   detectors::Margin margin() const;
 
  private:
   enum class Stage : std::uint8_t {
     watching,
-    overdue,    ///< not proven in time: the safe power, until something is answered, or nothing
+    overdue,    ///< not proven in time: safe power until the muscle answers or is found silent
     released,   ///< a dither was not answered: no power, and the muscle must move
-    moving,     ///< it did move: friction swallows a dither. Only its own motion proves it now
-    swallowed,  ///< nor does that. The safe power until it rests, and then as after overdue
+    moving,     ///< it moved: friction swallows a dither, so only its own motion proves it now
+    swallowed,  ///< its motion does not prove it: safe power until it rests, then as after overdue
   };
 
-  /// Where a block begins, one step's noise would be in all of it.
+  /// Smooths where a block begins: one step's noise there would affect all of the block.
   static constexpr double smoothing = 0.2;
 
   /// A model's motion, and how well the position follows it, both without their slow part.
@@ -131,13 +129,13 @@ class Proof {
       smooth_position_m += smoothing * (position_m - smooth_position_m);
       result = answer.step(expected.step(expected_m), measured.step(position_m));
     }
-    /// What was before is forgotten by both alike: it may have been before contact was lost.
+    /// Both forget earlier motion alike: it may be from before contact was lost.
     void restart() {
       expected.settle(smooth_expected_m);
       measured.settle(smooth_position_m);
       answer.restart();
     }
-    /// The position is somewhere else.
+    /// The position jumped.
     void settle(double position_m) {
       smooth_expected_m = expected_m;
       smooth_position_m = position_m;
@@ -156,7 +154,7 @@ class Proof {
   void judge(double power_W, double hottest_K);
   void judge_release(double hottest_K);
   void prove(double hottest_K);
-  /// A living muscle, by now: the model moved far enough, or had time.
+  /// Whether a live muscle must have moved by now: the model moved far enough, or time is up.
   bool must_move() const;
   double time_to_limit_s(double hottest_K) const;
   bool is_used(double ratio, double reserve_s, double hottest_K) const;
@@ -197,9 +195,8 @@ class Proof {
   double warmer_air_K_ = 0.0;
   double unproven_s_ = 0.0;  ///< above the safe power, without a break
   control::BasicIntervalEnd<double> uncooled_;
-  double proven_K_ = 0.0;  ///< how hot it was at most when it last answered
-  /// Of a muscle that lost contact then, and was cooled worst from then on; 0: it was not heated
-  /// yet.
+  double proven_K_ = 0.0;  ///< max rise when it last answered
+  /// Rise of a muscle that lost contact then and had the worst cooling since; 0: not heated yet.
   double worst_K_ = 0.0;
   double block_s_ = 0.0;
   double stage_s_ = 0.0;

@@ -8,7 +8,7 @@
 namespace supercoil {
 
 /// Holds the muscle that was found, adds a dither, and compares its answer with the model's.
-/// Friction takes most from small motions: no fit of the large ones shows it.
+/// Friction takes most from small motions, and a fit of the large ones does not show it.
 class SmallSignal {
  public:
   struct Settings {
@@ -20,7 +20,7 @@ class SmallSignal {
     double noise_m = 0.0;  ///< standard deviation of a step's mean position
   };
 
-  /// motion: of the muscle that was found. The dither is one that can be decided.
+  /// motion: of the muscle that was found. The dither must be one that can be decided.
   void start(const Settings& settings, const ExpectedMotion& motion);
   void stop() { place_ = end_; }
   bool running() const { return place_ < end_; }
@@ -29,14 +29,14 @@ class SmallSignal {
   bool step(double position_m, double applied_W);
   double power_W() const;
 
-  /// Of the last run that came to its end: motion in phase with the model's, over the model's,
-  /// 0.001 to 10. 0: noise hides it.
+  /// Of the last completed run: motion in phase with the model's over the model's, 0.001 to 10; 0:
+  /// hidden by noise.
   double response_ratio() const;
 
  private:
   void end_step(double position_m, double power_W);
 
-  /// Long enough that a decided dither is known to some 3 %; to 4 % where that takes long.
+  /// Long enough to know a decided dither's answer to some 3 %, or to 4 % if that takes long.
   static constexpr double measured_s = 4.0;
   static constexpr double long_s = 10.0;
   static constexpr int min_periods = 2;

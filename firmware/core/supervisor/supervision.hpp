@@ -3,19 +3,18 @@
 
 namespace supercoil {
 
-/// How much measured power is a fault, where nothing else is said.
+/// Measured power above this is a fault, unless configured otherwise.
 constexpr double default_max_measured_W(double max_W) {
   return 1.25 * max_W + 0.3;
 }
 
-/// Below this resistance the heater is shorted, where nothing else is said.
+/// Below this resistance the heater is shorted, unless configured otherwise.
 constexpr double default_least_resistance_Ohm(double cold_Ohm) {
   return 0.5 * cold_Ohm;
 }
 
-/// Likewise for energy. Holding max_W indefinitely is not a fault: how hot that makes the muscle is
-/// for the interval of its temperature to judge. More than this flows only when more was measured
-/// than was asked for.
+/// Likewise for energy. Holding max_W indefinitely is not a fault: the temperature interval judges
+/// how hot that makes the muscle. More than this flows only if more is measured than was asked for.
 constexpr double default_energy_J(double max_W, double window_s) {
   return 1.1 * max_W * window_s;
 }
@@ -37,7 +36,7 @@ struct ChannelSupervision {
   double min_resistance_Ohm = default_least_resistance_Ohm(10.0);  ///< below it: a short
   double short_s = 0.002;
   double off_current_A = 0.05;    ///< what the sense may show while the channel is off
-  double current_noise_A = 0.01;  ///< between the sense and the truth, besides 5 %
+  double current_noise_A = 0.01;  ///< between the sense and the true current, besides 5 %
   double stuck_on_s = 0.05;
   double responding_window_s = 20.0;
   double responding_ratio = 0.3;
@@ -58,7 +57,7 @@ struct ChannelSupervision {
   int damaged_in_a_row = 10;
   int refused_in_a_row = 10;
   // Self
-  double saturated_s = 120.0;  ///< limited without a gap for so long: the controller is lost
+  double saturated_s = 120.0;  ///< limited without a gap for this long: the controller is lost
 };
 
 struct BoardSupervision {
@@ -67,7 +66,7 @@ struct BoardSupervision {
   double supply_s = 0.02;
   double late_s = 0.0005;  ///< a tick that wakes later is late
   int late_in_a_row = 5;
-  int overruns_in_a_row = 5;          ///< periods left out, in one stall or in several on end
+  int overruns_in_a_row = 5;          ///< periods left out, in one stall or several in a row
   double charge_pump_decay_s = 0.02;  ///< more than twice the tolerated overruns
   double telemetry_timeout_s = 0.5;
   double bus_off_s = 0.0;

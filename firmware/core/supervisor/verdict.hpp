@@ -9,15 +9,15 @@
 
 namespace supercoil {
 
-/// Knows each detector's margin, and which fault a tick has. Detectors report in the order of how
-/// near they are to the cause: a stale sensor before what a stale sensor makes look wrong. A fault
-/// of the whole board is kept apart, so that no other can hide it.
+/// Knows each detector's margin and the fault of a tick. Detectors report in order of closeness to
+/// the cause: a stale sensor before its consequences. A fault of the whole board is kept
+/// separately, so that no other can hide it.
 class Verdict {
  public:
   static constexpr std::size_t faults = 96;  ///< numbers below this
 
   void begin() { fault_ = board_fault_ = Fault::none; }
-  /// detector outlives the verdict, which asks it for its margin.
+  /// detector must outlive the verdict, which asks it for its margin.
   void note(Fault fault, bool trips, const detectors::Detector& detector) {
     detectors_[static_cast<std::size_t>(fault)] = &detector;
     if (trips) take(fault);
@@ -28,14 +28,14 @@ class Verdict {
   Fault board_fault() const { return board_fault_; }
   /// Whether this verdict's detectors judge that fault.
   bool judges(Fault fault) const { return detectors_[static_cast<std::size_t>(fault)] != nullptr; }
-  /// As of the last tick at which it judged; nothing used before that.
+  /// As of the last tick at which it judged; before that, no margin is used.
   detectors::Margin margin(Fault fault) const {
     return judges(fault) ? detectors_[static_cast<std::size_t>(fault)]->margin()
                          : detectors::Margin{};
   }
 
  private:
-  /// Not inline: thirty copies of what hardly ever runs would push the tick out of the cache.
+  /// Not inline: thirty copies of rarely run code would push the tick out of the cache.
   void take(Fault fault);
 
   Fault fault_ = Fault::none;

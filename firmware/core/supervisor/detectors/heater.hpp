@@ -38,18 +38,18 @@ class OpenLoad final : public Detector {
   bool judged_ = false;
 };
 
-/// Trips when the current in A is above its limit for hold_s. Short in time: the switch's own
+/// Trips when the current in A is above its limit for hold_s, which is short; the switch's own
 /// protection is faster still.
 using Short = Above;
 
 /// Trips when current still flows hold_s after the channel was made safe. Only current proves that
 /// power is off: a duty that reads back as zero is the kernel's memory. An averaging sense still
-/// shows some of what flowed before: it must have decayed at the end, not from the beginning.
+/// shows earlier current, which must have decayed by the end of hold_s, not from the start.
 class StuckOn final : public Detector {
  public:
   struct Settings {
     double max_A;           ///< what a cold channel may show: offset and noise
-    double hold_s = 0.05;   ///< the time that it has for that
+    double hold_s = 0.05;   ///< time allowed to fall to that
     double filter_s = 0.0;  ///< time constant of the sense, >= 0; 0: it does not average
   };
   StuckOn(const Settings& settings, double step_s)
@@ -61,7 +61,7 @@ class StuckOn final : public Detector {
   /// off: the duty is 0 or the enable line low.
   bool step(bool off, double current_A) {
     if (!off && std::isfinite(current_A)) remaining_A_ = current_A;
-    // The first reading may be of the tick before.
+    // The first reading may be from the tick before.
     if (off && !off_ && std::isfinite(current_A)) remaining_A_ = std::fmax(remaining_A_, current_A);
     if (off && off_) remaining_A_ *= decay_;
     current_A_ = current_A;
@@ -72,7 +72,7 @@ class StuckOn final : public Detector {
   Margin margin() const override { return {current_A_, max_A(), false, off_}; }
 
  private:
-  static constexpr double filter_tolerance = 1.25;  ///< of a resistor and a capacitor
+  static constexpr double filter_tolerance = 1.25;  ///< of the filter's resistor and capacitor
 
   double max_A() const { return settings_.max_A + (decay_ > 0.0 ? remaining_A_ : 0.0); }
 
@@ -80,26 +80,26 @@ class StuckOn final : public Detector {
   HoldTimer held_;
   double decay_;  ///< of a tick; 0: the sense does not average
   double current_A_ = 0.0;
-  double remaining_A_ = 0.0;  ///< what the sense may still show of the current before
+  double remaining_A_ = 0.0;  ///< earlier current that the sense may still show
   bool off_ = false;
 };
 
-/// Power in, no motion: compares how far the muscle moved over a window with how far it must have,
-/// by the models of its heat. Trips when it moved less than a part of what each muscle did that
-/// they allow. "Rose 0.3 of the 2.0 mm expected in 20 s."
-/// By how much a calibration changed the positions that are told of the same places.
+/// How a calibration changed the positions measured at the same places.
 struct Recalibration {
-  double before_m = 0.0;  ///< of one place
-  double after_m = 0.0;   ///< of the same
-  double ratio = 1.0;     ///< of distances
+  double before_m = 0.0;  ///< a place before it
+  double after_m = 0.0;   ///< the same place after it
+  double ratio = 1.0;     ///< of distances, after over before
 
   double after(double position_m) const { return after_m + ratio * (position_m - before_m); }
-  /// Both, this one first.
+  /// Both in sequence, this one first.
   Recalibration then(const Recalibration& next) const {
     return {before_m, next.after(after_m), ratio * next.ratio};
   }
 };
 
+/// Power in, no motion: compares how far the muscle moved over a window with how far it must have
+/// moved by the models of its heat. Trips when it moved less than min_ratio of the motion of every
+/// muscle that they allow. "Rose 0.3 of the 2.0 mm expected in 20 s."
 class NotResponding final : public Detector {
  public:
   struct Settings {
@@ -109,27 +109,27 @@ class NotResponding final : public Detector {
   };
   NotResponding(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
-  /// Where the models are, driven by the applied power: the muscle as it is believed, the fastest
-  /// and the slowest that the bounds of its heat allow.
+  /// Positions of the models, driven by the applied power: the believed muscle, and the fastest and
+  /// the slowest that its thermal bounds allow.
   using Expected = std::array<double, 3>;
 
-  /// The believed muscle, and in eight steps from the fastest to the slowest: where one of those
-  /// still rises and the other falls already, one between them stands still.
+  /// Besides the believed muscle, eight steps from the fastest to the slowest: when one of those
+  /// still rises and the other already falls, one in between stands still.
   static constexpr std::size_t steps = 8;
-  /// Of the other muscle's gain over its believed one, with this muscle's as believed; 0: it does
-  /// nothing.
+  /// Ratios of the other muscle's gain to its believed gain, with this muscle's as believed; 0: the
+  /// other has no effect.
   static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
                                     1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
 
   static constexpr std::size_t alone = steps + 2;  ///< motions of a muscle without another
   static constexpr std::size_t all = alone + gains.size();
 
-  /// Where the muscle may be: the first `count` of them.
+  /// Possible positions of the muscle; the first `count` are valid.
   struct Motions {
     std::array<double, all> m;
     std::size_t count = alone;
 
-    /// The least that one of them has risen. In four rows side by side: one waits for itself.
+    /// The minimum rise of any motion. Four rows side by side: a single one would wait for itself.
     double least_above(const Motions& low) const {
       std::array<double, 4> least{};
       least.fill(m[0] - low.m[0]);
@@ -144,15 +144,15 @@ class NotResponding final : public Detector {
     }
   };
 
-  /// opposed_m: by how much the other muscle of a joint takes that back; null: there is none. What
-  /// is believed of both gains may be wrong, and two muscles then hold still what believed ones
-  /// would move: that is judged only if no gain of the other muscle explains it.
+  /// opposed_m: how far the joint's other muscle moves it back; null: there is no other. Both
+  /// believed gains may be wrong, and the joint may then rest where the believed muscles would move
+  /// it. Rest is a fault only if no gain of the other muscle explains it.
   static Motions possible(const Expected& expected_m, const Expected* opposed_m = nullptr) {
     const Expected none{};
     const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
     const double fastest = expected_m[1] - opposed[1];
     const double slowest = expected_m[2] - opposed[2];
-    Motions motions;  // filled as far as it counts; zeros first took a fifth of the judgement
+    Motions motions;  // only up to count; zeroing it first took a fifth of the judgement
     motions.m[0] = expected_m[0] - opposed[0];
     for (std::size_t i = 0; i <= steps; ++i)
       motions.m[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
@@ -172,9 +172,9 @@ class NotResponding final : public Detector {
     elapsed_s_ += step_s_;
     low_ = std::min(low_, position_m);
     high_ = std::max(high_, position_m);
-    // The models have heat only: a muscle may still be on its way.
+    // The models are thermal only: a muscle may still be on its way.
     if (elapsed_s_ <= in_time_ratio * settings_.window_s) {
-      // By a count that the compiler knows: two at once.
+      // A count that the compiler knows: two at once.
       if (motions.count == alone) {
         widen<alone>(motions);
       } else {
@@ -187,11 +187,11 @@ class NotResponding final : public Detector {
     return seen.judged && !(seen.measured >= seen.limit);
   }
   void reset() { elapsed_s_ = 0.0; }
-  /// The muscle was proven to live: what was expected before, and what moved, counts no more in
-  /// this window. A muscle in a draught is held still by more power, which no model of it expects.
+  /// The muscle was proven to live: earlier expectations and motions in this window no longer
+  /// count. A muscle in a draught needs more power to stand still, which no model expects.
   void count_anew() { counts_anew_ = true; }
-  /// That positions are others from now on is no motion, and no reason to begin anew: who
-  /// calibrates again and again would never be judged.
+  /// Converts the positions so far. A new calibration is not motion, and it must not restart the
+  /// window: repeated calibration would prevent any judgement.
   void recalibrate(const Recalibration& change) {
     low_ = change.after(low_);
     high_ = change.after(high_);
@@ -225,7 +225,7 @@ class NotResponding final : public Detector {
   Motions expected_high_{};
 };
 
-/// Trips when the PWM reads back another step than was set, for hold_s (a buffered one lags).
+/// Trips when the PWM reads back a step other than the one set for hold_s (a buffered one lags).
 class WrongDuty final : public Detector {
  public:
   WrongDuty(double hold_s, double step_s) : held_(hold_s, step_s) {}
@@ -236,7 +236,7 @@ class WrongDuty final : public Detector {
     read_back_ = read_back;
     return held_.step(wrong());
   }
-  /// The steps between them: any is beyond the limit.
+  /// The difference in steps; any difference is beyond the limit.
   Margin margin() const override {
     return rising(wrong() ? std::abs(static_cast<double>(read_back_) - set_) : 0.0, 0.0);
   }

@@ -9,11 +9,11 @@
 
 namespace supercoil::detectors {
 
-/// A muscle gets hotter, and the joint moves the other way: three times in a row by at least a part
-/// of what every model of the muscles expects. Once may be a load that came.
+/// Trips when a muscle gets hotter and the joint moves the other way, three times in a row, by at
+/// least min_ratio of what every model of the muscles expects. Once may be a new load.
 class MovesAway {
  public:
-  /// min_expected_m: of all times together.
+  /// min_expected_m: for all times together.
   MovesAway(double min_ratio, double min_expected_m)
       : min_ratio_(min_ratio), expected_each_m_(min_expected_m / times) {}
 
@@ -35,7 +35,7 @@ class MovesAway {
     begins_ = true;
     count_ = 0;
   }
-  /// Of the last time: how far it moved the other way.
+  /// How far the joint moved the other way the last time.
   Margin margin() const { return margin_; }
 
  private:
@@ -50,17 +50,17 @@ class MovesAway {
   Margin margin_{0.0, 0.0, false, false};
 };
 
-/// A muscle of a joint gets hotter, is asked for more than it can give, and the joint stays where
-/// it is or moves the other way: the muscle is torn, its cable slack, or its heater or the sensor's
-/// sign is the other muscle's. In seconds, where NotResponding takes a window: it must not take a
-/// muscle that holds a growing load still for a dead one, and no load is held still by a muscle
-/// that has no more to give.
+/// Trips when a muscle of a joint gets hotter, more is demanded than it can give, and the joint
+/// stays put or moves the other way: the muscle is torn, its cable is slack, or its heater or the
+/// sensor's sign is the other muscle's. It takes seconds; NotResponding takes a whole window, as it
+/// must not mistake a muscle that holds a growing load for a dead one. A muscle at its limit cannot
+/// do that.
 class MuscleLoose final : public Detector {
  public:
   struct Settings {
     double min_ratio;       ///< of the expected motion
     double min_expected_m;  ///< an expected motion smaller than this is not judged
-    double hold_s = 0.5;    ///< the models have heat only: the joint may still be on its way
+    double hold_s = 0.5;    ///< the models are thermal only: the joint may still be on its way
   };
   MuscleLoose(const Settings& settings, double step_s)
       : moved_m_(settings.min_ratio * settings.min_expected_m),
@@ -68,8 +68,8 @@ class MuscleLoose final : public Detector {
         away_(settings.min_ratio, settings.min_expected_m),
         held_(settings.hold_s, step_s) {}
 
-  /// limited: the muscle gets less than is asked of it. Positions as NotResponding's: each time
-  /// that the joint has moved, what is expected counts anew.
+  /// limited: the muscle gets less than is demanded. Positions as NotResponding's; the expected
+  /// motion is counted from zero each time the joint has moved.
   bool step(bool limited, double position_m, const NotResponding::Motions& motions) {
     if (!limited) {
       reset();
@@ -91,7 +91,7 @@ class MuscleLoose final : public Detector {
   Margin margin() const override { return margin_; }
 
  private:
-  static constexpr double longest_s = 20.0;  ///< what is expected more slowly is not judged
+  static constexpr double longest_s = 20.0;  ///< slower expected motion is not judged
 
   double moved_m_;
   NotResponding motion_;

@@ -1,12 +1,12 @@
-// Limits: those that trip at once, and those that must be passed for a while.
+// Limits that trip at once, and limits that must be exceeded for a while.
 #pragma once
 
 #include "supervisor/detectors/margin.hpp"
 
 namespace supercoil::detectors {
 
-/// Trips at once when a value that must not be passed is passed, or is NaN. For temperature:
-/// the hottest of the observers; for travel: the position.
+/// Trips at once when a value exceeds its limit, or is NaN. For temperature: the hottest of the
+/// observers; for travel: the position.
 class Limit final : public Detector {
  public:
   explicit Limit(double limit) : limit_(limit) {}
@@ -25,7 +25,7 @@ class Limit final : public Detector {
 /// Trips at once when a yes-or-no condition is bad.
 class Flag final : public Detector {
  public:
-  /// which: in which of several ways it is bad, from 1.
+  /// which: the way in which it is bad, from 1.
   bool step(bool bad, int which = 1) {
     measured_ = bad ? which : 0;
     return bad;

@@ -13,7 +13,7 @@ class ConsecutiveCount final : public Detector {
   explicit ConsecutiveCount(int most) : max_count_(most) {}
 
   bool step(bool happened) { return step(std::int64_t{happened}); }
-  /// Several at once; none ends the row.
+  /// Several events at once; 0 ends the row.
   bool step(std::int64_t happened) {
     count_ = happened > 0 ? count_ + happened : 0;
     return count_ >= max_count_;
@@ -27,7 +27,7 @@ class ConsecutiveCount final : public Detector {
   std::int64_t count_ = 0;
 };
 
-/// Trips when a counter that its owner turns has stood still for max_s (a thread's sign of life).
+/// Trips when a counter that its owner advances stands still for max_s (a thread's sign of life).
 class StalledCounter final : public Detector {
  public:
   StalledCounter(double max_s, double step_s) : still_(max_s, step_s) {}
@@ -44,8 +44,7 @@ class StalledCounter final : public Detector {
   std::uint32_t last_ = 0;
 };
 
-/// Every command to heat expires unless it is renewed: trips when it is older than max_s while it
-/// holds.
+/// Every command to heat expires unless renewed: trips when one in force is older than max_s.
 class CommandTimeout final : public Detector {
  public:
   CommandTimeout(double max_s, double step_s) : max_s_(max_s), step_s_(step_s) {}
@@ -63,13 +62,13 @@ class CommandTimeout final : public Detector {
   double age_s_ = 0.0;
 };
 
-/// Trips when what the controller wants is NaN, and when it has wanted more than it got for
-/// max_s without a gap: it is lost.
+/// Trips when the controller's demand is NaN, or has exceeded the applied power for max_s without a
+/// gap: the controller is lost.
 class ControllerSaturated final : public Detector {
  public:
   ControllerSaturated(double max_s, double step_s) : more_(max_s, step_s) {}
 
-  /// unmet_demand: than it got, since the last tick.
+  /// unmet_demand: the controller demanded more than it got since the last tick.
   bool step(double demanded_W, bool unmet_demand) {
     demanded_W_ = demanded_W;
     const bool lost = more_.step(unmet_demand);

@@ -10,10 +10,10 @@ namespace supercoil::detectors {
 struct Margin {
   double measured = 0.0;
   double limit = 0.0;
-  bool falls = false;  ///< the limit is a least value, not a greatest
+  bool falls = false;  ///< the limit is a minimum, not a maximum
   bool judged = true;  ///< there was something to judge
 
-  /// How much of the limit is used; 1 or more is beyond it. A NaN uses more than all of it.
+  /// How much of the limit is used; 1 or more is beyond it. Infinite for NaN.
   double used() const {
     if (!judged) return 0.0;
     if (std::isnan(measured)) return INFINITY;
@@ -23,20 +23,20 @@ struct Margin {
   }
 };
 
-/// Of a value that may rise to a limit.
+/// For a value that may rise to a limit.
 inline Margin rising(double measured, double limit) {
   return {measured, limit, false, true};
 }
-/// Of a value that may fall to a limit.
+/// For a value that may fall to a limit.
 inline Margin falling(double measured, double limit) {
   return {measured, limit, true, true};
 }
 
-/// A step says whether it trips, and keeps what it judged. Of a channel's thirty margins a tick
-/// publishes one: only what is asked for is worked out.
+/// A step returns whether it trips, and keeps what it judged. A tick publishes one of a channel's
+/// thirty margins, so a margin is computed only on request.
 class Detector {
  public:
-  /// As of its last step, also far from tripping.
+  /// As of its last step, even far from tripping.
   virtual Margin margin() const = 0;
 
  protected:
@@ -46,15 +46,15 @@ class Detector {
   ~Detector() = default;
 };
 
-/// Tells whether something has held for a whole time.
+/// Tells whether a condition has held for a given time.
 class HoldTimer {
  public:
-  /// hold_s: 0 means at once. forgets: how many times as fast it is forgotten as it was held; by
-  /// default any gap ends it. With less than 1 something that comes and goes adds up.
+  /// hold_s: 0 means at once. forgets: how fast the held time decays during a gap, relative to its
+  /// build-up; by default any gap ends it. Below 1, an intermittent condition adds up.
   HoldTimer(double hold_s, double step_s, double forgets = 1e12)
       : hold_s_(hold_s), step_s_(step_s), forgets_s_(forgets * step_s) {}
 
-  /// One tick. True from the tick on at which it has held for hold_s.
+  /// One tick. True from the tick at which it has held for hold_s.
   bool step(bool holds) {
     if (!holds && held_s_ == 0.0) return false;
     held_s_ = holds ? held_s_ + step_s_ : std::max(0.0, held_s_ - forgets_s_);

@@ -1,13 +1,12 @@
-// Is the muscle being asked too much?
+// Is too much asked of the muscle?
 #pragma once
 
 #include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
 
-/// Trips when, within about window_s, more energy went in than the muscle may take. A leaky
-/// integral: energy leaves the account at the rate of energy_J/window_s in proportion to what is on
-/// it, so that a constant power of energy_J/window_s just fills it.
+/// Trips when more energy went in within about window_s than the muscle may take. A leaky integral
+/// with time constant window_s: a constant power of energy_J/window_s just fills it.
 class EnergyBudget final : public Detector {
  public:
   struct Settings {
@@ -26,13 +25,13 @@ class EnergyBudget final : public Detector {
  private:
   Settings settings_;
   double step_s_;
-  double forgotten_;  ///< in a step, of what was spent
+  double forgotten_;  ///< fraction forgotten per step
   double spent_J_ = 0.0;
 };
 
-/// Trips when the heater's resistance is further than `part` outside of what it can be at any
-/// temperature that the muscle may have: at once when a probe measured it, after hold_s when it is
-/// the smoothed one of a heating muscle.
+/// Trips when the heater's resistance is more than `part` outside its range over all temperatures
+/// that the muscle may have: at once if a probe measured it, after hold_s if it is the smoothed one
+/// of a heating muscle.
 class ResistanceDrift final : public Detector {
  public:
   struct Settings {
@@ -42,7 +41,7 @@ class ResistanceDrift final : public Detector {
   ResistanceDrift(const Settings& settings, double step_s)
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
-  /// min_warm_Ohm and max_warm_Ohm: between these a muscle lies that is as it was calibrated.
+  /// min_warm_Ohm and max_warm_Ohm: bounds for a muscle that is as it was calibrated.
   bool step(double measured_Ohm, double min_warm_Ohm, double max_warm_Ohm, bool probed) {
     measured_Ohm_ = measured_Ohm;
     low_Ohm_ = min_warm_Ohm * (1.0 - settings_.part);

@@ -7,7 +7,7 @@
 
 namespace supercoil::detectors {
 
-/// Takes the slow part away: drift of the rest length, of the air, and what a model does not know
+/// Removes the slow part: drift of the rest length and of the air, and what a model does not know
 /// of them. Two equal high-passes.
 class HighPass {
  public:
@@ -32,14 +32,13 @@ class HighPass {
   double second_ = 0.0;
 };
 
-/// Sums over a block: what the model expects, times itself and times what was measured. A block is
-/// decided when its expected motion is needed_deviations times the noise of the measured ratio.
+/// Sums over a block: the expected motion squared, and times the measured one. A block is decided
+/// when its expected motion is needed_deviations times the noise of the measured ratio.
 class Response {
  public:
-  // One-sided tails of a normal distribution. 1e-3 of dead muscles pass. Of living ones whose
-  // answer is half of the model's (identified: within 15 %; the rest is for hysteresis, which takes
-  // the most from small motions) less than 1e-9 do not: 3e-10, and twice that as open blocks are
-  // looked at again.
+  // One-sided tails of a normal distribution. 1e-3 of dead muscles pass. Of live ones whose answer
+  // is half of the model's, less than 1e-9 fail: 3e-10, and twice that as open blocks are judged
+  // again. (Identified: within 15 %; the rest is for hysteresis, which affects small motions most.)
   static constexpr double missed_deviations = 3.1;
   static constexpr double false_deviations = 6.2;
   static constexpr double min_response_ratio = 0.5;
@@ -55,7 +54,7 @@ class Response {
 
   void restart() { expected_ = shared_ = measured_ = count_ = 0.0; }
 
-  /// Both without their slow part.
+  /// Both values without their slow part.
   Result step(double expected_m, double measured_m) {
     expected_ += expected_m * expected_m;
     shared_ += expected_m * measured_m;
@@ -73,14 +72,15 @@ class Response {
   double ratio() const { return expected_ > 0.0 ? shared_ / expected_ : 0.0; }
 
  private:
-  /// As responding_ratio: what moves by more of the expected motion, however it moves, is not dead.
+  /// As responding_ratio, of the expected motion: a muscle that moves more, in any way, is not
+  /// dead.
   static constexpr double moved_ratio = 0.3;
-  /// Of fewer values the residual says too little of its own size.
+  /// With fewer values the residual's own size is too uncertain.
   static constexpr double min_count = 10.0;
 
   static double square(double x) { return x * x; }
 
-  /// The sensor's noise, or what the model leaves of the motion, whichever is larger.
+  /// The sensor's noise or the model's residual, whichever is larger.
   double noise_m2() const {
     return std::fmax(variance_m2_, (measured_ - shared_ * ratio()) / (count_ - 1.0));
   }
@@ -98,7 +98,7 @@ class Response {
   double count_ = 0.0;
 };
 
-/// A margin that was found elsewhere.
+/// A margin that was computed elsewhere.
 class ReportedMargin final : public Detector {
  public:
   bool step(bool trips, const Margin& margin) {

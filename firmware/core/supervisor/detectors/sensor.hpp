@@ -14,7 +14,7 @@ class OutOfRange final : public Detector {
     double high;
     double hold_s;
   };
-  /// A loose wire comes and goes: good readings take back only a quarter.
+  /// A loose wire is intermittent: good readings count down only a quarter as fast.
   OutOfRange(const Settings& settings, double step_s)
       : settings_(settings), held_(settings.hold_s, step_s, 0.25) {}
 
@@ -74,7 +74,7 @@ class Jump final : public Detector {
     change_ = started_ ? std::abs(reading - last_) : 0.0;
     started_ = true;
     const bool jumped = !(change_ <= allowed_);
-    // A reading that is where it was takes back only a quarter: a bad contact comes and goes.
+    // A reading without a jump takes back only a quarter: a bad contact is intermittent.
     count_ = jumped ? count_ + 1.0 : std::max(0.0, count_ - 0.25);
     if (!jumped || count_ >= 2.0) last_ = reading;
     return jumped && count_ >= 2.0;
@@ -90,8 +90,8 @@ class Jump final : public Detector {
   double allowed_ = 0.0;
 };
 
-/// Trips when the temperatures from resistance and from position lie further
-/// apart than both can be wrong, for hold_s.
+/// Trips when the temperatures from resistance and from position differ by more than both can be
+/// wrong, for hold_s.
 class SensorsDisagree final : public Detector {
  public:
   /// limit: in K.

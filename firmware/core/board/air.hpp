@@ -1,4 +1,4 @@
-// The air around a muscle, as far as its temperature can have followed it.
+// The air around a muscle, as far as the muscle's temperature can have followed it.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace supercoil::board {
 
-/// Where nothing measures it, the air lies between these. A reading may be wrong by error_K.
+/// Without a sensor the air lies between these. A reading may be wrong by error_K.
 struct AirSettings {
   double warmest_C = 25.0;
   double coldest_C = 15.0;
   double error_K = 0.0;  ///< > 0, of a sensor; 0: no sensor
 };
 
-/// A muscle's temperature is its rise, which its power makes, and the air, low-pass filtered with
-/// its time constant. Both ends of what that filter can give: an end follows the air at once where
-/// that makes the interval wider, and with the slowest time constant of the bounds where narrower.
+/// A muscle's temperature is its rise, which its power causes, plus the air's, low-pass filtered
+/// with the muscle's time constant. Bounds that filter's output: an end follows the air at once if
+/// that widens the interval, and with the slowest time constant of the bounds if that narrows it.
 class Air {
  public:
   Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
@@ -28,9 +28,8 @@ class Air {
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 
-  /// One tick of a board with a sensor. What it reads is in °C. Beyond the configured air, and
-  /// where it is absent or NaN, a reading can make the interval wider, but not narrower: so reads
-  /// a sensor whose wire is off.
+  /// One tick of a board with a sensor; the reading is in °C. If it is beyond the configured air,
+  /// absent or NaN, as from a disconnected sensor, it can widen the interval but not narrow it.
   void step(const Measured& reading) {
     const double warmest_C = reading.present && reading.value >= settings_.coldest_C
                                  ? reading.value + settings_.error_K
@@ -49,7 +48,7 @@ class Air {
 
  private:
   AirSettings settings_;
-  double stays_;  ///< of a difference, after a tick
+  double stays_;  ///< fraction of a difference left after a tick
   double warmest_C_;
   double coldest_C_;
 };

@@ -1,4 +1,4 @@
-// Which power acts now, when a duty acts only some time after it was set.
+// The power that acts now, when a duty acts only some time after it was set.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@ namespace supercoil::board {
 struct AppliedPower {
   double power_W = 0.0;
   double duty = 0.0;
-  bool limited = false;   ///< it was not the one that was wanted
-  double dither_W = 0.0;  ///< of the power, what was added to see whether the muscle answers
+  bool limited = false;   ///< it differs from the demand
+  double dither_W = 0.0;  ///< part of power_W, added to see whether the muscle answers
 };
 
-/// A delay line of whole ticks, up to 255. No longer than it must be: it stays in the cache.
+/// A delay line of whole ticks, up to 255. As short as possible, so that it stays in the cache.
 class OutputDelay {
  public:
   static constexpr std::size_t max_ticks = 255;
 
   explicit OutputDelay(std::size_t ticks) : ticks_(ticks < max_ticks ? ticks : max_ticks) {}
 
-  /// What was set at this tick in, what acts from now on out.
+  /// Takes what was set at this tick; returns what acts from now on.
   AppliedPower step(const AppliedPower& set) {
     if (ticks_ == 0) return set;
     line_[head_] = set;

@@ -19,7 +19,7 @@ struct ChannelDevices {
   hal::AdcChannel* current;
 };
 
-/// A whole board's. Those that may be null are said so.
+/// A whole board's devices. Only those marked so may be null.
 struct Devices {
   hal::Clock* clock;
   hal::AdcChannel* supply;
@@ -28,7 +28,7 @@ struct Devices {
   hal::DigitalOutput* light;        ///< may be null: no status light
   hal::Watchdog* watchdog;          ///< may be null: none
   std::vector<ChannelDevices> channels;
-  hal::AdcChannel* air = nullptr;  ///< of its temperature; null: not measured
+  hal::AdcChannel* air = nullptr;  ///< air temperature; null: not measured
 };
 
 }  // namespace supercoil::board

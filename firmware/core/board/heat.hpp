@@ -1,4 +1,4 @@
-// How hot the muscle may be, from everything that is known of it.
+// How hot the muscle may be, from everything that is known about it.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 namespace supercoil::board {
 
-/// Protection uses the hottest of the interval observer (configured bounds, and what was found out
-/// on purpose) and of the observer with values that were learned by the way: that can only make it
-/// more cautious. Where a thermometer was read there are two intervals, and the truth is in both.
+/// Protection uses the hotter of two observers: the interval observer (configured bounds, and facts
+/// measured on purpose) and one with values learned along the way, which can only make it more
+/// cautious. After a thermometer reading there are two intervals, and the truth is in both.
 class Heat {
  public:
   Heat(const ThermalSettings& settings, const control::PhysicalParameters& muscle, double step_s)
@@ -37,7 +37,7 @@ class Heat {
     expected_[2].learn(-1.0 / control::slowest_s(b));
   }
 
-  /// What was found out of the muscle, from now on. true_over_measured: power, by the senses.
+  /// What is known about the muscle's heat from now on. true_over_measured: power, by the senses.
   void set_thermal_facts(const board::ThermalFacts& facts,
                          const PowerBounds::Interval& true_over_measured) {
     const KnownThermalBounds known = known_thermal_bounds(settings_, facts);
@@ -46,14 +46,14 @@ class Heat {
       const KnownThermalBounds by_reading =
           known_thermal_bounds_by_reading(settings_, facts, true_over_measured);
       by_reading_.set(by_reading.bounds, by_reading.known());
-      // What the other one rules out is ruled out.
+      // What the other interval rules out stays ruled out.
       if (!has_reading_) by_reading_.start_from(interval_);
       true_over_measured_ = true_over_measured;
     }
     has_reading_ = facts.has_reading();
   }
 
-  /// What acted since the last tick lies between min_W and max_W, and was probably_W.
+  /// The power since the last tick lies between min_W and max_W; probably_W is the likely value.
   /// sensed: the bounds are those of the measurement and its error.
   void step(double min_W, double max_W, double probably_W, bool sensed = true) {
     interval_.step(min_W, max_W);
@@ -65,17 +65,17 @@ class Heat {
     for (control::ThermalObserver& expected : expected_)
       expected.step(probably_W);
   }
-  /// What the board's sensor reads of the air, in °C, at each tick; never, without one.
+  /// Called at each tick with the board's air sensor, in °C; never without a sensor.
   void follow_air(const Measured& reading) { air_.step(reading); }
   /// The muscle's thermal pole, as estimated and trusted.
-  /// Beyond what the configured bounds allow it is not believed.
+  /// It is clamped to what the configured bounds allow.
   void learn(double pole_rad_per_s) {
     const control::ThermalBounds& b = settings_.bounds;
     learned_.learn(std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
                              std::fmin(-1.0 / control::slowest_s(b), pole_rad_per_s)));
   }
 
-  /// Where such a muscle moves to is expected from now on, as of a cold one.
+  /// Expected positions are those of this muscle from now on, starting cold.
   void believe(const control::PhysicalParameters& muscle) {
     expected_[0] = control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s_);
     expected_[0].learn(muscle.thermal_pole_rad_per_s());
@@ -93,8 +93,8 @@ class Heat {
   double coldest_C() const { return air_.coldest_C() + coldest_K(); }
   double hottest_C() const { return air_.warmest_C() + hottest_K(); }
   const Air& air() const { return air_; }
-  /// Where the muscle should be: as it is believed, and the fastest and the slowest that the
-  /// configured bounds allow. What is only believed may be wrong by as much.
+  /// Where the muscle should be: as believed, and the fastest and the slowest that the configured
+  /// bounds allow, as the belief may be that wrong.
   std::array<double, 3> expected_m() const {
     std::array<double, 3> positions_m{};
     for (std::size_t i = 0; i < expected_.size(); ++i)

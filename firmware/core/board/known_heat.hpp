@@ -15,15 +15,15 @@
 
 namespace supercoil::board {
 
-/// What is known of the muscle's heat. Each number but the bounds themselves narrows them only.
+/// What is known about the muscle's heat. All numbers but the bounds can only narrow these.
 struct ThermalSettings {
   control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18};
-  /// Heat in the muscle over electrical power, besides what the senses are wrong by.
+  /// Heat in the muscle over electrical power, besides errors of the senses.
   double min_power_ratio = 1.0;
   double max_power_ratio = 1.0;
   double thermal_mass_J_per_K = 0.162;  ///< ψ0, weighed or by calorimetry
   double mass_error_ratio = 0.0;        ///< of that; 0: it is only believed, and narrows nothing
-  /// Of ψ/η as identify finds it, on muscles that are not linear.
+  /// Error of ψ/η as identify finds it on nonlinear muscles.
   double time_constant_error_ratio = 0.25;
   double thermometer_error_K = 1.0;  ///< of a rise that is read: the difference of two readings
   double boot_rise_K = 135.0;        ///< how hot it may be at boot: the history is unknown
@@ -53,7 +53,7 @@ struct KnownThermalBounds {
   }
 };
 
-/// ψ within its configured bounds, and of what was weighed.
+/// The configured bounds, with ψ also within those of what was weighed.
 inline control::ThermalBounds with_weighed_mass(const ThermalSettings& s) {
   control::ThermalBounds b = s.bounds;
   if (!s.weighed()) return b;
@@ -63,7 +63,7 @@ inline control::ThermalBounds with_weighed_mass(const ThermalSettings& s) {
   return b;
 }
 
-/// η = ψ/τ. It was found while the rise went through a range around its mean.
+/// η = ψ/τ, found while the rise went through a range around its mean.
 inline control::TransferSpan by_time_constant(const ThermalSettings& s,
                                               const board::ThermalFacts& facts) {
   constexpr double from_ratio = 0.7;
@@ -76,7 +76,7 @@ inline control::TransferSpan by_time_constant(const ThermalSettings& s,
           to_ratio * mean_K};
 }
 
-/// In power as it is.
+/// In true power.
 inline KnownThermalBounds known_thermal_bounds(const ThermalSettings& s,
                                                const board::ThermalFacts& facts) {
   KnownThermalBounds known{with_weighed_mass(s)};
@@ -85,7 +85,7 @@ inline KnownThermalBounds known_thermal_bounds(const ThermalSettings& s,
   return known;
 }
 
-/// Whether a reading may be of the muscle that is known otherwise.
+/// Whether a reading is consistent with what else is known about the muscle.
 inline bool is_possible(const KnownThermalBounds& known, const board::ThermalFacts& read,
                         const PowerBounds::Interval& true_over_measured) {
   const double rise_K = read.steady_rise_K;
@@ -96,9 +96,9 @@ inline bool is_possible(const KnownThermalBounds& known, const board::ThermalFac
          least <= known.max_heat_transfer_W_per_K(rise_K);
 }
 
-/// In power as measured by compared senses: all quantities are divided by what the true power is
-/// over that. It is not known, but it was the same when the thermometer was read: what the senses
-/// err by is no error of the temperature any more.
+/// In power as measured by compared senses: all quantities are divided by true over measured power.
+/// That ratio is unknown, but it was the same when the thermometer was read, so the senses' errors
+/// no longer affect the temperature.
 inline KnownThermalBounds known_thermal_bounds_by_reading(
     const ThermalSettings& s, const board::ThermalFacts& facts,
     const PowerBounds::Interval& true_over_measured) {

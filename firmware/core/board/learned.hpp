@@ -24,21 +24,21 @@ struct Calibration {
 struct SenseComparison {
   double supply_gain = 1.0;   ///< true over measured supply voltage, 0.5 to 2
   double current_gain = 1.0;  ///< true over measured current, 0.5 to 2
-  double error_ratio = 0.0;  ///< that may remain of each after its gain, up to 0.2; 0: not compared
-  double compared_s = 0.0;   ///< when, in seconds since 1970
+  double error_ratio = 0.0;   ///< max error of each after its gain, up to 0.2; 0: not compared
+  double compared_s = 0.0;    ///< when, in seconds since 1970
 
   bool compared() const { return error_ratio > 0.0; }
   friend bool operator==(const SenseComparison&, const SenseComparison&) = default;
 };
 
-/// What was found out of the muscle's heat, where it hangs.
+/// What was found out about the muscle's heat in its present place.
 struct ThermalFacts {
   double time_constant_s = 0.0;     ///< thermal mass over heat transfer, up to 10000; 0: not known
   double time_constant_at_W = 0.0;  ///< mean power at which it was found, up to 1000
-  /// Above the air, read from a thermometer in steady heat, up to 300; 0: not read.
+  /// Rise read from a thermometer in steady heat, up to 300; 0: not read.
   double steady_rise_K = 0.0;
-  double steady_error_K = 0.0;  ///< of that, up to 100
-  double steady_min_W = 0.0;    ///< bounds of the power then, by the compared senses
+  double steady_error_K = 0.0;  ///< error of that reading, up to 100
+  double steady_min_W = 0.0;    ///< bounds of the power at that time, by the compared senses
   double steady_max_W = 0.0;
 
   bool has_time_constant() const { return time_constant_s > 0.0; }
@@ -49,7 +49,7 @@ struct ThermalFacts {
 
 /// How sure identify was of the muscle that it found, and when.
 struct Identification {
-  /// Standard, of θ1 to θ4, up to 10; 0: kept as it was, or not known.
+  /// Relative standard deviations of θ1 to θ4, up to 10; 0: kept as it was, or not known.
   std::array<double, 4> deviation_ratio{};
   double identified_s = 0.0;  ///< in seconds since 1970; 0: not known
 
@@ -58,8 +58,8 @@ struct Identification {
   friend bool operator==(const Identification&, const Identification&) = default;
 };
 
-/// A std::optional<double> of half the size, as every channel keeps thousands in locked memory.
-/// What is put in is no NaN.
+/// A std::optional<double> of half the size, as every channel keeps thousands in locked memory. The
+/// number put in must not be NaN.
 class OptionalNumber {
  public:
   OptionalNumber() = default;
@@ -75,12 +75,12 @@ class OptionalNumber {
   double number_ = NAN;
 };
 
-/// What was changed of one controller or estimator on the running board, and stored.
+/// The values of one controller or estimator that were changed on the running board and stored.
 struct StoredValues {
   std::array<OptionalNumber, control::tunable_count> values;  ///< empty: as configured
 
-  /// What makes of the configured one the one that is now. Settings: control::ControllerSettings or
-  /// EstimatorSettings.
+  /// What turns the configured settings into the present ones. Settings:
+  /// control::ControllerSettings or EstimatorSettings.
   template <class Settings>
   static StoredValues difference(const Settings& now, Settings configured);
   template <class Settings>
@@ -88,7 +88,7 @@ struct StoredValues {
   friend bool operator==(const StoredValues&, const StoredValues&) = default;
 };
 
-/// One after the other: what a value is compared with depends on the kind and model before it.
+/// In order: the value that each is compared with depends on the kind and model before it.
 template <class Settings>
 StoredValues StoredValues::difference(const Settings& now, Settings configured) {
   StoredValues stored;
@@ -111,10 +111,10 @@ void StoredValues::apply_to(Settings& configured) const {
 }
 
 struct StoredTuning {
-  /// By their place; those behind cannot be tuned.
+  /// By place; controllers and estimators after these cannot be tuned.
   std::array<StoredValues, 4> controllers;
   std::array<StoredValues, 4> estimators;
-  std::optional<double> controller;  ///< place of the one that is chosen at the start
+  std::optional<double> controller;  ///< place of the one chosen at the start
   std::optional<double> estimator;   ///< likewise
 
   friend bool operator==(const StoredTuning&, const StoredTuning&) = default;
@@ -129,9 +129,9 @@ struct Learned {
   /// False: only senses, heat and tuning are known; muscle and calibration mean nothing.
   bool has_muscle = true;
   ThermalFacts heat;
-  /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
+  /// How much of the model's small motions arrives at the sensor, up to 10; 0: not measured.
   double response_ratio = 0.0;
-  /// Of the power's variance, by the linear model that identify found, up to 1; 0: not measured.
+  /// Of the power's variance, not explained by identify's linear model, up to 1; 0: not measured.
   double unexplained_ratio = 0.0;
   Identification identification{};  ///< LearnedStore sets its date
   StoredTuning tuning;
@@ -142,7 +142,7 @@ struct Learned {
 /// From a channel to the storage worker; empty: forget the muscle.
 using LearnedUpdate = std::optional<Learned>;
 
-/// The same muscle, calibration and senses, whichever version they are.
+/// The same muscle, calibration and senses, in any version.
 bool same_content(const Learned& a, const Learned& b);
 
 /// The first quantity that is NaN or out of its range; the muscle's ranges are control::check's.

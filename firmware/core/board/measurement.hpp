@@ -27,8 +27,8 @@ struct Scaling {
 inline void measure(const hal::Sample& sample, const Scaling& scaling, hal::Time now,
                     double max_age_s, Measured& result) {
   result.status = sample.status;
-  // Converted a moment after the tick's time was read: fresh. Much later is a clock that went
-  // wrong.
+  // A conversion just after the tick's time was read is fresh. One much later means that a clock
+  // went wrong.
   const double age_s = hal::seconds(now - sample.taken);
   result.age_s = age_s > 0.0 ? age_s : 0.0;
   result.present = sample.status == hal::Status::ok && std::abs(age_s) <= max_age_s;

@@ -14,10 +14,10 @@
 
 namespace supercoil::board {
 
-/// A person reads a meter at two powers; a reading alone changes nothing. What the senses measure
-/// is averaged while the power is steady, as the meter's display is. The gains are found when four
-/// readings agree with each other and with the configured resistance. One that does not is refused,
-/// and all are discarded: which of them was wrong is unknown.
+/// A person reads a meter at two powers; one reading alone changes nothing. While the power is
+/// steady the senses are averaged, as the meter's display is. The gains are found when four
+/// readings agree with each other and with the configured resistance. A reading that does not is
+/// refused and all are discarded, as it is unknown which was wrong.
 class MeterComparison {
  public:
   struct Settings {
@@ -32,10 +32,10 @@ class MeterComparison {
   static constexpr double min_gain = 0.7;
   static constexpr double max_gain = 1.4;
   static constexpr double min_level_ratio = 1.4;    ///< of the second power over the first
-  static constexpr double same_level_ratio = 0.05;  ///< duties this near are of one power
-  static constexpr double max_spread_ratio = 0.02;  ///< of a sense's gains at both, and rounding
-  static constexpr double meter_ratio = 0.01;       ///< what a usual meter is wrong by
-  static constexpr double floor_ratio = 0.01;       ///< for what two powers do not show
+  static constexpr double same_level_ratio = 0.05;  ///< duties this close are of one power
+  static constexpr double max_spread_ratio = 0.02;  ///< of a sense's gains at both, plus rounding
+  static constexpr double meter_ratio = 0.01;       ///< error of an ordinary meter
+  static constexpr double floor_ratio = 0.01;       ///< for errors that two powers do not show
   static constexpr double max_error_ratio = 0.2;
 
   MeterComparison(const Settings& settings, double step_s)
@@ -46,7 +46,7 @@ class MeterComparison {
   /// A tick at unchanged power, with what the senses measure.
   void step(double duty, double supply_V, double current_A) {
     if (ticks_ < steady_ticks_) ++ticks_;
-    // In the first half the power still settles.
+    // In the first half the power is still settling.
     if (2 * ticks_ <= steady_ticks_) return;
     duty_ += weight_ * (duty - duty_);
     reported_[supply] += weight_ * (supply_V - reported_[supply]);
@@ -60,15 +60,14 @@ class MeterComparison {
     weight_ = 1.0;
   }
   void forget() { levels_ = {}; }
-  /// A reading is there, and others are to follow.
+  /// A reading was taken, and more are to follow.
   bool begun() const {
     return std::any_of(levels_.begin(), levels_.end(),
                        [](const Level& level) { return level.duty > 0.0; });
   }
 
-  /// What the meter shows now: volts at the supply's terminals, or the mean of the amperes.
-  /// present: by which the senses were corrected. resistance_Ohm: what the configured heater may
-  /// have at its present temperature.
+  /// meter: what it shows now, volts at the supply's terminals or mean amperes. present: corrects
+  /// the senses now. resistance_Ohm: range of the configured heater at its present temperature.
   Refusal read(Sense sense, double meter, const board::SenseComparison& present,
                const PowerBounds::Interval& resistance_Ohm) {
     if (ticks_ < steady_ticks_) return Refusal::not_ready;
@@ -114,14 +113,14 @@ class MeterComparison {
     forget();
     return Refusal::out_of_range;
   }
-  /// Written so that a NaN is not.
+  /// Written so that NaN is not plausible.
   bool is_plausible(Sense sense, const Reading& r) const {
     if (sense == supply &&
         !(r.meter >= settings_.min_supply_V && r.meter <= settings_.max_supply_V))
       return false;
     return r.told > 0.0 && r.gain() >= min_gain && r.gain() <= max_gain;
   }
-  /// Which of the two powers acts; empty: neither the first nor enough more than that.
+  /// Which of the two powers acts; empty: neither the first nor far enough above it.
   std::optional<std::size_t> level_here() const {
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const double known = levels_[i].duty;
@@ -157,13 +156,13 @@ class MeterComparison {
   double step_of(Sense sense) const {
     return std::abs(sense == supply ? settings_.supply_step_V : settings_.current_step_A);
   }
-  /// What one count of the converter is of the smaller reading.
+  /// One count of the converter over the smaller reading.
   double count_ratio(Sense sense) const {
     return step_of(sense) /
            std::min(levels_[0].readings[sense].told, levels_[1].readings[sense].told);
   }
-  /// By what two right gains differ at the most if each reading is half a count off. The remaining
-  /// error has a count, so who mistypes by as little stays within it.
+  /// Max difference between two correct gains if each reading is half a count off. The remaining
+  /// error includes a count, so it covers a typing error that small.
   double rounding_ratio(Sense sense) const {
     double ratio = 0.0;
     for (const Level& level : levels_) {

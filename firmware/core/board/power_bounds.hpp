@@ -1,4 +1,4 @@
-// Between which powers the one that acted must lie, given what the senses may be wrong by.
+// Bounds of the power that acted, given the errors of the senses.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace supercoil::board {
 
-/// Two readings give the current: the duty, with the supply and the calibrated resistance, and the
-/// current sense. A sense that lies changes them in different ways, so the worse of both counts,
-/// each with what its senses may be wrong by. Until the senses were compared with a meter, that is
-/// as much as no detector would notice.
+/// The current is known in two ways: by the duty, with the supply and the calibrated resistance,
+/// and by the current sense. A wrong sense affects them differently, so the worse of the two
+/// counts, each with its senses' error bounds. Until the senses are compared with a meter, those
+/// bounds are the largest errors that no detector would notice.
 class PowerBounds {
  public:
   struct Settings {
@@ -20,7 +20,7 @@ class PowerBounds {
     double resistance_tolerance_ratio = 0.3;  ///< resistance_drift notices no smaller error
     double current_noise_A = 0.01;            ///< a smaller current counts as none
     double max_W = 4.5;                       ///< the channel's, assumed while a reading is missing
-    /// Heat in the muscle over electrical power, besides what the senses are wrong by.
+    /// Heat in the muscle over electrical power, besides errors of the senses.
     double min_power_ratio = 1.0;
     double max_power_ratio = 1.0;
   };
@@ -37,8 +37,8 @@ class PowerBounds {
   }
   bool compared() const { return compared_; }
 
-  /// In W, of what acted since the last tick. duty: as it was set; supply_V: as measured, 0 when
-  /// absent; resistance_Ohm: what the calibrated heater may have at its present temperature.
+  /// In W, for the power since the last tick. duty: as it was set; supply_V: as measured, 0 when
+  /// absent; resistance_Ohm: range of the calibrated heater at its present temperature.
   Interval step(double duty, double supply_V, const Measured& current,
                 const Interval& resistance_Ohm) const {
     const Settings& s = settings_;
@@ -46,7 +46,7 @@ class PowerBounds {
       const double set_W = duty * s.max_supply_V * s.max_supply_V / resistance_Ohm.min;
       return {0.0, std::max(s.max_W, set_W) * s.max_power_ratio};
     }
-    // Compared senses measure small currents too; what flows without a duty may still be noise.
+    // Compared senses measure small currents too; current without a duty may still be noise.
     const bool counts_all = compared_ && duty > 0.0;
     const double measured_A = std::max(0.0, current.value - (counts_all ? 0.0 : s.current_noise_A));
     const Interval supply = true_over_measured_supply(supply_V);
@@ -78,9 +78,9 @@ class PowerBounds {
     return {std::min(1.0, settings_.min_supply_V / supply_V),
             std::max(1.0, settings_.max_supply_V / supply_V)};
   }
-  /// What the duty alone leaves of the current's lower bound. Senses that were not compared may
-  /// hide a worn heater. Of those that were the current's lags where the duty falls, and tells more
-  /// then than the least resistance can take.
+  /// Lower bound of the current by the duty alone. Senses that were not compared may hide a worn
+  /// heater. A compared current sense lags when the duty falls, and then reads more than the
+  /// minimum resistance can draw.
   double min_set_A(double duty, double supply_V, const Interval& resistance_Ohm) const {
     const Interval supply = true_over_measured_supply(supply_V);
     const double part = settings_.resistance_tolerance_ratio;
@@ -88,7 +88,7 @@ class PowerBounds {
     const double min_warm_Ohm = resistance_Ohm.min * std::max(0.1, 1.0 - part);
     return duty * supply_V * supply.min / min_warm_Ohm;
   }
-  /// What is seen of two senses that were never compared is the resistance, their ratio.
+  /// Of two senses that were never compared, only their ratio, the resistance, is checked.
   Interval true_over_measured_current(const Interval& supply) const {
     if (compared_) return supply;
     const double unseen = 1.0 + settings_.resistance_tolerance_ratio;

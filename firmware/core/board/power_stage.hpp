@@ -1,4 +1,4 @@
-// From wanted watts to a PWM step, and back to the watts that it really gives.
+// From demanded watts to a PWM step, and back to the watts that it really gives.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 
 namespace supercoil::board {
 
-/// P = D V²/R for a switch that is closed for the part D of each period, so D = P R/V². (Not √(P
-/// R)/V: that is the duty of a voltage whose mean, not whose power, is wanted: 1.5 W asked would
-/// give 4.6 W.)
+/// P = D V²/R for a switch that is closed for the fraction D of each period, so D = P R/V². (Not
+/// √(P R)/V: that duty gives the right mean voltage, not the right power: 1.5 W asked would give
+/// 4.6 W.)
 class PowerStage {
  public:
   struct Settings {
@@ -19,13 +19,13 @@ class PowerStage {
     int step = 0;
     double duty = 0.0;
     double applied_W = 0.0;  ///< given to controller and estimator
-    bool clipped = false;    ///< the supply cannot give what was wanted
+    bool clipped = false;    ///< the supply cannot give what was demanded
   };
 
   explicit PowerStage(const Settings& settings) : settings_(settings) {}
 
-  /// demanded_W ≥ 0, resistance_Ohm and supply_V as measured; what is given never exceeds max_W,
-  /// error feedback or not. Anything that is not a positive number where one is needed gives 0.
+  /// demanded_W ≥ 0, resistance_Ohm and supply_V as measured; the applied power never exceeds
+  /// max_W, with or without error feedback. A value that must be positive and is not gives 0.
   Output step(double demanded_W, double resistance_Ohm, double supply_V, double max_W) {
     const double full_W = supply_V * supply_V / resistance_Ohm;
     const bool usable =
@@ -43,7 +43,7 @@ class PowerStage {
   void reset() { rest_ = 0.0; }
 
  private:
-  /// Whole steps, of those that there are; of a NaN none. (std::floor would be a call.)
+  /// Rounded down and limited to 0 to `steps`; 0 for NaN. (std::floor would be a call.)
   int whole(double steps) const {
     return steps > 0.0 ? static_cast<int>(std::min(steps, static_cast<double>(settings_.steps)))
                        : 0;

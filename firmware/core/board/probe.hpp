@@ -3,8 +3,8 @@
 
 namespace supercoil::board {
 
-/// While it runs the power stage gives the probe's duty. The second half of the pulse is measured:
-/// by then the averaged current sense has settled.
+/// While it runs, the power stage applies the probe's duty. The second half of the pulse is
+/// measured: by then the averaged current sense has settled.
 class Probe {
  public:
   Probe(double duration_s, double step_s) : duration_s_(duration_s), step_s_(step_s) {}

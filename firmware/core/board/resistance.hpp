@@ -5,9 +5,9 @@
 
 namespace supercoil::board {
 
-/// R = (d·V)/I, each side smoothed alike before they are divided. The current sense is averaged
-/// (low-passed), so what drives it, d·V, is passed through the same low-pass first: while the duty
-/// changes, the two would else be of different times.
+/// R = (d·V)/I, both sides smoothed alike before the division. The current sense is averaged
+/// (low-passed), so what drives it, d·V, is passed through the same low-pass first: otherwise the
+/// two would be of different times while the duty changes.
 class Resistance {
  public:
   struct Settings {
@@ -15,7 +15,7 @@ class Resistance {
     double smoothing_s = 0.2;
     double probe_duty = 0.02;   ///< below this the last value is held
     double initial_Ohm = 10.0;  ///< until it is measured
-    double min_Ohm = 0.1;       ///< outside these a value is not taken over
+    double min_Ohm = 0.1;       ///< values outside these are ignored
     double max_Ohm = 1e5;
   };
   Resistance(const Settings& settings, double step_s)
@@ -47,7 +47,7 @@ class Resistance {
     return true;
   }
 
-  /// A probe measured it: the smoothing starts anew from there.
+  /// A probe measured it: the smoothing restarts.
   void set(double value_Ohm) {
     value_Ohm_ = value_Ohm;
     age_s_ = 0.0;
@@ -60,7 +60,7 @@ class Resistance {
   double duty() const { return duty_; }
 
  private:
-  /// What a first-order low-pass takes of its input in a step.
+  /// Weight of the input in one step of a first-order low-pass.
   static double filter_gain(double time_constant_s, double step_s) {
     return time_constant_s > 0.0 ? -std::expm1(-step_s / time_constant_s) : 1.0;
   }

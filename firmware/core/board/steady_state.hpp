@@ -11,8 +11,8 @@
 
 namespace supercoil::board {
 
-/// In steady heat η is power over rise, at that rise. Steady is a muscle after five of the slowest
-/// time constants that it may have, at a power that did not change: e⁻⁵ is left of how far it was.
+/// In steady heat η is power over rise, at that rise. A muscle is steady after five of the slowest
+/// time constants that it may have, at unchanged power: e⁻⁵ of the initial difference is left.
 class SteadyState {
  public:
   SteadyState(const ThermalSettings& settings, double step_s)
@@ -30,11 +30,11 @@ class SteadyState {
     measured_power_W_.min += smoothing_ * (measured_power_W.min - measured_power_W_.min);
     measured_power_W_.max += smoothing_ * (measured_power_W.max - measured_power_W_.max);
   }
-  /// The power is another one from now on, or is not known.
+  /// The power changes, or is not known.
   void restart() { ticks_ = 0; }
 
-  /// How much warmer the muscle is than the air. A reading that contradicts what is known is
-  /// refused; facts are those before it, and with it when it is taken.
+  /// rise_K: how much warmer the muscle is than the air. A reading that contradicts what is known
+  /// is refused; one that is accepted is added to facts.
   Refusal read(double rise_K, const PowerBounds::Interval& true_over_measured,
                board::ThermalFacts& facts) const {
     if (ticks_ < steady_ticks_) return Refusal::not_ready;
@@ -55,7 +55,7 @@ class SteadyState {
 
  private:
   static constexpr double slowest_constants = 5.0;
-  static constexpr double min_errors = 3.0;  ///< a smaller rise says nothing
+  static constexpr double min_errors = 3.0;  ///< a rise below this many errors says nothing
   static constexpr double max_K = 300.0;
 
   ThermalSettings settings_;
@@ -64,7 +64,7 @@ class SteadyState {
   double smoothing_;
   std::int64_t ticks_ = 0;
   PowerBounds::Interval measured_power_W_{0.0, 0.0};
-  double from_K_ = 0.0;  ///< the hot end, when the power became what it is
+  double from_K_ = 0.0;  ///< the hot end when the power last changed
 };
 
 }  // namespace supercoil::board

@@ -1,4 +1,4 @@
-// Finding where a cold muscle is, and what its cold resistance is.
+// Finds the position and the resistance of a cold muscle.
 #pragma once
 
 #include <cmath>
@@ -10,15 +10,15 @@
 
 namespace supercoil::modes {
 
-/// Waits until the muscle must be cold, or cannot be warm and yet as still as it is; takes the mean
-/// position over a second as its zero, and asks for a probe. A zero that moves while it is taken,
-/// or a resistance out of range, is refused.
+/// Waits until the muscle must be cold, or is too still to be warm; takes the mean position over a
+/// second as its zero, and asks for a probe. A zero that moves while it is taken, or a resistance
+/// out of range, is refused.
 class Calibrate {
  public:
   struct Settings {
     double cold_K = 1.0;
-    double still_K = cold_K;  ///< cold, where it is still: no more than a jammed one may be
-    double max_left_m = 0.0;  ///< that it may still move by, then
+    double still_K = cold_K;  ///< cold if it is still; a jammed muscle may be this hot
+    double max_left_m = 0.0;  ///< max remaining motion when cold by stillness
     double count_m = 0.0;     ///< resolution of the position
     double max_wait_s = 120.0;
     double mean_s = 1.0;
@@ -30,7 +30,7 @@ class Calibrate {
       : settings_(settings), stillness_(settings.mean_s, settings.count_m) {}
 
   void start() { *this = Calibrate(settings_); }
-  /// Grows with time as evenly as the muscle cools exponentially: what is left can be told from it.
+  /// Grows evenly with time if cooling is exponential, so it tells the remaining time.
   float progress() const { return progress_; }
   double zero_m() const { return sum_m_ / static_cast<double>(count_); }
   double cold_resistance_Ohm() const { return resistance_Ohm_; }
@@ -74,7 +74,7 @@ class Calibrate {
     return hottest_K <= settings_.cold_K ||
            (hottest_K <= settings_.still_K && stillness_.left_m() <= settings_.max_left_m);
   }
-  /// From the start until it must be cold, by how far it has cooled: infinity while it has not.
+  /// From the start until it must be cold, by the cooling so far; infinity without any.
   double cooling_s(double hottest_K) const {
     const double ends_K = hottest_K > settings_.still_K ? settings_.still_K : settings_.cold_K;
     const double cooled = std::log(begins_K_ / hottest_K) / std::log(begins_K_ / ends_K);

@@ -28,8 +28,8 @@ void Excitation::adapt_power(bool reached, double max_W) {
   power_W_ = std::min(power_W_, max_W);
 }
 
-/// A linear muscle is held by as much power a metre as it got so far: over whole strokes what it
-/// stores of it hardly counts.
+/// A linear muscle is held by as much power per metre as it got so far: over whole strokes, the
+/// heat that it stores hardly counts.
 double Excitation::cooling_W() const {
   const double ratio_W = cooling_ratio * power_W_;
   if (risen_m_s_ <= 0.0) return ratio_W;

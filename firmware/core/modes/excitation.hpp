@@ -1,4 +1,4 @@
-// The power that teaches most about a muscle of which little is known.
+// The power that tells the most about a muscle of which little is known.
 #pragma once
 
 #include <array>
@@ -8,32 +8,31 @@
 
 namespace supercoil::modes {
 
-/// Heats until the position has reached a level, lets cool until it has reached another, and so on,
-/// with three sines on top that show the mechanics. The muscle itself sets the pace, so its time
-/// constant need not be known, and positions bound the motion, so its gain need not be known.
+/// Heats until the position reaches a level, lets the muscle cool until it reaches another, and so
+/// on, with three superimposed sines that show the mechanics. The muscle itself sets the pace, so
+/// its time constant need not be known; positions bound the motion, so its gain need not be known.
 ///
-/// The first heating begins with a fiftieth of the power that is allowed, which then rises until
-/// the position is as far as it may go, or does not rise any more. All that follows stays below
-/// that.
+/// The first heating begins with a fiftieth of the allowed power, which then rises until the
+/// position is as far as it may go, or rises no further. All later motion stays below that.
 class Excitation {
  public:
   struct Settings {
     double max_travel_m;  ///< of the channel, > 0
     double step_s;
   };
-  /// Heated and cooled so often; so often again where that is not enough.
+  /// Times heated and cooled; as many again if that is not enough.
   static constexpr std::size_t cycles = 8;
 
   explicit Excitation(const Settings& settings) : settings_(settings) {}
 
-  /// Begins anew, with a muscle that may still be warm from before.
+  /// Begins from scratch, with a muscle that may still be warm.
   void start(double position_m) {
     *this = Excitation(settings_);
     position_m_ = position_m;
     begin(Phase::rest);
   }
-  /// Once more, from where the last stroke ended, with the power and the reach that are known by
-  /// now, and shorter strokes: they show less of what is not linear.
+  /// Begins again where the last stroke ended, with the power and the reach known by now, and with
+  /// shorter strokes: they show less nonlinearity.
   void start_shorter() {
     reach_m_ *= shorter_ratio;
     cycle_ = 0;
@@ -41,7 +40,7 @@ class Excitation {
     begin(Phase::heat);
   }
 
-  /// As many strokes again, after those that are done. False: that was done before.
+  /// As many strokes again after those done. False: that was done before.
   bool go_on() {
     if (goes_on_) return false;
     goes_on_ = true;
@@ -59,13 +58,13 @@ class Excitation {
   bool done() const { return cycle_ >= (goes_on_ ? 2 : 1) * cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
   bool too_little_motion() const { return too_still_; }
-  /// Of those: it moved by as much as is needed, away from where heat should draw it.
+  /// As too_little_motion(), and it moved at least that far, against the direction of heating.
   bool moved_backwards() const { return too_still_ && reach_m_ <= -min_m(); }
-  /// From 0; the first one searches for the power, and teaches little of a quick muscle.
+  /// From 0; the first one searches for the power, and tells little about a quick muscle.
   std::size_t cycle() const { return cycle_; }
   /// The search has begun.
   bool heated() const { return phase_ != Phase::rest; }
-  /// The muscle takes so long that its first stroke counts, and need not end at a low.
+  /// The muscle is so slow that its first stroke counts, and need not end at a low.
   bool slow() const { return slow_; }
   double risen_m() const { return position_m_ - cold_m_; }
   /// Of these strokes, 0 to 1.
@@ -80,31 +79,31 @@ class Excitation {
 
   /// Of the channel's travel: the rest is for a muscle that overshoots.
   static constexpr double travel_ratio = 0.55;
-  /// Of the travel: less is not enough to identify by.
+  /// Of the travel: less motion is not enough to identify the muscle.
   static constexpr double min_ratio = 0.01;
   /// Likewise: a muscle that softens as it warms may give way a little at first.
   static constexpr double backwards_ratio = 0.1;
   static constexpr double first_ratio = 0.02;  ///< of the power
-  /// Of the power that heats, mean, while it cools.
+  /// Mean power while it cools, over the power that heats.
   static constexpr double cooling_ratio = 0.05;
-  /// Of the reach: what that power may hold, or the muscle would hardly come to its lows. 0.05 to
-  /// 0.08 find as many of the random muscles of docs/setup.md.
+  /// Of the reach: the most that the cooling power may hold, or the muscle would hardly reach its
+  /// lows. 0.05 to 0.08 find equally many of the random muscles of docs/setup.md.
   static constexpr double held_ratio = 0.06;
-  static constexpr double growth_s = 0.75;  ///< of the power in the search, e-fold
+  static constexpr double growth_s = 0.75;  ///< e-fold time of the power in the search
   static constexpr double smoothing_s = 0.05;
   /// How far a muscle's position lags behind its heat: mechanics of 7 rad/s.
   static constexpr double lag_s = 0.15;
-  /// Of the position that the search has reached. Nearly full strokes: what they teach of a muscle
-  /// with hysteresis depends least on the order in which they come.
+  /// Of the position that the search has reached. Nearly full strokes: what they tell about a
+  /// muscle with hysteresis depends least on their order.
   static constexpr std::array<double, 2> highs{0.85, 0.75};
   static constexpr std::array<double, 2> lows{0.15, 0.25};
   static constexpr double shorter_ratio = 0.7;
   static constexpr double first_check_s = 0.4;
   static constexpr double min_phase_s = 2.0;
-  /// Of the longest phase before: one that is as slow turns round as slowly, by play and creep.
+  /// Of the longest phase so far: a slow muscle also reverses slowly, due to play and creep.
   static constexpr double min_phase_ratio = 0.2;
-  /// A muscle that has not cooled from its reach to its lows after that is slow: of time constants
-  /// of some 12 s and more.
+  /// A muscle that has not cooled from its reach to its lows after this is slow: its time constant
+  /// is some 12 s or more.
   static constexpr double slow_s = 25.0;
   static constexpr double slow_low = 0.5;  ///< where its first stroke may end
   static constexpr double max_still_s = 25.0;
@@ -118,14 +117,14 @@ class Excitation {
     check_s_ = first_check_s;
     check_m_ = begin_m_ = position_m_;
   }
-  /// The position has come to its end: in the last third of the phase it has gone on by less than a
-  /// twentieth of what it moved in all. Checked at times of which each is 1.5 times the last, which
-  /// suits any time constant (an exponential is stalled after four).
+  /// The position has settled: in the last third of the phase it moved by less than a twentieth of
+  /// the phase's whole motion. Checked at times that grow by a factor of 1.5, which suits any time
+  /// constant (an exponential is stalled after four).
   bool stalled();
   void end_search(double ahead_m);
-  /// A level that is reached at once is passed by far; one that is not reached wants more.
+  /// A level reached at once is overshot by far; one that is not reached needs more power.
   void adapt_power(bool reached, double max_W);
-  /// While it cools, mean.
+  /// Mean power while it cools.
   double cooling_W() const;
   double level_m(const std::array<double, 2>& ratios) const {
     return cold_m_ + ratios[cycle_ % ratios.size()] * reach_m_;
@@ -143,7 +142,7 @@ class Excitation {
   bool too_still_ = false;
   double time_s_ = 0.0;
   double phase_s_ = 0.0;
-  double longest_s_ = 0.0;   ///< of the phases that heated or cooled, and have ended
+  double longest_s_ = 0.0;   ///< of the finished phases that heated or cooled
   double position_m_ = 0.0;  ///< smoothed
   double speed_m_per_s_ = 0.0;
   double cold_m_ = 0.0;
@@ -152,8 +151,8 @@ class Excitation {
   double energy_J_ = 0.0;   ///< given since the search began
   double risen_m_s_ = 0.0;  ///< integral of the rise since then
   double begin_m_ = 0.0;    ///< where this phase began
-  double check_s_ = 0.0;    ///< after which time of the phase it is judged next
-  double check_m_ = 0.0;    ///< where it was at the last check
+  double check_s_ = 0.0;    ///< time in the phase of the next check
+  double check_m_ = 0.0;    ///< position at the last check
 };
 
 }  // namespace supercoil::modes

@@ -25,7 +25,7 @@ bool Identify::knows(const Fit& fit, int i) const {
          fit.unseen_difference[i] <= settings_.max_difference;
 }
 
-/// On a muscle that is not linear no θ2 suits all motions, and feedback only damps by it.
+/// On a nonlinear muscle no θ2 suits all motions, and feedback uses it only for damping.
 bool Identify::usable_theta2(const Fit& fit) const {
   return plausible(fit.theta[1], control::theta_from(believed_)[1]) &&
          fit.deviation[1] <= settings_.max_theta2_deviation;
@@ -36,8 +36,8 @@ bool Identify::plausible(double theta, double believed) const {
   return ratio >= settings_.min_ratio && ratio <= settings_.max_ratio;
 }
 
-/// The found θ1, or the believed one at the pace of the muscle that was found: θ1/θ3 is about 1/ϱ,
-/// which does not depend on γ. A muscle with it must be stable, θ2 θ3 > θ1 m̂ θ4.
+/// The found θ1, or the believed one scaled to the pace of the muscle that was found: θ1/θ3 is
+/// about 1/ϱ, which does not depend on γ. The resulting muscle must be stable, θ2 θ3 > θ1 m̂ θ4.
 double Identify::theta1(const Fit& fit) {
   const control::Theta believed = control::theta_from(believed_);
   const double scaled = believed[0] * fit.theta[2] / believed[2];
@@ -127,7 +127,7 @@ ModeResult Identify::conclude(bool ends) {
   if (shortened_ == 0 && result != ModeResult::uncertain) return result;
   if (can_shorten) return shorten(result);
   if (shortened_ == 0) return result;
-  // Whatever speaks against the shorter strokes, the full ones did not find it either.
+  // Whatever the shorter strokes' result, the full ones did not find the muscle either.
   notes_ |= full_notes_;
   return full_result_;
 }

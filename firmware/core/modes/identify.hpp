@@ -14,41 +14,41 @@ namespace supercoil::modes {
 
 /// Excites the muscle at its own pace, fits it, and judges each parameter by itself. A muscle is
 /// found when θ2 to θ4, which controllers use, are known (θ2 roughly), explain the last third of
-/// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
-/// believed; position and power never give γ and m̂, so they do too. Strokes that leave a parameter
-/// uncertain are followed by as many more, which are judged together with them. A muscle of which
-/// the model explains too little, or that stays uncertain, is excited with shorter strokes, twice
-/// at most. A slow muscle is judged after each stroke: once it is found, or does not fit, more of
-/// the same strokes would only take time.
+/// the experiment, and lie within a range of the believed ones. An uncertain θ1 stays as believed;
+/// so do γ and m̂, which position and power never give. If a parameter stays uncertain, as many
+/// strokes again follow, and all are judged together. If the model explains too little, or a
+/// parameter is still uncertain, shorter strokes follow, twice at most. A slow muscle is judged
+/// after each stroke: once it is found, or does not fit, more of the same strokes would only take
+/// time.
 class Identify {
  public:
   struct Settings {
-    double max_s = 2400.0;  ///< then what there is must do
-    /// From then on the muscle is judged after each stroke, once there are enough of them; a slow
-    /// one as soon as they can be fitted.
+    double max_s = 2400.0;  ///< then the data so far must do
+    /// After this the muscle is judged after each stroke, once there are enough of them; a slow one
+    /// once they can be fitted.
     double patience_s = 100.0;
     std::size_t enough_strokes = 4;
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
-    /// 0.02; one whose stiffness changes by a third under way, 0.13 and more.
+    /// 0.02; one whose stiffness changes by a third during the experiment, 0.13 and more.
     double max_unexplained = 0.06;
-    /// Likewise, of the full strokes, by a muscle that shorter ones found.
+    /// Likewise for the full strokes, by a muscle that shorter ones found.
     double max_unexplained_full = 0.5;
-    double max_deviation = 0.1;  ///< standard, of each parameter, relative
-    /// Likewise, of a slow muscle's θ4, which takes most strokes to know.
+    double max_deviation = 0.1;  ///< standard deviation of each parameter, relative
+    /// Likewise for a slow muscle's θ4, which takes the most strokes to determine.
     double max_slow_theta4_deviation = 0.15;
-    double max_difference = 0.25;       ///< of the unseen third's own fit, relative
-    double max_theta2_deviation = 0.5;  ///< more than this refuses it; between, it is noted
-    double min_ratio = 0.1;             ///< each θ within these ratios to the believed muscle's
+    double max_difference = 0.25;       ///< relative difference of the unseen third's own fit
+    double max_theta2_deviation = 0.5;  ///< more refuses it; above max_deviation it is noted
+    double min_ratio = 0.1;             ///< limits of each θ over the believed muscle's
     double max_ratio = 10.0;
   };
 
-  /// How sure the last muscle that was found is. NaN: none was.
+  /// How certain the last muscle that was found is. NaN: none was.
   struct Quality {
-    /// Standard; NaN: kept. Of a muscle that shorter strokes found, with how far the full ones' fit
-    /// is from theirs.
+    /// Standard; NaN: kept. For a muscle found with shorter strokes, includes how far the full
+    /// ones' fit is from theirs.
     control::Theta deviation_ratio = control::Theta::Constant(NAN);
-    /// As BatchLeastSquares::Fit has it. Where it took shorter strokes, what the muscle that they
-    /// found leaves of the full ones, if that is more.
+    /// As in BatchLeastSquares::Fit. With shorter strokes, what the muscle that they found leaves
+    /// of the full ones, if that is more.
     double unexplained_ratio = NAN;
   };
 
@@ -61,7 +61,7 @@ class Identify {
         excitation_({max_travel_m, step_s}),
         fit_(believed, step_s) {}
 
-  /// The muscle is here, and gets no power.
+  /// position_m: where the unpowered muscle is.
   void start(double position_m) {
     elapsed_s_ = 0.0;
     notes_ = 0;
@@ -90,7 +90,7 @@ class Identify {
   }
 
   double power_W() const { return power_W_; }
-  /// 0 to 1; that it is excited again is not known beforehand: each time is half of what was left.
+  /// 0 to 1. Repeats are not known beforehand, so each counts as half of what was left.
   float progress() const {
     return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(again_));
   }
@@ -100,19 +100,19 @@ class Identify {
   double risen_m() const { return excitation_.risen_m(); }
   const control::PhysicalParameters& found() const { return found_; }
   const Quality& quality() const { return quality_; }
-  /// IdentifyNotes of the last judgement; 0 while it runs. With a muscle that was found, poor_fit
-  /// says that it took shorter strokes.
+  /// IdentifyNotes of the last judgement; 0 while it runs. If a muscle was found, poor_fit means
+  /// that it took shorter strokes.
   std::uint8_t notes() const { return notes_; }
 
  private:
   static constexpr std::uint8_t max_shortened = 2;
 
-  /// Of the fit, that this stroke is.
+  /// The block of the fit that this stroke is.
   std::size_t block_of(std::size_t cycle) const {
     return cycle == 0 || excitation_.slow() ? cycle : cycle - 1;
   }
 
-  /// What the strokes so far say; ends: no more of them are to come.
+  /// Judges the strokes so far; ends: no more are to come.
   ModeResult conclude(bool ends);
   ModeResult judge();
   ModeResult go_on() {
@@ -131,9 +131,9 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
-  std::uint8_t again_ = 0;      ///< excited so often, after the first time
-  std::uint8_t shortened_ = 0;  ///< so often of these, by shorter strokes
-  /// The full ones, where they are shortened: what they showed, and how they ended.
+  std::uint8_t again_ = 0;      ///< times excited again after the first
+  std::uint8_t shortened_ = 0;  ///< of these, times with shorter strokes
+  /// Of the full strokes, once they are shortened: what they showed, and how they ended.
   control::BatchLeastSquares::Sums full_strokes_;
   control::Theta full_theta_ = control::Theta::Constant(NAN);
   ModeResult full_result_ = ModeResult::none;

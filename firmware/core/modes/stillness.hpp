@@ -8,8 +8,8 @@
 namespace supercoil::modes {
 
 /// Compares the mean position over a second with an earlier one. A muscle whose heat has fallen to
-/// the ratio r of what it was then has moved by x (1 - r), where x is all the motion that its heat
-/// made then, and x r is left of it. The greatest r is that of the hottest that it may be.
+/// the ratio r of its earlier heat has moved by x (1 - r), where x is all the motion that the
+/// earlier heat caused; x r of it is left. The max r is that of the hottest that the muscle may be.
 class Stillness {
  public:
   /// mean_s: > 0. count_m: the sensor's resolution, below which no motion is seen.
@@ -46,9 +46,9 @@ class Stillness {
   }
 
  private:
-  /// The earlier mean is of when it may have been so many times as hot, to the square of that.
+  /// The earlier mean is from when the hottest was this many times as hot, up to its square.
   static constexpr double compared_ratio = 2.5;
-  /// Readings of a mean at least, however slowly the sensor is read and filtered.
+  /// Min independent readings in a mean, however slowly the sensor is read and filtered.
   static constexpr double independent = 50.0;
 
   struct Mean {
@@ -71,8 +71,8 @@ class Stillness {
   double sum_m_ = 0.0;
   double square_sum_m2_ = 0.0;
   bool begun_ = false;
-  Mean first_;  ///< what is compared with
-  Mean next_;   ///< what will be
+  Mean first_;  ///< compared with last_
+  Mean next_;   ///< the next first_
   Mean last_;
 };
 

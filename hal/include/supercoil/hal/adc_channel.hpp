@@ -8,7 +8,7 @@
 
 namespace supercoil::hal {
 
-/// A conversion. Counts are raw: board/measurement.hpp alone turns them into units.
+/// A conversion. Counts are raw: only board/measurement.hpp turns them into units.
 struct Sample {
   std::int32_t counts = 0;
   Time taken{};  ///< when it was converted, on the board's clock
@@ -17,7 +17,7 @@ struct Sample {
 
 /// One input. Owned by the board. latest() never blocks: a direct converter is read within 20 µs; a
 /// buffered one gives the newest conversion that its bus's thread has exchanged, with the time when
-/// it was taken. An old conversion keeps its time: whether it is too old is the caller's to say.
+/// it was taken. An old conversion keeps its time; the caller judges whether it is too old.
 class AdcChannel {
  public:
   AdcChannel() = default;

@@ -9,11 +9,11 @@ namespace supercoil::hal {
 /// How much a Finding matters.
 enum class Severity {
   ok,
-  warning,  ///< the firmware runs, but not as it should; or it cannot be known
+  warning,  ///< the firmware runs, but not as it should; or the state is unknown
   problem,  ///< the firmware does not start, or nothing may be heated with it
 };
 
-/// In a word, for people.
+/// In one word, for people.
 constexpr const char* text(Severity severity) {
   switch (severity) {
     case Severity::ok:
@@ -30,7 +30,7 @@ constexpr const char* text(Severity severity) {
 struct Finding {
   std::string what;  ///< e.g. "channel 1, enable"
   Severity severity = Severity::ok;
-  std::string found;   ///< how it is; of what is missing, where it was looked for and what is there
+  std::string found;   ///< how it is; if missing, where it was looked for and what is there
   std::string remedy;  ///< what to do; empty when ok
 };
 

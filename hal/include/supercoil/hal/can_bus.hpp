@@ -17,11 +17,11 @@ struct CanFrame {
   Time received{};
 };
 
-/// What the controller says of the bus.
+/// The bus state that the controller reports.
 enum class CanState { active, error_passive, bus_off, down };
 
 /// Owned by the telemetry thread; never used in a tick. Nothing blocks: send() hands over or
-/// answers busy (a full queue: ENOBUFS), receive() answers not_ready when nothing has come.
+/// answers busy (a full queue: ENOBUFS), receive() answers not_ready when no frame has arrived.
 class CanBus {
  public:
   CanBus() = default;
@@ -31,9 +31,9 @@ class CanBus {
 
   /// Hands a frame over for sending. ok does not mean that it was on the bus.
   virtual Status send(const CanFrame& frame) = 0;
-  /// The oldest frame that waits. frame is valid with ok alone.
+  /// The oldest frame that waits. frame is valid only with ok.
   virtual Status receive(CanFrame& frame) = 0;
-  /// As it was last known.
+  /// The last known state.
   virtual CanState state() const = 0;
 };
 

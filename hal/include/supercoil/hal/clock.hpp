@@ -13,12 +13,12 @@ using Duration = std::chrono::nanoseconds;
 constexpr double seconds(Duration duration) {
   return 1e-9 * static_cast<double>(duration.count());
 }
-/// Of finite seconds within ±292 years; cut to whole nanoseconds.
+/// For finite seconds within ±292 years; truncated to whole nanoseconds.
 constexpr Duration duration_from(double seconds_) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds_));
 }
 
-/// Owned by the executive; used by its thread alone.
+/// Owned by the executive; used only by its thread.
 class Clock {
  public:
   Clock() = default;
@@ -28,8 +28,8 @@ class Clock {
 
   /// Costs 20 ns or less; never blocks.
   virtual Time now() const = 0;
-  /// Blocks until the absolute time `wake`; returns when it really woke. A time in the past returns
-  /// at once. On a simulated board nothing sleeps: the board moves on to that time.
+  /// Blocks until the absolute time `wake`; returns the time at which it really woke. A time in the
+  /// past returns at once. On a simulated board nothing sleeps: the board advances to that time.
   virtual Time wait_until(Time wake) = 0;
 };
 

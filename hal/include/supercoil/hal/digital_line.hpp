@@ -5,7 +5,7 @@
 
 namespace supercoil::hal {
 
-/// An output. Always direct: it has its level within 20 µs when set() returns. Never blocks.
+/// An output. Always direct: the line has its level when set() returns, within 20 µs. Never blocks.
 class DigitalOutput {
  public:
   DigitalOutput() = default;
@@ -17,7 +17,7 @@ class DigitalOutput {
   virtual Status set(bool high) = 0;
 };
 
-/// An input's level, or why it cannot be read. A caller whose safety hangs on it treats every
+/// An input's level, or why it cannot be read. A caller that depends on it for safety treats every
 /// status but ok as the dangerous level.
 struct Level {
   bool high = false;

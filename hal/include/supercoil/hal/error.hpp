@@ -1,4 +1,4 @@
-// Why something could not be done: one type for all that may fail outside of a tick.
+// Why something could not be done: one type for everything that may fail outside a tick.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct Error {
   int line = 0;             ///< 0: the file as a whole
   std::string key{};        ///< the whole path, e.g. plant.moving_mass_kg; empty: none
   std::string message{};    ///< what was looked for, and what was found instead
-  std::string value{};      ///< of the key, as it is written; empty where it has none
+  std::string value{};      ///< of the key, as written; empty where it has none
   bool of_default = false;  ///< the key is absent, and its default is wrong here
-  /// What callers decide by, never the words: errno's value, or what means the same without a
+  /// For callers to decide by, instead of the words: errno's value, or its equivalent without a
   /// failed call (timed_out: a board did not answer). 0: there is nothing to decide.
   std::errc code{};
 
@@ -33,19 +33,19 @@ struct Error {
   }
 };
 
-/// Everything that is wrong with an input, so that it can be corrected at once.
+/// Everything that is wrong with an input, so that all of it can be corrected at once.
 using Errors = std::vector<Error>;
 
 /// A value, or why there is none.
 template <class Value>
 using Result = tl::expected<Value, Error>;
 
-/// An error without a place of its own.
+/// An error without a location.
 inline tl::unexpected<Error> failure(std::string message, std::errc code = {}) {
   return tl::unexpected<Error>(Error{.message = std::move(message), .code = code});
 }
 
-/// The same of a failed call, by its errno: "message: No such file or directory".
+/// The same for a failed call, from its errno: "message: No such file or directory".
 inline tl::unexpected<Error> failed_call(const std::string& message, int error) {
   return failure(message + ": " + std::generic_category().message(error), std::errc(error));
 }

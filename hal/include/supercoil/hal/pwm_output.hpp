@@ -18,8 +18,8 @@ class PwmOutput {
 
   /// step: 0 (off) to steps() (always on). out_of_range changes nothing.
   virtual Status set(int step) = 0;
-  /// What a read back of the device gives. On sysfs that is only the kernel's cached value: proof
-  /// of power is current. Negative when it cannot be read back, or while a buffered write is under
+  /// The step read back from the device. On sysfs that is only the kernel's cached value: proof of
+  /// power is current. Negative when it cannot be read back, or while a buffered write is under
   /// way.
   virtual int read_back() const = 0;
   /// Steps of a full period, ≥ 1: 4095 for 12 bits.

@@ -14,7 +14,7 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
   virtual ~Watchdog() = default;
 
-  /// Begins its time anew.
+  /// Restarts its time-out.
   virtual Status feed() = 0;
   /// Stops it, so that the board is not reset after an orderly end.
   virtual Status release() = 0;

@@ -12,13 +12,13 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// -9223372036854775808 and a newline are 21 bytes; what fills this is NaN.
+/// -9223372036854775808 and a newline are 21 bytes; a text that fills this is not a number.
 constexpr std::size_t max_number = 32;
 /// sysfs gives one page.
 constexpr std::size_t max_text = 4096;
 
 int flags(Attribute::Use use) {
-  // Without O_NONBLOCK a pipe in the attribute's place would hold up the opening for ever.
+  // Without O_NONBLOCK, opening a pipe in the attribute's place would block for ever.
   switch (use) {
     case Attribute::Use::read:
       return O_RDONLY | O_NONBLOCK;

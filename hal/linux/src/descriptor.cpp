@@ -40,7 +40,7 @@ Descriptor::~Descriptor() {
 }
 
 void Descriptor::close() noexcept {
-  // Not repeated after EINTR: on Linux the number is free then, and may be another thread's.
+  // Not repeated after EINTR: on Linux the number is free by then, and may be another thread's.
   if (is_open()) ::close(std::exchange(number_, -1));
 }
 

@@ -11,7 +11,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// The time-out that the driver took, or why it took none.
+/// The time-out that the driver accepted, or why it accepted none.
 Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::string& path) {
   int taken_s = wanted_s;
   if (::ioctl(device.number(), WDIOC_SETTIMEOUT, &taken_s) == 0) return taken_s;
@@ -51,13 +51,13 @@ DevWatchdog::DevWatchdog(Descriptor device, int timeout_s, bool outlives_program
 
 hal::Status DevWatchdog::feed() {
   if (!device_.is_open()) return hal::Status::gone;
-  // Any byte but 'V' feeds it, with every driver; WDIOC_KEEPALIVE is not everywhere.
+  // Any byte but 'V' feeds it, with every driver; not all support WDIOC_KEEPALIVE.
   return write_next(device_, "\0", 1);
 }
 
 hal::Status DevWatchdog::release() {
   if (!device_.is_open()) return hal::Status::gone;
-  // Closing does not tell whether it stopped; this does, where the driver knows it. EBUSY:
+  // Closing does not report whether it stopped; this does, if the driver supports it. EBUSY:
   // nowayout.
   int disable = WDIOS_DISABLECARD;
   if (::ioctl(device_.number(), WDIOC_SETOPTIONS, &disable) != 0 && errno == EBUSY) {

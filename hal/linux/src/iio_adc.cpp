@@ -10,7 +10,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// "voltage0, voltage1": what a device has in_…_raw of.
+/// "voltage0, voltage1": the inputs for which a device has in_…_raw.
 std::string inputs_of(const std::string& folder) {
   constexpr std::string_view before = "in_";
   constexpr std::string_view behind = "_raw";

@@ -27,7 +27,7 @@ Result<DeviceFolder> find_iio_device(const std::string& device, const std::strin
 }
 
 std::optional<CountRange> count_range(const ConverterLocation& place) {
-  constexpr int max_bits = 32;  // more are no converter's
+  constexpr int max_bits = 32;  // no converter has more
   if (!is_input_name(place.input)) return {};
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return {};

@@ -49,7 +49,7 @@ hal::AdcChannel& IioScan::input(std::size_t index) {
 void IioScan::take_newest() noexcept {
   const Transfer got =
       read_next(ready_.device, reinterpret_cast<char*>(buffer_.data()), buffer_.size());
-  // Nothing new: the newest stays what it was, with its own time.
+  // Nothing new: the newest scan stays, with its own time.
   if (got.status == hal::Status::not_ready) return;
   status_ = got.status;
   if (status_ != hal::Status::ok) return;

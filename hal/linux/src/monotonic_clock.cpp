@@ -12,7 +12,7 @@ hal::Time MonotonicClock::time() noexcept {
 }
 
 hal::Time MonotonicClock::wait_until(hal::Time wake) {
-  // The kernel goes to sleep even for a time that is past, and gives the CPU to others.
+  // The kernel would sleep even for a time in the past, and give the CPU to others.
   if (const hal::Time now = time(); now >= wake) return now;
   const auto whole = std::chrono::floor<std::chrono::seconds>(wake);
   timespec until{};

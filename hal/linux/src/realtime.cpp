@@ -43,9 +43,9 @@ std::size_t stack_left() {
   return static_cast<std::size_t>(&here - static_cast<const char*>(lowest));
 }
 
-/// Writes into its own frame and those below. Not one big array: no compiler may leave it out.
+/// Writes into its own frame and those below. One big array could be optimised away.
 [[gnu::noinline]] char touch(std::size_t bytes) {
-  constexpr std::size_t frame = 2048;  // less than a page: none is stepped over
+  constexpr std::size_t frame = 2048;  // less than a page, so that none is skipped
   std::array<volatile char, frame> mine;
   mine.front() = static_cast<char>(bytes);
   mine.back() = bytes > frame ? touch(bytes - frame) : '\0';

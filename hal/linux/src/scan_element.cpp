@@ -9,7 +9,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// Takes the parts of a text from its front; once one is missing, nothing more is taken.
+/// Takes the parts of a text from its front; after a missing one, nothing more is taken.
 class Parts {
  public:
   explicit Parts(std::string_view text) : rest_(text) {}
@@ -23,7 +23,7 @@ class Parts {
   int number() {
     int value = 0;
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    // from_chars takes a minus; none of these numbers may have one.
+    // from_chars accepts a minus; none of these numbers may have one.
     good_ = good_ && error == std::errc{} && value >= 0 && rest_.front() != '-';
     if (good_) rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
@@ -74,7 +74,7 @@ std::int64_t value_of(const ScanType& type, const std::byte* bytes) noexcept {
     const std::byte next = bytes[type.big_endian ? i : count - 1 - i];
     stored = stored << bits_of_a_byte | std::to_integer<std::uint64_t>(next);
   }
-  // The bits to the top, and down again: the second shift brings the sign along.
+  // The bits to the top, and down again: the second shift extends the sign.
   const int spare = widest - type.bits;
   const std::uint64_t at_top = stored >> type.shift << spare;
   return type.is_signed ? static_cast<std::int64_t>(at_top) >> spare

@@ -27,7 +27,7 @@ Result<void> check(const ScanLocation& place) {
   return {};
 }
 
-/// Turns off what may have been left on: its bytes would shift ours.
+/// Turns off elements that were left on: their bytes would shift ours.
 Result<void> disable_all(const std::string& elements) {
   const auto names = names_in(elements);
   if (!names) return tl::unexpected(names.error());
@@ -73,7 +73,7 @@ Result<void> set_trigger(const DeviceFolder& device, const ScanLocation& place) 
                      static_cast<int>(written.error().code));
 }
 
-/// Beside the inputs' offsets, that counts fit into a sample.
+/// Sets the elements' offsets, and checks that the inputs' counts fit into a sample.
 Result<void> place_elements(ReadyScan& ready) {
   std::vector<ScanElement> all = ready.inputs;
   all.push_back(ready.timestamp);

@@ -19,10 +19,10 @@ namespace supercoil::hal_linux {
 namespace {
 
 constexpr hal::Duration look_every = std::chrono::milliseconds(100);
-/// A bus full of error frames must not hold up a caller who waits for a command.
+/// A bus full of error frames must not hold up a caller that waits for a command.
 constexpr int max_passed_over = 64;
 
-/// A packet of the socket, whatever it is.
+/// Any packet of the socket.
 struct Packet {
   hal::Status status = hal::Status::ok;
   std::size_t bytes = 0;
@@ -31,8 +31,8 @@ struct Packet {
   bool from_this_machine = false;
 };
 
-/// The kernel's stamps are of CLOCK_REALTIME. What came "later than now" (that clock was set back
-/// meanwhile) came now; one that was set forward makes a frame older, which is the safe side.
+/// The kernel's stamps are of CLOCK_REALTIME. A stamp in the future (that clock was set back
+/// meanwhile) counts as now; a clock set forward makes a frame older, which is the safe side.
 hal::Time received_at(const timespec& stamp) {
   timespec wall{};
   ::clock_gettime(CLOCK_REALTIME, &wall);
@@ -41,7 +41,7 @@ hal::Time received_at(const timespec& stamp) {
   return MonotonicClock::time() - std::max(age, hal::Duration{});
 }
 
-/// When the message came; now if the kernel does not say.
+/// When the message arrived; now if the kernel does not say.
 hal::Time time_of(msghdr& message) {
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr;
        part = CMSG_NXTHDR(&message, part)) {
@@ -75,7 +75,7 @@ Packet next_packet(const Descriptor& socket) {
   return packet;
 }
 
-/// The controller's state from an error frame; most have none.
+/// The controller's state from an error frame; most do not report it.
 hal::CanState state_after(const can_frame& error, hal::CanState before) {
   if ((error.can_id & CAN_ERR_BUSOFF) != 0) return hal::CanState::bus_off;
   if ((error.can_id & CAN_ERR_RESTARTED) != 0) return hal::CanState::active;
@@ -127,7 +127,7 @@ hal::Status SocketCan::receive(hal::CanFrame& frame) {
       link_.state = state_after(packet.frame, link_.state);
       continue;
     }
-    // Should the news of its restart have been lost: a controller that hears is not off the bus.
+    // If the report of its restart was lost: a controller that receives is not bus-off.
     if (link_.state == hal::CanState::bus_off && !packet.from_this_machine) {
       link_.state = hal::CanState::active;
     }
@@ -153,7 +153,7 @@ bool SocketCan::is_there() {
 
 hal::Status SocketCan::lost_if_gone(hal::Status status) {
   if (status != hal::Status::gone) return status;
-  // A socket of an interface that vanished never hears the one that comes under its name.
+  // A socket of a vanished interface never hears a new interface with the same name.
   link_ = {};
   return status;
 }

@@ -16,10 +16,10 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// The errors that say something of the controller's state.
+/// The errors that report the controller's state.
 constexpr can_err_mask_t reported_errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 
-/// A value of an interface from the kernel.
+/// A value of an interface, as the kernel reports it.
 Result<std::int64_t> told(const std::string& net, const std::string& interface, const char* what) {
   return read_whole(net + "/" + interface + "/" + what);
 }
@@ -48,7 +48,7 @@ Result<void> set_option(const Descriptor& socket, int level, int option, const v
   return failed_call("cannot set up a CAN socket: " + what, errno);
 }
 
-/// Only what is listened to comes in, from the first moment on: set before the socket is bound.
+/// Set before the socket is bound, so that only listed frames are received from the start.
 Result<void> set_filters(const Descriptor& socket, const CanLocation& place) {
   std::vector<can_filter> filters;
   filters.reserve(place.listen.size() + 1);
@@ -95,7 +95,7 @@ Result<CanInterface> open_can_interface(const CanLocation& place) {
   if (!type || !index || *type != ARPHRD_CAN) {
     return failed_call("no CAN interface '" + place.interface + "'", ENODEV);
   }
-  // Cannot be read of an interface that is down. A controller loses its carrier by bus-off alone.
+  // Not readable while the interface is down. A controller loses its carrier only by bus-off.
   const auto carrier = told(place.net, place.interface, "carrier");
   if (!carrier) return CanInterface{};
   auto socket = open_socket(place, static_cast<int>(*index));

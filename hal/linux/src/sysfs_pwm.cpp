@@ -12,7 +12,7 @@ std::int64_t scaled(std::int64_t numerator, std::int64_t factor, std::int64_t de
   return (numerator * factor + denominator / 2) / denominator;
 }
 
-/// Within these, step * period_ns fits into 64 bits many times over.
+/// Within these limits, step * period_ns fits into 64 bits many times over.
 constexpr std::int64_t max_period_ns = 1'000'000'000;
 constexpr int max_steps = 1 << 24;
 

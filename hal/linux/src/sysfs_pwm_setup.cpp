@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array<const char*, 4> files_of_output{"period", "duty_cycle", "enable", "polarity"};
 
-/// udev gives a new output's files to their group a moment after they came. Who may not write by
-/// then is told so when the files are opened.
+/// udev gives a new output's files to their group shortly after they appear. If they are still not
+/// writable then, opening them reports it.
 void wait_for_rights(const std::string& folder) {
   constexpr int max_rounds = 100;
   constexpr auto round = std::chrono::milliseconds(10);
@@ -62,7 +62,7 @@ Result<PwmFiles> open_files(const std::string& folder) {
   return PwmFiles{std::move(*period), std::move(*duty), std::move(*enable), std::move(*polarity)};
 }
 
-/// What was left behind.
+/// The state that was left behind.
 struct PwmState {
   std::int64_t period_ns;
   std::int64_t duty_ns;
@@ -83,7 +83,7 @@ Result<PwmState> state_of(const PwmFiles& files) {
   return PwmState{*period, *duty, *enabled != 0, *polarity == "inversed"};
 }
 
-/// One after the other, until one fails.
+/// Writes one value after the other, until one fails.
 class Writes {
  public:
   void set(const Attribute& attribute, std::string_view text) {
@@ -105,7 +105,7 @@ Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root) {
   if (!chips) return chips;
   for (DeviceFolder& chip : *chips) {
     chip.device_path = real_path(chip.folder + "/device");
-    // On I²C and SPI the device has the part's name ("pca9685"); others only that of their folder.
+    // On I²C and SPI the device has the part's name ("pca9685"); others only have their folder's.
     if (const auto name = read_text(chip.folder + "/device/name"); name && !name->empty()) {
       chip.names.push_back(*name);
     }
@@ -132,12 +132,12 @@ Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns) {
   const auto left = state_of(files);
   if (!left) return tl::unexpected(left.error());
   Writes writes;
-  // Without a period nothing else is accepted, and no period shorter than the duty. A driver may
-  // also report a duty above its period; then only a new duty or a longer period is taken.
+  // Without a period nothing else is accepted, nor ever a period shorter than the duty. A driver
+  // may also report a duty above its period; it then takes only a new duty or a longer period.
   const bool stuck = left->period_ns == 0 || (left->inversed && left->duty_ns > left->period_ns);
   if (stuck) writes.set(files.period, std::max(period_ns, left->duty_ns));
   if (left->inversed) {
-    // Inversed, a duty of 0 is always on: so not yet. The polarity changes only while disabled.
+    // While inversed, a duty of 0 is always on: not yet. The polarity changes only while disabled.
     writes.set(files.enable, 0);
     writes.set(files.polarity, "normal");
   }

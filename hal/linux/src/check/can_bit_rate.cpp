@@ -15,7 +15,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// A part of an answer.
+/// Part of an answer.
 struct Bytes {
   const std::byte* begin;
   std::size_t size;
@@ -29,7 +29,7 @@ std::optional<Value> value_at(Bytes bytes, std::size_t offset) {
   return value;
 }
 
-/// What the first attribute of this kind holds.
+/// The contents of the first attribute of this kind.
 std::optional<Bytes> attribute(Bytes all, unsigned kind) {
   constexpr std::size_t aligned = 3;
   for (std::size_t offset = 0; const auto header = value_at<rtattr>(all, offset);) {

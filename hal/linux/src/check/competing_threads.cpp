@@ -12,7 +12,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-// proc(5), counted from the field behind the name, which is the third.
+// Fields of proc(5), counted from the third, which follows the name.
 constexpr std::size_t flags_field = 6;
 constexpr std::size_t priority_field = 37;
 constexpr std::size_t policy_field = 38;
@@ -29,7 +29,7 @@ std::string counted(int count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-/// The threads that are preferred to the loop, and of which program: "name (90)".
+/// The threads that run in preference to the loop, and of which program: "name (90)".
 struct CompetingThreads {
   std::map<std::string, int> programs;
   int of_kernel = 0;
@@ -62,7 +62,7 @@ void look_at(const std::string& tasks, const LoopThreadSettings& settings,
 }  // namespace
 
 std::optional<ThreadStat> parse_thread_stat(std::string_view line) {
-  // A name may hold blanks and brackets.
+  // A name may contain blanks and brackets.
   const auto opened = line.find('(');
   const auto closed = line.rfind(')');
   if (opened == std::string_view::npos || closed == std::string_view::npos || closed < opened) {

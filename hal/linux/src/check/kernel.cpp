@@ -33,7 +33,7 @@ bool in_list(const std::string& list, int number) {
   return false;
 }
 
-/// Debian's package of a real-time kernel for this architecture.
+/// Debian's real-time kernel package for this architecture.
 std::string realtime_package() {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 4> packages{
       {{"x86_64", "linux-image-rt-amd64"},
@@ -119,7 +119,7 @@ void check_processors(const Machine& machine, const LoopThreadSettings& settings
   const std::string what = "processors";
   const std::string root = machine.sys + "/devices/system/cpu";
   const std::string online = read_text(root + "/online").value_or("");
-  // An empty attribute is an error of reading: none is isolated.
+  // An empty attribute reads as an error: no processor is isolated.
   const std::string isolated = read_text(root + "/isolated").value_or("");
   const std::string found = "running " + (online.empty() ? std::string("unknown") : online) +
                             ", isolated " + (isolated.empty() ? std::string("none") : isolated);

@@ -19,10 +19,10 @@ namespace {
 using hal::Finding;
 using hal::Severity;
 
-/// 16 channels at 1 kHz with their recorder, program, libraries and stacks are less.
+/// 16 channels at 1 kHz with their recorder, program, libraries and stacks need less.
 constexpr std::int64_t needed_bytes = std::int64_t{64} * 1024 * 1024;
 
-/// What stands behind `key` in the text, without the blanks; empty when there is none.
+/// The text after `key`, without the blanks; empty when there is none.
 std::string_view behind(std::string_view text, std::string_view key) {
   const auto found = text.find(key);
   if (found == std::string_view::npos) return {};
@@ -31,7 +31,7 @@ std::string_view behind(std::string_view text, std::string_view key) {
   return text.substr(0, text.find_first_of(" \t\n"));
 }
 
-/// Whether this process has a capability; nothing when the kernel does not say.
+/// Whether this process has a capability; empty when the kernel does not say.
 std::optional<bool> has_capability(const Machine& machine, int capability) {
   const auto status = read_text(machine.proc + "/self/status");
   if (!status) return {};

@@ -18,7 +18,7 @@ namespace {
 
 using hal::Severity;
 
-/// Of /dev/watchdog, which is another name of the first one.
+/// Of /dev/watchdog, which is another name for the first one.
 constexpr unsigned misc_major = 10;
 constexpr unsigned watchdog_minor = 130;
 
@@ -27,7 +27,7 @@ std::string identity(const DeviceFolder& folder) {
          read_text(folder.folder + "/identity").value_or("unknown") + "'";
 }
 
-/// What of the machine's watchdogs the device is.
+/// Which of the machine's watchdogs the device is.
 std::optional<DeviceFolder> behind(const struct stat& device,
                                    const std::vector<DeviceFolder>& all) {
   const unsigned major = ::gnu_dev_major(device.st_rdev);

@@ -17,8 +17,8 @@ struct Number {
   hal::Status status = hal::Status::not_ready;
 };
 
-/// A decimal number, perhaps with a minus, and at most a newline behind it; nothing else.
-/// Anything else, and what 64 bits do not hold, is an io_error.
+/// A decimal number with an optional minus, and at most a newline after it. Anything else, and a
+/// number that does not fit into 64 bits, is an io_error.
 Number parse_number(std::string_view text) noexcept;
 
 /// An attribute held open, so that a tick neither looks up a path nor allocates. Move-only.
@@ -26,16 +26,16 @@ class Attribute {
  public:
   enum class Use { read, write, both };
 
-  /// Anything but a regular file is refused: a pipe would hold up the reader.
+  /// Anything but a regular file is refused: a pipe would block the reader.
   static Result<Attribute> open(const std::string& path, Use use);
 
-  /// For ticks: never allocate; a read or write costs what the driver makes of it.
+  /// For ticks: never allocates; how long a read or write takes depends on the driver.
   Number number() const noexcept;
   hal::Status write(std::int64_t value) const noexcept;
   hal::Status write(std::string_view text) const noexcept;
 
-  /// For set-up: the text without its newline. Longer than a page, or with a byte that is no
-  /// printable text, is an error.
+  /// For set-up: the text without its newline. A text longer than a page, or with an unprintable
+  /// byte, is an error.
   Result<std::string> text() const;
   /// For set-up: as write() and number(), and the error names the path and what was written.
   Result<void> set(std::string_view text) const;

@@ -10,16 +10,16 @@
 
 namespace supercoil::hal_linux {
 
-/// Hands the newest conversion from the bus's thread to the loop's. A device that fails is told by
-/// the status; counts and time are then those of the last good conversion.
+/// Hands the newest conversion from the bus's thread to the loop's. When the device fails, the
+/// status says so; counts and time are then those of the last good conversion.
 class BufferedAdc final : public hal::AdcChannel, public BusDevice {
  public:
   explicit BufferedAdc(std::unique_ptr<hal::AdcChannel> device) : device_(std::move(device)) {}
 
-  /// The loop's.
+  /// Called by the loop's thread.
   hal::Sample latest() override { return box_.newest(); }
 
-  /// The bus's thread's.
+  /// Called by the bus's thread.
   void serve() override {
     const hal::Sample sample = device_->latest();
     // No new conversion: the last one ages in the box.

@@ -10,22 +10,22 @@
 
 namespace supercoil::hal_linux {
 
-/// Hands the newest duty from the loop's thread to the bus's, and back how the last write went.
+/// Hands the newest duty from the loop's thread to the bus's, and the last write's result back.
 class BufferedPwm final : public hal::PwmOutput, public BusDevice {
  public:
-  /// So many sets without a single write in between, and set() answers busy.
+  /// After this many sets without a write in between, set() answers busy.
   static constexpr int max_unserved = 10;
 
   explicit BufferedPwm(std::unique_ptr<hal::PwmOutput> device);
 
-  /// The loop's. Hands `step` over in any case but out_of_range, and answers how the last finished
-  /// write went; busy when the bus has stalled, so that a stall does not pass for success.
+  /// Called by the loop's thread. Hands `step` over unless out_of_range, and answers how the last
+  /// finished write went; busy when the bus has stalled, so that a stall does not pass for success.
   hal::Status set(int step) override;
   /// Negative from set() until the bus's thread has written that very step.
   int read_back() const override;
   int steps() const override { return steps_; }
 
-  /// The bus's thread's. Writes when there is something new, and again after a failure.
+  /// Called by the bus's thread. Writes a new step, and writes again after a failure.
   void serve() override;
 
  private:

@@ -11,8 +11,8 @@ class BusDevice {
   BusDevice& operator=(const BusDevice&) = delete;
   virtual ~BusDevice() = default;
 
-  /// Called by the bus's thread alone, once a period. May block for as long as the bus does. Tells
-  /// of failures through the device's own answers.
+  /// Called only by the bus's thread, once a period. May block for as long as the bus does.
+  /// Failures are reported through the device's own answers.
   virtual void serve() = 0;
 };
 

@@ -13,19 +13,19 @@
 
 namespace supercoil::hal_linux {
 
-/// How a bus's rounds go; written by its thread, read by any.
+/// Statistics of a bus's rounds; written by its thread, read by any.
 struct BusHealth {
   std::atomic<std::uint64_t> rounds{0};   ///< finished
-  std::atomic<std::uint64_t> skipped{0};  ///< periods left out since a round took too long
+  std::atomic<std::uint64_t> skipped{0};  ///< periods left out because a round took too long
   std::atomic<std::int64_t> max_round_ns{0};
 };
 
-/// Once a period it serves the devices, one after the other, in their order. One that fails is
-/// served again in the next round like all others; one that blocks holds up those behind it. A
-/// round that takes longer than the period leaves whole periods out.
+/// Serves the devices once a period, one after the other, in order. A device that fails is served
+/// again in the next round like all others; one that blocks delays those after it. A round that
+/// takes longer than the period leaves whole periods out.
 class BusThread {
  public:
-  /// devices: not null; they outlive this. Put PWM outputs first: a duty should not wait for
+  /// devices: not null; they must outlive this. Put PWM outputs first: a duty should not wait for
   /// conversions.
   static Result<std::unique_ptr<BusThread>> start(const ThreadSettings& settings,
                                                   hal::Duration period,
@@ -36,7 +36,7 @@ class BusThread {
   ~BusThread();
 
   const BusHealth& health() const { return health_; }
-  /// How setting the thread's priority and CPU went.
+  /// The results of setting the thread's priority and CPU.
   const std::vector<SetupStep>& steps() const { return thread_->steps(); }
 
  private:

@@ -1,5 +1,4 @@
-// What a board is asked before its muscles are heated: kernel, rights, other programs, watchdog,
-// CAN.
+// Checks of a board before its muscles are heated: kernel, rights, other programs, watchdog, CAN.
 #pragma once
 
 #include <cstddef>
@@ -26,10 +25,10 @@ void check_kernel(const Machine& machine, const hal::FindingSink& sink);
 /// How much of its time the kernel leaves to real-time threads (sched_rt_runtime_us).
 void check_throttling(const Machine& machine, const hal::FindingSink& sink);
 
-/// Whether processors change their frequency under way.
+/// Whether processors change their frequency while running.
 void check_governor(const Machine& machine, const hal::FindingSink& sink);
 
-/// Which processors are kept free of other work, and whether the loop's own is there.
+/// Which processors are kept free of other work, and whether the loop's is one of them.
 void check_processors(const Machine& machine, const LoopThreadSettings& settings,
                       const hal::FindingSink& sink);
 
@@ -51,25 +50,25 @@ struct ThreadStat {
   int priority = 0;  ///< 1 to 99 in SCHED_FIFO and SCHED_RR, else 0
 };
 
-/// Nothing when the line is not one.
+/// Empty when the line is not valid.
 std::optional<ThreadStat> parse_thread_stat(std::string_view line);
 
-/// Threads of other programs above the loop's priority, or with deadlines. The kernel's own are
-/// counted only: they are short and indispensable.
+/// Threads of other programs above the loop's priority, or with deadlines. Kernel threads are only
+/// counted: they are short and indispensable.
 void check_competing_threads(const Machine& machine, const LoopThreadSettings& settings,
                              const hal::FindingSink& sink);
 
-/// path: its device, e.g. /dev/watchdog. in_use: supercoild runs, so the watchdog does too.
+/// path: its device, e.g. /dev/watchdog. in_use: supercoild runs, and so does the watchdog.
 void check_watchdog(const Machine& machine, const std::string& path, bool in_use,
                     const hal::FindingSink& sink);
 
-/// Link, bit rate, and length of the queue of frames to send. interface: e.g. can0.
+/// Link, bit rate, and length of the transmit queue. interface: e.g. can0.
 void check_can_interface(const Machine& machine, const std::string& interface,
                          const hal::FindingSink& sink);
 
-/// In bit/s, as the kernel tells it by rtnetlink; nothing of an interface that has none (vcan).
+/// In bit/s, as the kernel reports it by rtnetlink; empty for an interface without one (vcan).
 std::optional<std::uint32_t> can_bit_rate(const std::string& interface);
-/// The same, of the kernel's answer.
+/// The same, from the kernel's answer.
 std::optional<std::uint32_t> bit_rate_in(const std::vector<std::byte>& answer);
 
 }  // namespace supercoil::hal_linux

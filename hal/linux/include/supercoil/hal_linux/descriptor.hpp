@@ -29,27 +29,27 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Opens, closed on exec. flags: O_RDONLY … The error names the path.
+/// Opens a file, closed on exec. flags: O_RDONLY … The error names the path.
 Result<Descriptor> open_file(const std::string& path, int flags);
 
-/// What a read or write gave.
+/// The result of a read or write.
 struct Transfer {
   std::size_t bytes = 0;
   hal::Status status = hal::Status::ok;
 };
 
-/// At the file's start, which makes sysfs ask the driver anew. 0 bytes is an io_error: no attribute
-/// is empty.
+/// Reads from the file's start, which makes sysfs ask the driver again. 0 bytes is an io_error: no
+/// attribute is empty.
 Transfer read_start(const Descriptor& file, char* buffer, std::size_t size) noexcept;
-/// All of it at the file's start; less is an io_error.
+/// Writes all of it at the file's start; less is an io_error.
 hal::Status write_start(const Descriptor& file, const char* data, std::size_t size) noexcept;
-/// The next bytes, of a device.
+/// Reads the next bytes of a device.
 Transfer read_next(const Descriptor& file, char* buffer, std::size_t size) noexcept;
-/// All of it, to a device; less is an io_error.
+/// Writes all of it to a device; less is an io_error.
 hal::Status write_next(const Descriptor& file, const char* data, std::size_t size) noexcept;
 
-/// Repeats a call that a signal interrupts, but not for ever: in a tick even a storm of signals, or
-/// a driver that answers EINTR for a reason of its own, must come to an end.
+/// Repeats a call that a signal interrupts, but not for ever: a tick must end even in a storm of
+/// signals, or when a driver answers EINTR for its own reasons.
 template <class Call>
 auto uninterrupted(const Call& call) noexcept {
   constexpr int max_repetitions = 16;

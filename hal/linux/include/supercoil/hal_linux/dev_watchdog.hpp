@@ -1,4 +1,4 @@
-// The hardware watchdog by /dev/watchdog.
+// The hardware watchdog, through /dev/watchdog.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,22 @@
 
 namespace supercoil::hal_linux {
 
-/// Opening it starts it. When this ends without release(), it goes on and bites: a program that
-/// crashed does not stop it.
+/// Opening it starts it. When this object ends without release(), the watchdog goes on and bites: a
+/// crash does not stop it.
 class DevWatchdog final : public hal::Watchdog {
  public:
   /// timeout_s: above 0; the driver counts whole seconds, and a fraction is rounded up. A driver
-  /// that does not take it must have a shorter one already, else this is an error, and the watchdog
-  /// is stopped again.
+  /// that does not accept it must already have a shorter one; otherwise this is an error, and the
+  /// watchdog is stopped again.
   static Result<std::unique_ptr<DevWatchdog>> open(const std::string& path, double timeout_s);
   DevWatchdog(Descriptor device, int timeout_s, bool outlives_program);
 
   hal::Status feed() override;
-  /// Stops it. out_of_range when the driver refuses to be stopped ("nowayout"): then it must be fed
-  /// on. After a success feed() answers gone.
+  /// Stops it. out_of_range when the driver refuses to stop ("nowayout"): it must still be fed
+  /// then. After a success feed() answers gone.
   hal::Status release() override;
 
-  /// What the driver really took.
+  /// The time-out that the driver really uses.
   int timeout_s() const { return timeout_s_; }
   /// False: the driver stops the watchdog when its file is closed, so also when the program crashes
   /// (it has no WDIOF_MAGICCLOSE). It then guards only against a hang.

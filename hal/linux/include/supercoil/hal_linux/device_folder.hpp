@@ -19,22 +19,22 @@ struct DeviceFolder {
   std::string describe() const;
 };
 
-/// Every folder of `root` whose name is `prefix` and a number, in the order of numbers.
+/// Every folder of `root` whose name is `prefix` and a number, ordered by number.
 Result<std::vector<DeviceFolder>> numbered_folders(const std::string& root,
                                                    std::string_view prefix);
 
-/// The one of `all` that `wanted` means: one of its names, or, when it holds a slash, the end of
-/// its device path. None, and more than one, is an error that lists what there is. kind: "PWM
-/// chip".
+/// The device in `all` that `wanted` names: by one of its names or, if it contains a slash, by the
+/// end of its device path. No match, or more than one, is an error that lists the devices. kind:
+/// "PWM chip".
 Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_view wanted,
                             std::string_view kind, const std::string& root);
 
-/// The path behind all links; empty when there is none.
+/// The path with all links resolved; empty when there is none.
 std::string real_path(const std::string& path);
-/// The part behind the last slash; the part before it.
+/// The part after the last slash; the part before it.
 std::string base_name(const std::string& path);
 std::string parent_of(const std::string& path);
-/// "a, b, c"; of more than 12 the rest is counted.
+/// "a, b, c"; beyond 12 names the rest is only counted.
 std::string listed(const std::vector<std::string>& items);
 /// The names in a folder, sorted.
 Result<std::vector<std::string>> names_in(const std::string& folder);

@@ -1,4 +1,4 @@
-// A GPIO chip and lines of it, by libgpiod; its versions 1 and 2 are two files behind this.
+// A GPIO chip and its lines, through libgpiod; versions 1 and 2 have a source file each.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace supercoil::hal_linux {
 
-/// What a line is asked to be.
+/// How a line is used.
 enum class Direction { input, output };
 
-/// A line that this process holds exclusively. Released when it ends; what level it
-/// has then is the chip's affair, so set it low before. Move-only. set() and get() are one system
-/// call and allocate nothing.
+/// A line that this process holds exclusively, until this object ends. Its level after that depends
+/// on the chip, so set it low before. Move-only. set() and get() are one system call each and
+/// allocate nothing.
 class HeldLine {
  public:
   struct Handle;
@@ -33,7 +33,7 @@ class HeldLine {
   Owned handle_;
 };
 
-/// The resistor of the chip's own at a line.
+/// The chip's own resistor at a line.
 enum class Bias { unknown, none, pull_up, pull_down };
 
 /// A line as the kernel describes it.
@@ -53,8 +53,8 @@ class GpioChip {
   std::string label() const;  ///< pinctrl-bcm2711
   unsigned line_count() const;
   LineDescription about(unsigned offset) const;
-  /// An output is low from the first moment. EBUSY when the line is held already. Ends the chip, on
-  /// which the line hangs in libgpiod 1.
+  /// An output is low from the first moment. EBUSY when the line is already held. Consumes the
+  /// chip, which the line depends on in libgpiod 1.
   Result<HeldLine> request(unsigned offset, Direction direction) &&;
 
  private:

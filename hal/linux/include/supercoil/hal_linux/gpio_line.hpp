@@ -10,14 +10,14 @@
 
 namespace supercoil::hal_linux {
 
-/// A line's names, which do not change with the kernel as its numbers do.
+/// A line's names, which, unlike its numbers, do not change with the kernel.
 struct LineName {
   std::string chip;  ///< label, as gpiodetect shows it
   std::string line;  ///< name, as gpioinfo shows it
 };
 
-/// Takes the line for this process, as consumer "supercoil". A chip or line that is not there, is
-/// there twice or is in use is an error that says what there is instead. dev: where the chips are.
+/// Takes the line for this process, as consumer "supercoil". A chip or line that is missing, exists
+/// twice or is in use is an error that says what there is instead. dev: where the chips are.
 Result<HeldLine> hold_line(const LineName& name, Direction direction,
                            const std::string& dev = "/dev");
 

@@ -1,4 +1,4 @@
-// A converter's input, read at the moment when it is asked.
+// A converter's input, read on request.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace supercoil::hal_linux {
 
-/// in_<input>_raw. A read takes as long as the driver makes it: over I²C it blocks for a
-/// millisecond, and belongs into a BusThread. busy while a buffer of the same device is enabled.
+/// in_<input>_raw. How long a read takes depends on the driver: over I²C it blocks for a
+/// millisecond and belongs in a BusThread. busy while a buffer of the same device is enabled.
 class IioAdc final : public hal::AdcChannel {
  public:
-  /// Reads once, so that a device that does not answer is known before anything is hot.
+  /// Reads once, so that a device that does not answer is found before anything is hot.
   static Result<std::unique_ptr<IioAdc>> open(const ConverterLocation& place);
   explicit IioAdc(Attribute raw) : raw_(std::move(raw)) {}
 

@@ -20,16 +20,16 @@ struct ConverterLocation {
 
 /// The converters in root.
 Result<std::vector<DeviceFolder>> iio_devices(const std::string& root);
-/// The one that is meant.
+/// The converter that `device` names.
 Result<DeviceFolder> find_iio_device(const std::string& device, const std::string& root);
 
-/// Between which counts a converter's values lie: at either end it is at its rail.
+/// Range of a converter's counts: at either end it is at its rail.
 struct CountRange {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
 };
 
-/// From the type of the input's scans; nothing when the device has none.
+/// From the type of the input's scans; empty when the device has none.
 std::optional<CountRange> count_range(const ConverterLocation& place);
 
 /// Whether `input` may be part of a file's name: letters, digits, '-' and '_'.

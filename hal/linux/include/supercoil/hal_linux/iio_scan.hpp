@@ -18,8 +18,8 @@ namespace supercoil::hal_linux {
 struct ScanLocation {
   std::string device;               ///< IIO name, or the end of its device path with a slash
   std::vector<std::string> inputs;  ///< voltage0, …; each once
-  std::string trigger;              ///< name of a trigger; empty: the one that is set already
-  int length = 64;                  ///< scans that the kernel keeps; more than come between reads
+  std::string trigger;              ///< name of a trigger; empty: the one already set
+  int length = 64;                  ///< scans that the kernel keeps; more than arrive between reads
   std::string root = "/sys/bus/iio/devices";
   std::string dev = "/dev";
 };
@@ -34,7 +34,7 @@ struct ReadyScan {
 };
 
 /// Disables the buffer, chooses elements, clock and trigger, and opens the device. Timestamps are
-/// of CLOCK_MONOTONIC; a device that has none is refused, for a value without its time is useless.
+/// of CLOCK_MONOTONIC; a device without them is refused, as a value without its time is useless.
 Result<ReadyScan> set_up_scan(const ScanLocation& place);
 
 /// An enabled buffer. One thread uses it and its inputs. It is disabled when it ends.
@@ -46,8 +46,8 @@ class IioScan {
   IioScan& operator=(const IioScan&) = delete;
   ~IioScan();
 
-  /// The input number `index` of ScanLocation::inputs; lives as long as this. Its latest() is that
-  /// of the newest scan: one read that never blocks and takes all that the kernel has kept.
+  /// Input `index` of ScanLocation::inputs; lives as long as this. Its latest() comes from the
+  /// newest scan: one read that never blocks and takes all that the kernel has kept.
   hal::AdcChannel& input(std::size_t index);
 
  private:

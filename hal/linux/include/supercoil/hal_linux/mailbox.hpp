@@ -10,7 +10,7 @@ namespace supercoil::hal_linux {
 
 /// One thread puts, one other takes; either may be stopped at any point and never holds up the
 /// other. Three slots: one is the writer's, one the reader's, and the third changes hands in one
-/// atomic exchange. What is not taken in time is overwritten by what is newer.
+/// atomic exchange. A value that is not taken in time is overwritten by a newer one.
 template <class Value>
 class Mailbox {
   static_assert(std::is_trivially_copyable_v<Value>);
@@ -22,7 +22,7 @@ class Mailbox {
       slot.value = first;
   }
 
-  /// The writer's.
+  /// Called by the writer.
   void put(const Value& value) noexcept {
     slots_[writers_].value = value;
     writers_ = static_cast<std::uint8_t>(
@@ -30,7 +30,7 @@ class Mailbox {
         index);
   }
 
-  /// The reader's: what was put last, the first value when nothing was. Valid until the next call.
+  /// Called by the reader: the last value put, else the first one. Valid until the next call.
   const Value& newest() noexcept {
     if ((between_.load(std::memory_order_relaxed) & fresh) != 0) {
       readers_ =
@@ -44,7 +44,7 @@ class Mailbox {
   static constexpr std::uint8_t fresh = 4;
   static constexpr std::size_t cache_line = 64;
 
-  // Each in a line of its own: one thread's writing must not slow down the other.
+  // Each on a cache line of its own: one thread's writing must not slow down the other.
   struct alignas(cache_line) Slot {
     Value value{};
   };

@@ -5,11 +5,11 @@
 
 namespace supercoil::hal_linux {
 
-/// Holds nothing: each thread may have its own.
+/// Has no state: each thread may have its own.
 class MonotonicClock final : public hal::Clock {
  public:
   hal::Time now() const override { return time(); }
-  /// Sleeps until an absolute time, on through signals.
+  /// Sleeps until an absolute time, even when signals arrive.
   hal::Time wait_until(hal::Time wake) override;
 
   /// now() without an object.

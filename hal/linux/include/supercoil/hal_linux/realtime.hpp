@@ -1,4 +1,4 @@
-// What makes a thread wake in time, each step with its outcome.
+// Set-up that makes a thread wake on time; each step reports its outcome.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,11 @@ struct SetupStep {
   std::string remedy;  ///< empty when it worked
 };
 
-/// Keeps the process's memory, also what it will get, in RAM. Call it before threads are started:
-/// their whole stacks are locked as well.
+/// Keeps the process's present and future memory in RAM. Call it before threads are started: their
+/// whole stacks are locked as well.
 SetupStep lock_memory();
 
-/// Touches so much of the calling thread's stack that it is in RAM before it is needed.
+/// Touches this much of the calling thread's stack, so that it is in RAM before it is needed.
 SetupStep prefault_stack(std::size_t bytes);
 
 /// 1 to 99, above all ordinary threads; checked by reading it back.
@@ -32,7 +32,7 @@ SetupStep set_fifo_priority(pthread_t thread, int priority);
 /// The thread runs on this CPU alone; checked by reading it back.
 SetupStep pin_to_cpu(pthread_t thread, int cpu);
 
-/// While it lives, CPUs do not sleep so deeply that waking them takes time. Move-only.
+/// While it lives, CPUs do not enter sleep states that take long to wake from. Move-only.
 class CpuLatencyRequest {
  public:
   SetupStep hold(const std::string& path = "/dev/cpu_dma_latency");

@@ -14,7 +14,7 @@ namespace supercoil::hal_linux {
 struct ScanType {
   bool big_endian = false;
   bool is_signed = false;
-  int bits = 0;          ///< that count, 1 to storage_bits
+  int bits = 0;          ///< significant ones, 1 to storage_bits
   int storage_bits = 0;  ///< 8, 16, 32 or 64
   int shift = 0;         ///< to the right, before the bits are taken
 
@@ -22,10 +22,10 @@ struct ScanType {
   friend bool operator==(const ScanType&, const ScanType&) = default;
 };
 
-/// Refuses all that the kernel's documentation does not allow, and repeated values ("X2").
+/// Refuses everything that the kernel's documentation does not allow, and repeated values ("X2").
 Result<ScanType> parse_scan_type(std::string_view text);
 
-/// The value in the type's bytes() at `bytes`. 64 bits unsigned above the half wrap.
+/// The value in the type's bytes() at `bytes`. 64-bit unsigned values in the upper half wrap.
 std::int64_t value_of(const ScanType& type, const std::byte* bytes) noexcept;
 
 /// One value's place in a scan.
@@ -36,7 +36,7 @@ struct ScanElement {
 };
 
 /// Sets the offsets of a scan's elements and returns the bytes of a whole scan. Each is aligned to
-/// its own size, the scan to the largest: so the kernel lays them.
+/// its own size, and the scan to the largest, as the kernel does.
 std::size_t lay_out(std::vector<ScanElement>& elements);
 
 }  // namespace supercoil::hal_linux

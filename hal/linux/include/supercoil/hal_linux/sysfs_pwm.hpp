@@ -1,4 +1,4 @@
-// A PWM output by the kernel's sysfs.
+// A PWM output through the kernel's sysfs.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace supercoil::hal_linux {
 
-/// Where a PWM output is, and what it shall be.
+/// Where a PWM output is, and how it is set up.
 struct PwmLocation {
   std::string device;  ///< the chip's name, or the end of its device path when it holds a slash
   int number = 0;      ///< of the output on its chip
-  std::int64_t period_ns = 0;  ///< steps or more
+  std::int64_t period_ns = 0;  ///< at least `steps`
   int steps = 4095;            ///< of a period
   std::string root = "/sys/class/pwm";
 };
@@ -35,8 +35,8 @@ Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root);
 /// Finds the output, exports it if necessary, and opens its files. Writes nothing else.
 Result<PwmFiles> open_pwm_files(const PwmLocation& place);
 
-/// Brings an output from whatever state it was left in to: duty 0, not inversed, its period,
-/// enabled; and reads back that it is so. The order is one that the kernel refuses in no state.
+/// Brings an output from any state to duty 0, not inversed, its period, enabled; and verifies that
+/// by reading back. The kernel accepts this order of writes in every state.
 Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns);
 
 /// A prepared output. Its duty is 0 when it is opened and again when it ends. It stays exported.
@@ -44,7 +44,7 @@ class SysfsPwm final : public hal::PwmOutput {
  public:
   static Result<std::unique_ptr<SysfsPwm>> open(const PwmLocation& place);
   SysfsPwm(PwmFiles files, std::int64_t period_ns, int steps);
-  /// Duty 0 first: what a disabled output's pin does is the chip's affair.
+  /// Duty 0 first: what a disabled output's pin does depends on the chip.
   ~SysfsPwm() override;
 
   hal::Status set(int step) override;
@@ -53,7 +53,7 @@ class SysfsPwm final : public hal::PwmOutput {
   int steps() const override { return steps_; }
 
   /// For timing the device while its duty is 0: disables and enables it. The kernel does not pass
-  /// on a duty that it believes is set already.
+  /// on a duty that it believes is already set.
   hal::Status pulse_enable() const;
 
  private:

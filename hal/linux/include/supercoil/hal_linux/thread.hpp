@@ -19,11 +19,11 @@ struct ThreadSettings {
   std::string name;  ///< as top shows it: its first 15 characters
   int priority = 0;  ///< of SCHED_FIFO, 1 to 99; 0: an ordinary thread
   int cpu = -1;      ///< negative: any
-  std::size_t stack_bytes = std::size_t{128} * 1024;  ///< locked memory takes all of it
+  std::size_t stack_bytes = std::size_t{128} * 1024;  ///< all of it is locked in RAM
 };
 
-/// Runs `body` until it returns; the destructor waits for that. Move-only. std::thread has no say
-/// over its stack, and eight locked megabytes a thread are more than the firmware itself.
+/// Runs `body` until it returns; the destructor waits for that. Move-only. std::thread cannot set
+/// its stack size, and eight locked megabytes a thread are more than the firmware itself.
 class Thread {
  public:
   static Result<Thread> start(const ThreadSettings& settings, std::function<void()> body);
@@ -31,7 +31,7 @@ class Thread {
   Thread& operator=(Thread&& other) = delete;
   ~Thread();
 
-  /// How setting priority and CPU went.
+  /// The results of setting priority and CPU.
   const std::vector<SetupStep>& steps() const { return steps_; }
 
  private:

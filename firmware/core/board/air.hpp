@@ -28,8 +28,9 @@ class Air {
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 
-  /// One tick of a board with a sensor; the reading is in °C. If it is beyond the configured air,
-  /// absent or NaN, as from a disconnected sensor, it can widen the interval but not narrow it.
+  /// One tick of a board with a sensor; the reading is in °C. One that is beyond the configured
+  /// air, absent or NaN, as from a disconnected sensor, can widen the configured interval, not
+  /// narrow it.
   void step(const Measured& reading) {
     const double warmest_C = reading.present && reading.value >= settings_.coldest_C
                                  ? reading.value + settings_.error_K

@@ -30,7 +30,7 @@ class Calibrate {
       : settings_(settings), stillness_(settings.mean_s, settings.count_m) {}
 
   void start() { *this = Calibrate(settings_); }
-  /// Grows evenly with time if cooling is exponential, so it tells the remaining time.
+  /// Grows evenly with time if cooling is exponential, so it shows the remaining time.
   float progress() const { return progress_; }
   double zero_m() const { return sum_m_ / static_cast<double>(count_); }
   double cold_resistance_Ohm() const { return resistance_Ohm_; }

@@ -82,7 +82,7 @@ class Identify {
     power_W_ = excitation_.step(position_m, max_W);
     const bool ends = excitation_.done() || elapsed_s_ >= settings_.max_s;
     const bool stroke_ended = excitation_.cycle() != cycle;
-    // A quick muscle's first stroke teaches little.
+    // A quick muscle's first stroke tells little.
     if (stroke_ended && cycle == 0 && !excitation_.slow()) fit_.start_anew();
     const std::size_t enough = excitation_.slow() ? fit_.min_blocks : settings_.enough_strokes;
     const bool early = stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= enough;

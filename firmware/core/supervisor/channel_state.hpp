@@ -36,7 +36,7 @@ enum class Refusal : std::uint8_t {
   no_such_channel = 7,
   not_lease_holder = 8,    ///< over CAN: another master holds the lease
   no_lease = 9,            ///< over CAN: no master holds the lease; claim it first
-  wrong_counter = 10,      ///< over CAN: repeated, or too many were lost before it
+  wrong_counter = 10,      ///< over CAN: repeated, or too many commands were lost before it
   queue_full = 11,         ///< more commands than a tick can take
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
   protocol_mismatch = 13,  ///< over CAN: another version of the protocol

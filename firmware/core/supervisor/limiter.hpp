@@ -1,4 +1,4 @@
-// Limits the demanded power, and tells which limit acted.
+// Limits the demanded power, and reports which limit acted.
 #pragma once
 
 #include <array>

@@ -29,8 +29,8 @@ class SmallSignal {
   bool step(double position_m, double applied_W);
   double power_W() const;
 
-  /// Of the last completed run: motion in phase with the model's over the model's, 0.001 to 10; 0:
-  /// hidden by noise.
+  /// Of the last completed run: motion in phase with the model's over the model's, 0.001 to 10, or
+  /// 0 if noise hides it.
   double response_ratio() const;
 
  private:

@@ -28,7 +28,7 @@ class Verdict {
   Fault board_fault() const { return board_fault_; }
   /// Whether this verdict's detectors judge that fault.
   bool judges(Fault fault) const { return detectors_[static_cast<std::size_t>(fault)] != nullptr; }
-  /// As of the last tick at which it judged; before that, no margin is used.
+  /// As of the last tick at which its detector judged; before that, none of the limit is used.
   detectors::Margin margin(Fault fault) const {
     return judges(fault) ? detectors_[static_cast<std::size_t>(fault)]->margin()
                          : detectors::Margin{};

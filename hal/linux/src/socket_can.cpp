@@ -112,7 +112,7 @@ hal::Status SocketCan::send(const hal::CanFrame& frame) {
   raw.len = frame.length;
   std::copy_n(frame.data.begin(), frame.length, std::begin(raw.data));
   const auto sent = write_next(link_.socket, reinterpret_cast<const char*>(&raw), sizeof(raw));
-  // The socket's own buffer is full, instead of the interface's queue (ENOBUFS).
+  // The socket's own buffer is full, rather than the interface's queue (ENOBUFS).
   if (sent == hal::Status::not_ready) return hal::Status::busy;
   return lost_if_gone(sent);
 }

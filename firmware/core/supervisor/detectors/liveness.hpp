@@ -44,7 +44,7 @@ class StalledCounter final : public Detector {
   std::uint32_t last_ = 0;
 };
 
-/// Every command to heat expires unless renewed: trips when one in force is older than max_s.
+/// Every command to heat expires unless renewed: trips when the one in force is older than max_s.
 class CommandTimeout final : public Detector {
  public:
   CommandTimeout(double max_s, double step_s) : max_s_(max_s), step_s_(step_s) {}

@@ -13,7 +13,7 @@
 
 namespace supercoil::hal_linux {
 
-/// Its options --priority and --cpu.
+/// supercoild's options --priority and --cpu.
 struct LoopThreadSettings {
   int priority = 80;  ///< of SCHED_FIFO, 1 to 99
   int cpu = -1;       ///< negative: any
@@ -22,7 +22,7 @@ struct LoopThreadSettings {
 /// Release, and whether it is a real-time kernel.
 void check_kernel(const Machine& machine, const hal::FindingSink& sink);
 
-/// How much of its time the kernel leaves to real-time threads (sched_rt_runtime_us).
+/// How much CPU time the kernel leaves to real-time threads (sched_rt_runtime_us).
 void check_throttling(const Machine& machine, const hal::FindingSink& sink);
 
 /// Whether processors change their frequency while running.

@@ -18,7 +18,7 @@ struct CanLocation {
   std::string interface;              ///< e.g. can0
   std::vector<std::uint16_t> listen;  ///< identifiers, 0 to 0x7FF, at most 512; none: hears nothing
   std::string net = "/sys/class/net";
-  bool listen_to_all = false;  ///< whatever is listed
+  bool listen_to_all = false;  ///< regardless of `listen`
 };
 
 /// An interface as it was found: without a socket when it is down.

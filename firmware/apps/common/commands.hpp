@@ -1,4 +1,4 @@
-// The commands of a program that has several.
+// Commands of a program that has several.
 #pragma once
 
 #include <algorithm>

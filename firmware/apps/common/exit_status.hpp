@@ -1,4 +1,4 @@
-// What every program of supercoil ends with.
+// Exit status of every supercoil program.
 #pragma once
 
 namespace supercoil {

@@ -1,5 +1,5 @@
-// What a channel's muscle can do, for programs: the figures that config::describe_feasibility()
-// tells people.
+// What a channel's muscle can do, as JSON: the figures that config::describe_feasibility() prints
+// as text.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace supercoil {
 
-/// null: not known, or there is none.
+/// null: not known, or does not exist.
 inline nlohmann::ordered_json json_number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
@@ -29,7 +29,7 @@ inline nlohmann::ordered_json promise_json(const Promise& promise) {
           {"unexplained_m", promise.unexplained_m}};
 }
 
-/// Of one controller of a channel, without its promise.
+/// One controller of a channel, without its promise.
 inline nlohmann::ordered_json controller_json(const control::ControllerSettings& controller,
                                               const ChannelSettings& channel, double step_s,
                                               const std::optional<FeasibleSteps>& steps) {
@@ -44,8 +44,8 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
           {"shaped", steps && steps->shaped}};
 }
 
-/// What suits the channel's muscle. problem: why the channel cannot have it. in_use: the first of
-/// its controllers that is so.
+/// The recommended controller for the channel's muscle. problem: why the channel cannot have it.
+/// in_use: the first of its controllers that matches the recommendation.
 inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel,
                                                   const BoardSettings& board) {
   if (is_led(channel)) return nullptr;
@@ -66,8 +66,8 @@ inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel
           {"in_use", in_use}};
 }
 
-/// channel: from 0. Of a joint's antagonist controllers is empty, and of a joint nothing is
-/// promised.
+/// channel: from 0. For a joint's antagonist `controllers` is empty; nothing is promised for a
+/// joint.
 inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);

@@ -1,4 +1,4 @@
-// What is wrong with an input, for programs.
+// What is wrong with an input, as JSON.
 #pragma once
 
 #include <vector>

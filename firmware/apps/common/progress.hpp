@@ -1,4 +1,4 @@
-// How far a long task has come, and the time left.
+// Progress of a long task, and the time left.
 #pragma once
 
 #include <chrono>
@@ -19,11 +19,11 @@ inline std::string duration_text(double seconds) {
          (short_one ? " s" : " min");
 }
 
-/// A line on standard error, rewritten in place, after the first two seconds. Nothing where that is
-/// not a terminal.
+/// A line on standard error, rewritten in place, after the first two seconds. Silent unless
+/// standard error is a terminal.
 class Progress {
  public:
-  /// quiet: nothing there either.
+  /// quiet: silent on a terminal too.
   Progress(std::string what, bool quiet)
       : what_(std::move(what)), shows_(!quiet && isatty(STDERR_FILENO) == 1) {}
   ~Progress() { end(); }
@@ -32,8 +32,8 @@ class Progress {
   Progress(Progress&&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  /// done: 0 to 1, from which the time left follows; NaN: not known. detail: what else to say.
-  /// Cheap: looks at the clock only.
+  /// done: 0 to 1, from which the time left is computed; NaN: not known. detail: further text.
+  /// Cheap: most calls only read the clock.
   void show(double done, const std::string& detail) {
     const Clock::time_point now = Clock::now();
     if (!shows_ || now < next_) return;
@@ -46,20 +46,20 @@ class Progress {
     std::fprintf(stderr, "\r\033[K%s", text.c_str());
     std::fflush(stderr);
   }
-  /// Takes its line off the terminal, so that the next message has one of its own.
+  /// Clears the line, so that the next message starts on an empty one.
   void end() {
     if (shown_) std::fputs("\r\033[K", stderr);
     shown_ = false;
   }
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Where nothing is shown, nobody need find out what is done.
+  /// When nothing is shown, callers need not compute the progress.
   bool shows() const { return shows_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// What is done may grow by steps: meanwhile time passes.
+  /// `done` may grow in steps; between two steps the time left counts down.
   double left_s(double done) {
     if (done != done_) ends_s_ = elapsed_s() / done;
     done_ = done;
@@ -70,7 +70,7 @@ class Progress {
   bool shows_;
   bool shown_ = false;
   double done_ = 0.0;
-  double ends_s_ = 0.0;  ///< as it looked when done_ had changed
+  double ends_s_ = 0.0;  ///< estimated when done_ last changed
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_ + std::chrono::seconds(2);
 };

@@ -8,15 +8,15 @@
 
 namespace supercoil {
 
-/// Its words in their order. Numbers are NaN where they are not known; notes are "-" where there
-/// are none. The next two are of the controller that is at work, and the last one is "slack" of a
-/// joint's muscle that is, "-" otherwise; an older board does not tell them.
+/// The words in their order. Numbers are NaN when not known; notes are "-" when there are none. The
+/// next two describe the active controller, and the last one is "slack" for a joint's muscle that
+/// is slack, "-" otherwise; an older board omits these.
 inline constexpr std::array<std::string_view, 16> state_words{
     "channel",         "state",     "mode",      "fault",    "reference", "model_m", "position_m",
     "applied_W",       "coldest_C", "hottest_C", "progress", "result",    "notes",   "controller",
     "controller_kind", "slack"};
 
-/// Places of those that are looked for one by one.
+/// Positions of the words that are looked up one by one.
 enum StatePlace : std::uint8_t {
   state_mode = 2,
   state_first_number = 4,

@@ -1,4 +1,4 @@
-// Buses that are too slow for the loop, told in the log.
+// Logs buses that are too slow for the loop.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace supercoil::daemon {
 
-/// A round that takes longer than a tick leaves whole rounds out: duties act later, and readings
-/// are older. Told when it first happens, and then at most once a minute while it goes on.
+/// When a round takes longer than a tick, whole rounds are left out: duties act later, and readings
+/// are older. Reported when it first happens, and then at most once a minute while it lasts.
 class BusWatch {
  public:
-  /// Lines for the log; buses: always the same ones, in the same order.
+  /// Lines for the log. buses: always the same ones, in the same order.
   std::vector<std::string> news(const std::vector<linux_board::BusReport>& buses, hal::Time now) {
     std::vector<std::string> lines;
     reported_.resize(buses.size());

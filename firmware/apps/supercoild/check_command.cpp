@@ -20,8 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The version of what each channel has learned; 0: nothing. Elsewhere than on the board there is
-/// no such folder.
+/// Applies what each channel has learned and returns its version; 0: nothing. On a machine other
+/// than the board the folder does not exist.
 std::vector<std::uint32_t> recall_learned(config::BoardConfig& config) {
   storage::PosixFiles files;
   std::vector<std::uint32_t> versions;

@@ -1,4 +1,4 @@
-// The signals that end supercoild: they are waited for, by the main thread alone.
+// The signals that end supercoild. Only the main thread waits for them.
 #pragma once
 
 #include <csignal>
@@ -8,8 +8,8 @@
 
 namespace supercoil::daemon {
 
-/// SIGHUP is what a terminal sends that is closed; nohup makes it ignored, and then it ends
-/// nothing.
+/// A closed terminal sends SIGHUP. nohup makes the process ignore it; then it must not end
+/// supercoild.
 inline sigset_t ending_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -21,13 +21,13 @@ inline sigset_t ending_signals() {
   return set;
 }
 
-/// Before there are threads: they inherit it.
+/// Call before threads are started: they inherit the mask.
 inline void block_ending_signals() {
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-/// One of them is pending.
+/// Whether one of them is pending.
 inline bool ending_signal_is_pending() {
   const sigset_t ending = ending_signals();
   sigset_t pending;
@@ -37,7 +37,7 @@ inline bool ending_signal_is_pending() {
   return sigisemptyset(&both) == 0;
 }
 
-/// Waits so long, less than a second, for one of them; whether it came.
+/// Waits up to `most`, which is less than a second, for one of them. Returns whether one came.
 inline bool ending_signal_within(hal::Duration most) {
   const sigset_t signals = ending_signals();
   const timespec time{0, static_cast<decltype(timespec::tv_nsec)>(most.count())};

@@ -20,10 +20,10 @@ namespace supercoil::daemon {
 
 namespace {
 
-/// As many as a board may have channels, each of which may be played to, and some more.
+/// As many as a board may have channels, each with its own player, and some more.
 constexpr std::size_t max_clients = 20;
 constexpr int backlog = 4;
-/// Longer lines are cut, and are then no command.
+/// Longer lines are truncated, so they do not parse as commands.
 constexpr std::size_t max_line = 200;
 
 void answer(int client, const std::string& text) {
@@ -33,8 +33,8 @@ void answer(int client, const std::string& text) {
   }
 }
 
-/// Makes the socket with its permissions, which bind() takes from the descriptor less the umask. A
-/// chmod() of the path afterwards would follow a link that the folder's owner put there meanwhile.
+/// Creates the socket with its permissions, which bind() takes from the descriptor less the umask.
+/// A later chmod() of the path would follow a link that the folder's owner may have put there.
 int bind_for_group(const hal_linux::Descriptor& listener, const sockaddr_un& address) {
   if (::fchmod(listener.number(), 0660) != 0) return -1;
   const mode_t usual = ::umask(0);
@@ -46,8 +46,8 @@ int bind_for_group(const hal_linux::Descriptor& listener, const sockaddr_un& add
   return result;
 }
 
-/// A line for each channel, "1 1.02 0.985 0.021": gains of supply and current, and the error that a
-/// comparison with a meter left.
+/// A line for each channel, "1 1.02 0.985 0.021": gains of supply and current, and the error that
+/// remains after a comparison with a meter.
 std::string senses_text(const Loop& loop) {
   std::ostringstream text;
   text.precision(9);
@@ -71,8 +71,8 @@ std::string muscle_text(const Loop& loop) {
   return text.str();
 }
 
-/// A line for each channel, "1 loaded 61 0.04 1234.567890123": number, playback, room for knots, s
-/// until the last one, and the board's time in s, which is that of its newest tick.
+/// A line for each channel, "1 loaded 61 0.04 1234.567890123": number, playback, room for knots,
+/// seconds until the last one, and the board's time in s at its newest tick.
 std::string playback_text(const Loop& loop, double board_s) {
   std::ostringstream text;
   for (std::size_t i = 0; i < loop.channels(); ++i) {
@@ -131,7 +131,7 @@ void LocalCommands::accept_one() {
   clients_.push_back(std::move(client));
 }
 
-/// False when the client is gone.
+/// Returns false when the client is gone.
 bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
                                 const NewestRows& rows) {
   std::array<char, max_line> line{};
@@ -181,12 +181,12 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
 
 void LocalCommands::pass(const Answer& given, const Loop& loop) {
   const auto asked = waiting_.find(given.command.id);
-  if (asked == waiting_.end()) return;  // of a client that is gone, or of nobody here
+  if (asked == waiting_.end()) return;  // from a client that is gone, or not from this socket
   std::string text = answer_text(given.refusal, given.nearest);
   if (given.refusal == Refusal::unsuitable)
     text += ": " + loop.channel(given.command.channel).tuner().problem();
   answer(asked->second, text);
-  // The loop answers in order: what came before has lost its answer.
+  // The loop answers in order: earlier commands that still wait have lost their answers.
   waiting_.erase(waiting_.begin(), std::next(asked));
 }
 

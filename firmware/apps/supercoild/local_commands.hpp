@@ -1,4 +1,4 @@
-// Commands from programs on the board itself, by a socket in the file system.
+// Commands from programs on the board itself, over a socket in the file system.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace supercoil::daemon {
 
-/// A socket of packets (SOCK_SEQPACKET): each is one line of command_text.hpp, or "state", and is
-/// answered by one packet, in order. Users who may open the file may command: the folder's
-/// permissions decide. A command to heat expires as everywhere, so a client that dies lets the
-/// muscle cool. Used by one thread.
+/// A socket of packets (SOCK_SEQPACKET): each packet is one line of command_text.hpp, or "state",
+/// and gets one packet as its answer, in order. Users who may open the file may command: the
+/// folder's permissions decide. A command to heat expires as everywhere, so a client that dies lets
+/// the muscle cool. Used by one thread.
 class LocalCommands {
  public:
-  /// A file that an earlier life left is replaced: the lock is held already.
+  /// Replaces a file left over from an earlier run: the lock is held already.
   static Result<LocalCommands> open(const std::string& path);
 
-  /// Waits at most max_ms for something to do, and does it.
+  /// Waits at most max_ms for requests, and serves them.
   void serve(Loop& loop, const NewestRows& rows, int max_ms);
   /// The loop's answer to a command with Source::local.
   void pass(const Answer& given, const Loop& loop);
@@ -35,7 +35,7 @@ class LocalCommands {
 
   hal_linux::Descriptor listener_;
   std::vector<hal_linux::Descriptor> clients_;
-  std::map<std::uint32_t, int> waiting_;  ///< whose commands the loop has not answered yet, by id
+  std::map<std::uint32_t, int> waiting_;  ///< the clients to answer, by command id
   std::uint32_t last_id_ = 0;
 };
 

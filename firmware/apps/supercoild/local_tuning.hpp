@@ -1,4 +1,4 @@
-// Requests of the commands' socket about the tuning of controllers.
+// Requests about the tuning of controllers on the commands' socket.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace supercoil::daemon {
 
-/// "tuning CHANNEL PLACE TUNABLE SET" is answered with the value ("nan": there is none), "prepare
-/// CHANNEL PLACE TUNABLE VALUE" as a command is. TUNABLE is a name, or `all` with a set's name as
-/// VALUE. Empty: the text is no such request.
+/// "tuning CHANNEL PLACE TUNABLE SET" is answered with the value ("nan": not available); "prepare
+/// CHANNEL PLACE TUNABLE VALUE" is answered like a command. TUNABLE is a name, or `all` with a
+/// set's name as VALUE. Empty: the text is not a tuning request.
 std::optional<std::string> answer_about_tuning(std::string_view text, Loop& loop);
 
 }  // namespace supercoil::daemon

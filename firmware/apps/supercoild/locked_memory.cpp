@@ -15,7 +15,7 @@ namespace supercoil::daemon {
 
 namespace {
 
-/// Of this process, all that is mapped; 0 when the kernel does not tell.
+/// Mapped memory of this process; 0 when the kernel does not report it.
 double mapped_bytes() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0;
@@ -31,12 +31,12 @@ double mebibytes(double bytes) {
 }  // namespace
 
 void limit_heap() {
-  mallopt(M_ARENA_MAX, 1);        // not one for each thread
+  mallopt(M_ARENA_MAX, 1);        // one arena for all threads
   mallopt(M_TOP_PAD, 16 * 1024);  // instead of 128 KiB in advance
 }
 
 std::string describe_locked_memory(const config::BoardConfig& config) {
-  // Loop, telemetry, and one for each bus; the main thread's is in the program's.
+  // Loop, telemetry, and one for each bus; the main thread's stack is part of the program's memory.
   const std::size_t threads = 2 + config.wiring.buses.size();
   const auto stacks = static_cast<double>(threads * hal_linux::ThreadSettings().stack_bytes);
   const config::Memory memory = config::memory_of(config.settings);

@@ -1,4 +1,4 @@
-// What mlockall() takes.
+// Memory that mlockall() locks.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace supercoil::daemon {
 
-/// The heap takes no more from the kernel than it needs, for all that it takes is locked. First of
-/// all that a program does.
+/// Keeps the heap from requesting more from the kernel than it needs, because all of it is locked.
+/// Call first in main().
 void limit_heap();
 
-/// A line for `--check`: how much memory supercoild will lock on this board; the calling program
-/// stands for its size with libraries and heap.
+/// A line for `--check`: how much memory supercoild will lock on this board. The calling program's
+/// size with libraries and heap stands in for supercoild's.
 std::string describe_locked_memory(const config::BoardConfig& config);
 
 }  // namespace supercoil::daemon

@@ -9,7 +9,7 @@ namespace supercoil::daemon {
 
 namespace {
 
-/// sd-daemon(3): syslog's levels before a line.
+/// sd-daemon(3): syslog levels as line prefixes.
 const char* journal_prefix(Level level) {
   switch (level) {
     case Level::problem:

@@ -14,11 +14,11 @@ namespace supercoil::daemon {
 
 class LoopThread {
  public:
-  /// Both outlive it. Starts at once.
+  /// Both outlive it. The thread starts at once.
   static Result<std::unique_ptr<LoopThread>> start(Loop& loop, hal::Clock& clock, double rate_Hz,
                                                    const hal_linux::ThreadSettings& settings);
 
-  /// After the tick that is under way; the destructor waits for that.
+  /// Stops after the current tick; the destructor waits for it.
   void stop() { ending_.store(true, std::memory_order_relaxed); }
   const std::vector<hal_linux::SetupStep>& steps() const { return thread_->steps(); }
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace supercoil;
 
-/// What only goes with --latency says so when it stands alone.
+/// Options that require --latency report it when given without it.
 void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
   CLI::Option* latency = app.add_flag(
       "--latency", wanted,
@@ -93,7 +93,7 @@ int run_program(int count, char** arguments) {
 
 int main(int count, char** arguments) {
   supercoil::daemon::limit_heap();
-  // A closed log or pipe must not drop the muscles.
+  // A closed log or pipe must not end the process and drop the muscles.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);

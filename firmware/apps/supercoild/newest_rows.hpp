@@ -1,4 +1,4 @@
-// The newest row of every channel, for those who do not keep them all.
+// The newest row of every channel.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace supercoil::daemon {
 
-/// Of one thread.
+/// Used by one thread.
 class NewestRows {
  public:
   explicit NewestRows(std::size_t channels) : rows_(channels) {}
@@ -19,11 +19,11 @@ class NewestRows {
     if (row.channel < rows_.size()) rows_[row.channel] = row;
     newest_s_ = 1e-9 * static_cast<double>(row.time_ns);
   }
-  /// The board's time of the newest tick.
+  /// The board's time at the newest tick.
   double newest_s() const { return newest_s_; }
-  /// A line for each channel, of the words that state_words.hpp names:
-  /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none - 0 mrac". The result is a
-  /// ModeResult, the notes are IdentifyNotes. loop: tells the kinds of controllers.
+  /// A line for each channel, with the words that state_words.hpp names: "1 active position none
+  /// 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none - 0 mrac". The result is a ModeResult, the notes
+  /// are IdentifyNotes. loop: gives the controllers' kinds.
   std::string describe(const Loop& loop) const;
   /// A line for each channel, "1 armed none probing": channel, state, fault, and whether its heater
   /// is being measured ("-" if not).

@@ -22,7 +22,7 @@ int off_command(const std::string& config, const std::string& run_folder) {
     log(Level::problem, lock.error().text());
     return exit_failed;
   }
-  // To open a device is to bring it to its safe level; to close it leaves it there.
+  // Opening a device sets it to its safe level; closing it leaves it there.
   const std::vector<std::string> missing = linux_board::open_parts(board->wiring).missing();
   if (missing.empty()) {
     log(Level::info, "everything is off");

@@ -1,4 +1,4 @@
-// When a thread that goes round and round begins its next round.
+// Schedules the rounds of a thread that works periodically.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 
 namespace supercoil::daemon {
 
-/// On a grid, whatever a round's work takes: rounds that drift against the loop's ticks would see
-/// some ticks twice and others never.
+/// Rounds start on a fixed grid, however long a round's work takes. Rounds that drifted against the
+/// loop's ticks would see some ticks twice and others never.
 class Rounds {
  public:
   explicit Rounds(hal::Time start) : next_(start) {}
 
-  /// How long to wait from now on; asked again before the wait is over, for what is left of it.
+  /// How long to wait from `now`. When the wait ends early, call it again for the remaining time.
   hal::Duration wait(hal::Time now) {
     if (next_ <= now) next_ = std::max(next_ + usual, now + min_pause);
     return next_ - now;
@@ -21,7 +21,7 @@ class Rounds {
 
  private:
   static constexpr std::chrono::milliseconds usual{5};
-  /// Left to others when a round's work takes longer than a round.
+  /// Left to other threads when a round's work takes longer than a round.
   static constexpr std::chrono::milliseconds min_pause{1};
 
   hal::Time next_;

@@ -28,15 +28,15 @@ namespace supercoil::daemon {
 namespace {
 
 constexpr hal::Duration round = std::chrono::milliseconds(20);
-/// A loop that made no row in this many rounds hangs: a second. Rounds are counted, not time,
-/// because this thread may itself be kept from running, and wakes before those that bring the rows.
+/// The loop hangs if no row arrives in this many rounds: a second. Rounds are counted, not time,
+/// because this thread may itself be delayed, and may wake before the threads that bring the rows.
 constexpr int hangs_after_rounds = 50;
-/// Duties and enable lines are off a tick after the command; so long is far more than that.
+/// Duties and enable lines are off a tick after the command; this is far longer.
 constexpr hal::Duration cool_within = std::chrono::seconds(2);
-/// Buses must not hold up the loop.
+/// Bus threads must not hold up the loop.
 constexpr int below_the_loop = 10;
 
-/// The daemon's parts, in the order in which they are made; they end in the opposite one.
+/// The daemon's parts, in the order of their creation; they are destroyed in reverse.
 struct Parts {
   storage::PosixFiles files;
   std::vector<storage::LearnedStore> stores;
@@ -56,7 +56,7 @@ void warn(const std::string& text) {
   if (!text.empty()) log(Level::warning, text);
 }
 
-/// A bus that is down is no error, and may come up later.
+/// A bus that is down is not an error: it may come up later.
 Result<void> join_can(Parts& parts, const config::BoardConfig& config) {
   if (!config.can) return {};
   const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
@@ -69,7 +69,7 @@ Result<void> join_can(Parts& parts, const config::BoardConfig& config) {
   return {};
 }
 
-/// Buses, watchdog, commands, and at last the loop.
+/// Starts buses, watchdog, commands, and finally the loop.
 Result<void> start(Parts& parts, const config::BoardConfig& config, const RunOptions& options,
                    LocalCommands commands) {
   const double rate_Hz = config.settings.rate_Hz;
@@ -96,7 +96,7 @@ Result<void> start(Parts& parts, const config::BoardConfig& config, const RunOpt
   return {};
 }
 
-/// Rows keep coming, or the signal has come. Returns false when the loop hangs.
+/// Runs while rows keep coming, until the signal. Returns false when the loop hangs.
 bool keep_until_signal(Parts& parts, Service& service) {
   hal_linux::MonotonicClock clock;
   std::uint64_t rows = 0;
@@ -118,7 +118,7 @@ bool keep_until_signal(Parts& parts, Service& service) {
   return true;
 }
 
-/// Every channel is off, and the loop stands still. Returns false when that could not be had.
+/// Turns every channel off and stops the loop. Returns false when that failed.
 bool cool(Parts& parts) {
   parts.telemetry->cool();
   hal_linux::MonotonicClock clock;
@@ -170,7 +170,7 @@ int run_command(const RunOptions& options) {
   parts.storage_worker = std::make_unique<StorageWorker>(*config, parts.stores, parts.files);
 
   if (const auto started = start(parts, *config, options, std::move(*commands)); !started) {
-    // No loop runs that would feed it, and nothing was ever on.
+    // No loop runs that would feed the watchdog, and nothing was ever on.
     warn(parts.board->release());
     return fail(started.error().text());
   }
@@ -186,8 +186,8 @@ int run_command(const RunOptions& options) {
     log(Level::info, "everything is off; ended");
     return exit_done;
   }
-  // The thread cannot be waited for. Its heartbeat has stopped, and the charge pump has opened the
-  // supply; the kernel closes the rest, and the watchdog, not being fed, bites.
+  // The loop's thread cannot be joined. Its heartbeat has stopped, and the charge pump has opened
+  // the supply; the kernel closes the rest, and the watchdog, no longer fed, fires.
   log(Level::problem, "the loop hangs: ended without it");
   std::_Exit(exit_failed);
 }

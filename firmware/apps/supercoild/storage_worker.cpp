@@ -13,14 +13,14 @@ namespace supercoil::daemon {
 
 namespace {
 
-/// Of rows that wait for the storage worker while it waits for the disk.
+/// How much the relay can hold while the storage worker waits for the disk.
 constexpr double relayed_s = 1.0;
 
 std::size_t rows_relayed(const BoardSettings& board) {
   return static_cast<std::size_t>(relayed_s * board.rate_Hz) * board.channels.size();
 }
 
-/// What the configuration's muscle allowed, the one that was found may not.
+/// A controller that is stable on the configured muscle may be unstable on the learned one.
 void warn_unstable(const ChannelSettings& channel, std::size_t index, double step_s) {
   for (std::size_t i = 0; i < channel.controllers.size(); ++i) {
     const auto margin = margin_of(channel.controllers[i], channel, step_s);
@@ -118,7 +118,7 @@ void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
   }
 }
 
-/// The loop has no calendar: a comparison that it made has its date from here.
+/// The loop has no calendar: the storage worker dates the comparisons that it made.
 void StorageWorker::date(std::size_t channel, const std::string& who,
                          board::SenseComparison& senses) {
   board::SenseComparison& known = senses_[channel];

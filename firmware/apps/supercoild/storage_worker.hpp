@@ -14,28 +14,28 @@
 
 namespace supercoil::daemon {
 
-/// What channels learned before, into the settings of a board whose storage worker is made then.
-/// The error says what cannot be read; a board does not start without what it knew, for a lost zero
-/// is a wrong position.
+/// Applies what channels learned before to the settings of a board whose storage worker is made
+/// afterwards. The error says what cannot be read. A board does not start without what it had
+/// learned, because a lost zero is a wrong position.
 Result<void> load_learned(config::BoardConfig& config, std::vector<storage::LearnedStore>& stores);
 
-/// The one thread that may wait for the disk. Everything of it is taken when it is made, before
-/// memory is locked.
+/// The one thread that may wait for the disk. Its resources are allocated in the constructor,
+/// before memory is locked.
 class StorageWorker {
  public:
   /// Both outlive it.
   StorageWorker(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
                 storage::Files& files);
 
-  /// Takes what has come since by the relay. now: on the loop's clock, read before.
+  /// Takes what has arrived through the relay. now: on the loop's clock, read before the call.
   void poll(Loop& loop, hal::Time now);
-  /// Writes at once what would be written later.
+  /// Writes everything that is pending.
   void finish();
 
   RowRelay& relay() { return relay_; }
-  /// How many rows have come: a loop that is alive makes them.
+  /// How many rows have arrived: a live loop makes them.
   std::uint64_t rows() const { return rows_; }
-  /// No channel is armed or active, by the rows so far.
+  /// Whether no channel is armed or active, by the rows so far.
   bool all_off() const;
 
  private:

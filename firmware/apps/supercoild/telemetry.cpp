@@ -23,11 +23,11 @@ void Telemetry::run() {
   Rounds rounds(clock.now());
   while (!ending_.load(std::memory_order_relaxed)) {
     loop_->health().telemetry_heartbeats.store(++beats_, std::memory_order_relaxed);
-    // Although the main thread has not noticed: it may be waiting for the disk.
+    // The main thread may not have noticed the signal: it may be waiting for the disk.
     if (ending_signal_is_pending()) cool();
     const bool cooling = cooling_.load(std::memory_order_relaxed);
     if (cooling) disarm_all();
-    // A command waits for its answer at most a tick and this.
+    // A command's answer takes at most a tick and this wait.
     const auto wait_ms = static_cast<int>(
         std::chrono::ceil<std::chrono::milliseconds>(rounds.wait(clock.now())).count());
     if (commands_ && !cooling) {

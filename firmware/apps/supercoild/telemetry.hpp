@@ -1,4 +1,4 @@
-// The thread between the loop and those that command.
+// The thread between the loop and its clients.
 #pragma once
 
 #include <atomic>
@@ -16,13 +16,13 @@
 
 namespace supercoil::daemon {
 
-/// Takes the loop's rows, speaks on the CAN bus, serves commands, and shows the loop that it lives.
-/// Touches no disk: so it is the one that cools at an ending signal that is blocked and pending,
-/// however long the main thread waits for a disk. The loop's commands, answers and rows are this
-/// thread's alone.
+/// Takes the loop's rows, sends and receives on the CAN bus, serves commands, and shows the loop
+/// that it is alive. It never touches a disk, so this thread cools the muscles when a blocked
+/// ending signal is pending, however long the main thread waits for a disk. Only this thread
+/// accesses the loop's commands, answers and rows.
 class Telemetry {
  public:
-  /// relay: where rows go on to. can: null for a board without a bus. All outlive it.
+  /// relay: receives the rows. can: null for a board without a bus. All outlive it.
   Telemetry(Loop& loop, RowRelay& relay, std::optional<LocalCommands> commands,
             telemetry::CanEndpoint* can = nullptr)
       : loop_(&loop),
@@ -33,8 +33,8 @@ class Telemetry {
   ~Telemetry() { ending_ = true; }
 
   Result<void> start();
-  /// From now on every channel is told to disarm, again and again, and no other command is heard or
-  /// spoken to.
+  /// From now on every channel is repeatedly told to disarm. The bus and other commands are no
+  /// longer served.
   void cool() { cooling_.store(true, std::memory_order_relaxed); }
 
  private:
@@ -51,7 +51,7 @@ class Telemetry {
   std::uint32_t beats_ = 0;
   std::atomic<bool> cooling_{false};
   std::atomic<bool> ending_{false};
-  std::unique_ptr<hal_linux::Thread> thread_;  ///< last: it ends first
+  std::unique_ptr<hal_linux::Thread> thread_;  ///< last, so that it ends first
 };
 
 }  // namespace supercoil::daemon

@@ -34,7 +34,7 @@ double Histogram::mean_ns() const {
 hal::Duration Histogram::quantile(double share) const {
   const double wanted = share * static_cast<double>(count_);
   double counted = 0.0;
-  // In the last bin are also those that are longer than it reaches.
+  // The last bin also counts times beyond its end.
   for (std::size_t i = 0; i + 1 < bins_.size(); ++i) {
     counted += static_cast<double>(bins_[i]);
     const hal::Duration end = static_cast<std::int64_t>(i + 1) * width_;

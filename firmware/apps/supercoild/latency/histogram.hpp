@@ -1,4 +1,4 @@
-// How often which time was measured.
+// A histogram of measured times.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,25 @@
 
 namespace supercoil::daemon {
 
-/// Times in bins of one width. All memory is taken when it is made.
+/// Times in bins of equal width. All memory is allocated in the constructor.
 class Histogram {
  public:
-  /// Bin i holds times from i·width up to, and without, (i+1)·width; what is beyond the last bin is
-  /// counted there. width: above 0; bins: at least 1.
+  /// Bin i counts times from i·width up to, but excluding, (i+1)·width; the last bin also counts
+  /// everything beyond it. width: above 0; bins: at least 1.
   Histogram(hal::Duration width, std::size_t bins) : width_(width), bins_(bins) {}
 
-  /// Below 0 counts as 0.
+  /// A negative time counts as 0.
   void add(hal::Duration time) noexcept;
 
   hal::Duration width() const { return width_; }
   const std::vector<std::uint64_t>& bins() const { return bins_; }
   std::uint64_t count() const { return count_; }
-  /// Exact, unlike what bins say; 0 when nothing was added.
+  /// Exact, not rounded to bins; 0 when nothing was added.
   hal::Duration shortest() const { return count_ == 0 ? hal::Duration{} : min_; }
   hal::Duration longest() const { return max_; }
   double mean_ns() const;
-  /// At least `share` (0 to 1) of the times are shorter than this, or equal: the end of a bin, but
-  /// never more than the longest.
+  /// At least `share` (0 to 1) of the times are at most this: the end of a bin, but never more than
+  /// the longest time.
   hal::Duration quantile(double share) const;
 
  private:
@@ -39,15 +39,15 @@ class Histogram {
   hal::Duration max_{};
 };
 
-/// Some bins together.
+/// Several bins combined.
 struct Bar {
   hal::Duration from{};
   hal::Duration to{};
   std::uint64_t count = 0;
 };
 
-/// For people to read: at most 20 bars of one width, a round number, up to the 99th percentile, and
-/// wider and wider ones behind it. Without empty ones.
+/// For display: at most 20 bars of one width, a round number, up to the 99th percentile, and
+/// increasingly wider ones beyond it. Empty bars are omitted.
 std::vector<Bar> bars(const Histogram& histogram);
 
 }  // namespace supercoil::daemon

@@ -1,4 +1,4 @@
-// A board without devices: for measuring the loop with nothing that could heat.
+// A board without devices, to measure the loop without anything that could heat.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace supercoil::daemon {
 
-/// Outputs lead nowhere, and no input ever has a value. For the loop that is an emergency stop that
-/// lasts: no channel can be armed. Nothing of the machine is opened.
+/// Outputs go nowhere, and inputs never have a value. To the loop this is a permanent emergency
+/// stop: no channel can be armed. No device of the machine is opened.
 class InertBoard {
  public:
-  /// For as long as this lives.
+  /// Valid while this object lives.
   board::Devices devices(std::size_t channels) {
     board::Devices all{&clock_, &converter_, &output_, &stop_circuit_, nullptr, nullptr, {}};
     all.channels.assign(channels, {&pwm_, &output_, &converter_, &converter_});

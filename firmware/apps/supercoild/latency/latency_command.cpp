@@ -43,7 +43,7 @@ void notify(const LatencyMeter& meter, std::uint64_t ticks) {
                        " us after its time");
 }
 
-/// What the daemon's other threads do meanwhile, until all is measured or a signal ends it.
+/// Stands in for the daemon's other threads until everything is measured or a signal ends it.
 void keep_until_done(Loop& loop, const LatencyMeter& meter, std::uint64_t ticks) {
   const hal_linux::MonotonicClock clock;
   hal::Time next = clock.now() + print_every;

@@ -1,4 +1,4 @@
-// Measures the loop that waits by it.
+// Measures the loop through the clock that it waits on.
 #pragma once
 
 #include <atomic>
@@ -11,22 +11,22 @@
 
 namespace supercoil::daemon {
 
-/// What was measured.
+/// The result of a measurement.
 struct Latency {
-  /// 1 µs, as cyclictest counts, up to 100 ms.
+  /// Bins of 1 µs, like cyclictest's, up to 100 ms.
   Histogram late{std::chrono::microseconds(1), 100'000};
-  /// 0.1 µs, up to 10 ms.
+  /// Bins of 0.1 µs, up to 10 ms.
   Histogram tick{std::chrono::nanoseconds(100), 100'000};
   std::int64_t overruns = 0;  ///< periods that were left out
 };
 
-/// The clock by which the executive waits for its ticks. Before it waits it notes how late the tick
-/// before was and how long it took, as the loop itself has measured it: so the loop's thread is the
-/// real one, and nothing is added between a wake-up and the end of its tick.
+/// The clock on which the executive waits for its ticks. Before each wait it records how late the
+/// previous tick was and how long it took, as the loop itself measured them. So the loop's thread
+/// is the real one, and nothing is added between a wake-up and the end of its tick.
 class LatencyMeter final : public hal::Clock {
  public:
-  /// Leaves the first `settling` ticks out, for the thread has its priority only a moment after it
-  /// was started; then counts this many `ticks`. The loop outlives it.
+  /// Skips the first `settling` ticks, because the thread gets its priority shortly after it
+  /// starts; then counts this many `ticks`. The loop outlives it.
   LatencyMeter(const Loop& loop, std::uint64_t settling, std::uint64_t ticks)
       : loop_(&loop), settling_(settling), ticks_(ticks) {}
 
@@ -36,11 +36,11 @@ class LatencyMeter final : public hal::Clock {
     return clock_.wait_until(wake);
   }
 
-  /// From any thread.
+  /// May be called from any thread.
   std::uint64_t measured() const { return measured_.load(std::memory_order_relaxed); }
   bool done() const { return measured() >= ticks_; }
   hal::Duration latest() const { return hal::Duration(latest_ns_.load(std::memory_order_relaxed)); }
-  /// Once the loop stands still.
+  /// Valid once the loop has stopped.
   const Latency& result() const { return result_; }
 
  private:

@@ -25,7 +25,7 @@ double us(hal::Duration time) {
   return 1e-3 * static_cast<double>(time.count());
 }
 
-/// As printf, and one line longer.
+/// Like printf, plus a newline.
 template <class... Values>
 void add_line(std::string& text, const char* format, Values... values) {
   std::array<char, 200> line{};
@@ -35,7 +35,7 @@ void add_line(std::string& text, const char* format, Values... values) {
 }
 
 void add_histogram(std::string& text, const char* title, const Histogram& histogram) {
-  // A fifth of a decade each, so that a single late tick is seen beside a million others.
+  // Five signs per decade, so that a single late tick is visible beside a million others.
   constexpr double signs_per_decade = 5.0;
   add_line(text, "%s, us", title);
   add_line(text, "%10s %10s %10s", "from", "to", "ticks");
@@ -68,9 +68,9 @@ ordered_json json_of(const Histogram& histogram) {
   return json;
 }
 
-/// Every bin that is not empty as a horizontal line, with nothing between them.
+/// The outline of the histogram: each bin that is not empty is a horizontal line, without gaps.
 Panel panel_of(const char* title, const Histogram& histogram) {
-  // Where logarithmic axes show that there was nothing.
+  // Stands for 0 on logarithmic axes.
   constexpr double none = 0.5;
   Panel panel{title, "us", "ticks", {{"", {}, {}}}, none, 1.0, true, true};
   Curve& curve = panel.curves.front();
@@ -89,7 +89,7 @@ Panel panel_of(const char* title, const Histogram& histogram) {
     before = count;
   }
   add(static_cast<double>(histogram.bins().size()), before);
-  // What follows the last time is of no interest.
+  // Omit the drop to 0 after the last bin.
   if (before == 0) {
     curve.x.pop_back();
     curve.y.pop_back();

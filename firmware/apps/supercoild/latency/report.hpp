@@ -1,4 +1,4 @@
-// What was measured of the loop's latency, for people and for programs.
+// The loop's measured latency, for people and for programs.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace supercoil::daemon {
 
-/// Under which conditions it was measured.
+/// The conditions of the measurement.
 struct LatencyConditions {
   double rate_Hz = 1000.0;
   std::size_t channels = 1;
-  int priority = 0;  ///< of SCHED_FIFO; 0: an ordinary thread
+  int priority = 0;  ///< SCHED_FIFO priority; 0: an ordinary thread
   std::vector<hal_linux::SetupStep> steps;
 };
 

@@ -33,7 +33,7 @@ Result<SocketcandAddress> parse_socketcand(const std::string& name) {
     rest.erase(0, colon + 1);
   }
   const auto port = can_client::number<std::uint16_t>(rest, 10);
-  // What is inside the protocol's brackets may not end them.
+  // The interface must not contain anything that ends the protocol's brackets.
   const bool plain = address.interface.find_first_of(" <>/") == std::string::npos;
   if (!port || *port == 0 || address.host.empty() || address.interface.empty() || !plain)
     return wrong();

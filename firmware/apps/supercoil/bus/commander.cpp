@@ -10,17 +10,17 @@ namespace supercoil::operating {
 namespace {
 
 constexpr std::chrono::milliseconds answer_within{500};
-/// What heats expires after 250 ms by default: by then a renewal was sent three times.
+/// Commands to heat expire after 250 ms by default; by then a renewal was sent three times.
 constexpr std::array<std::chrono::milliseconds, 3> renewal_within{
     std::chrono::milliseconds(60), std::chrono::milliseconds(120), std::chrono::milliseconds(320)};
-/// A lease lasts a second by default; what may have run out is claimed again.
+/// A lease lasts a second by default; one that may have run out is claimed again.
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
-/// It follows the answer at once, where the board sends it.
+/// A board that sends the nearest value does so right after the answer.
 constexpr auto nearest_within = std::chrono::milliseconds(50);
 constexpr int claims_in_a_row = 3;
 constexpr auto nap = std::chrono::milliseconds(1);
 
-/// It is the same whether the board obeys once or twice.
+/// Whether obeying the command twice has the same effect as once.
 bool may_come_twice(Verb verb) {
   return verb == Verb::renew || verb == Verb::position || verb == Verb::power ||
          verb == Verb::disarm;
@@ -81,10 +81,10 @@ Commander::Answer Commander::claim() {
   if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
   const bool anew = !master_.holds_lease();
   Answer answer = exchange(master_.claim(), answer_within);
-  // Another master may use a nonce first.
+  // Another master may have used the nonce first.
   for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
     answer = exchange(master_.claim(), answer_within);
-  // To a board of an older version the claim was a command without a lease.
+  // A board of an older version takes the claim for a command without a lease.
   if (anew && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
   return answer;
 }
@@ -108,7 +108,7 @@ auto Commander::insist(const Once& once) {
   drain();
   auto answer = once();
   const auto is = [&](Refusal refusal) { return answer && refusal_of(*answer) == refusal; };
-  // The lease ran out meanwhile, or frames were lost before this one.
+  // The lease has run out, or frames before this one were lost.
   if (is(Refusal::no_lease) || is(Refusal::wrong_counter)) answer = once();
   if (is(Refusal::none)) lease_from_ = Clock::now();
   return answer;

@@ -1,4 +1,4 @@
-// Commands to one node, each until it is answered.
+// Sends commands to one node and waits for each answer.
 #pragma once
 
 #include <chrono>
@@ -13,26 +13,26 @@
 
 namespace supercoil::operating {
 
-/// Of one thread. The bus is its own: what else is heard there is passed over.
+/// Used by one thread. It owns the bus: frames that are not its answers are dropped.
 class Commander {
  public:
   Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node);
 
-  /// Waits at most half a second for the answer, and meanwhile sends again what renews. Claims the
-  /// lease when it has run out. The error says that there was no answer, or that the bus is gone.
+  /// Waits at most half a second for the answer, and repeats renewals meanwhile. Claims the lease
+  /// when it has run out. The error says that there was no answer, or that the bus is gone.
   Result<Refusal> ask(Verb verb, double value);
-  /// After an answer out_of_range: the nearest value that would have been obeyed. NaN: there is
-  /// none, or the board does not say.
+  /// After an answer out_of_range: the nearest value that the board would have obeyed. NaN: none
+  /// exists, or the board does not report it.
   double nearest();
   using Setting = Result<can_client::Master::Setting>;
-  /// Likewise; reading needs no lease.
+  /// Like ask(); reading needs no lease.
   Setting read(std::uint8_t setting);
   Setting write(std::uint8_t setting, double value);
-  /// Likewise, of a controller's values.
+  /// Like ask(), for a controller's values.
   using Tuned = Result<can_client::TunedValue>;
   Tuned read_tuning(const can_client::TunedPlace& place);
   Tuned prepare(const can_client::TunedPlace& place, double value);
-  /// Likewise, of its trajectory.
+  /// Like ask(), for the node's trajectory.
   using Played = Result<can_client::Played>;
   Played add_knot(double after_s, const control::Knot& knot);
   Played start_at_once(double after_s);
@@ -40,33 +40,33 @@ class Commander {
   Played playback();
   /// To all nodes of the bus.
   hal::Status send_sync(std::uint8_t number, double master_time_s);
-  /// Whatever the node goes by. Needs no lease.
+  /// The muscle that the node uses. Needs no lease.
   Result<KnownMuscle> muscle();
   /// Gives the lease back, if there is one.
   void release();
-  /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.
+  /// Drops frames that have arrived. Call it every 100 ms or so when nothing is asked.
   void drain();
 
  private:
   using Clock = std::chrono::steady_clock;
   using Answer = Result<Refusal>;
 
-  /// Until hear(frame) gives what an answer says.
+  /// Waits until hear(frame) returns the content of an answer.
   template <class Heard>
   Result<Heard> exchange(const hal::CanFrame& frame,
                          const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
                          std::chrono::milliseconds within);
   Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds within);
-  /// frame(): made anew for each try.
+  /// frame(): builds a new frame for each attempt.
   Played play(const std::function<hal::CanFrame()>& frame);
-  /// A question that changes nothing is asked once more when it, or its answer, was lost.
+  /// Reading changes nothing, so it is repeated once when the request or its answer was lost.
   template <class Heard>
   Result<Heard> read_value(const hal::CanFrame& frame,
                            const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   /// Refusal::none: the lease is held.
   Answer claim();
   Answer command(Verb verb, double value);
-  /// Asks under the lease, and once more where that can help.
+  /// Asks under the lease, and retries once where that can help.
   template <class Once>
   auto insist(const Once& once);
 

@@ -11,7 +11,7 @@
 
 namespace supercoil::operating {
 
-/// A thread that puts what it hears into `frame_history`, until it is destroyed.
+/// A thread that puts received frames into `frame_history` until it is destroyed.
 class Listener {
  public:
   Listener(std::unique_ptr<hal::CanBus> bus, FrameHistory& frame_history);

@@ -1,4 +1,4 @@
-// A candump log as a whole.
+// Reads a whole candump log.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace supercoil::operating {
 
 struct CanLogFile {
-  std::vector<hal::CanFrame> frames;  ///< in the order of the file; times are time_of_run's
+  std::vector<hal::CanFrame> frames;  ///< in file order; times are time_of_run's
   std::size_t foreign_lines = 0;      ///< frames that supercoil never sends
   std::string damage;                 ///< what is wrong with the first line that cannot be read
   std::size_t damaged_lines = 0;
 };
 
-/// Reads what can be read: a log whose last line was cut off is still worth all others. The error
-/// names the file: it cannot be read, or has no line of a log.
+/// Skips lines that cannot be read: a log with a truncated last line is still useful. The error
+/// names the file: it cannot be read, or has no log line.
 Result<CanLogFile> read_can_log(const std::string& path);
 
 }  // namespace supercoil::operating

@@ -9,7 +9,7 @@ namespace supercoil::operating {
 
 namespace {
 
-/// A day of one board; whatever keep_s says.
+/// A day of one board; applies whatever keep_s is.
 constexpr std::size_t max_frames = 40'000'000;
 
 bool earlier(const hal::CanFrame& frame, hal::Time time) {
@@ -22,13 +22,13 @@ void FrameHistory::add(const std::vector<hal::CanFrame>& frames) {
   const std::lock_guard lock(mutex_);
   for (const hal::CanFrame& frame : frames) {
     frames_.push_back(frame);
-    // Times only rise: what a clock that was set back says is not earlier than what came before.
+    // Times never decrease: a clock that was set back does not make a frame earlier than the last.
     if (frames_.size() > 1) {
       hal::CanFrame& newest = frames_.back();
       newest.received = std::max(newest.received, frames_[frames_.size() - 2].received);
     }
     const auto decoded = can::decode(frame);
-    // A command says that somebody believes in a node, not that there is one.
+    // A command does not prove that its node exists.
     if (!decoded) continue;
     if (decoded->message->name != "Command") nodes_ |= std::uint64_t{1} << decoded->node;
     if (decoded->message->name == "Emergency") first_causes_.erase(decoded->node);

@@ -1,4 +1,4 @@
-// The bus's frames of the last while, for all who watch.
+// The bus's recent frames, for all readers.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ namespace supercoil::operating {
 
 /// How busy the bus is.
 struct BusFigures {
-  double load = 0.0;  ///< part of the bus's time, at worst stuffing, over the last second
+  double load = 0.0;  ///< fraction of the bus's time, at worst stuffing, over the last second
   double frames_per_s = 0.0;
-  double foreign_per_s = 0.0;  ///< of these, not of the protocol
+  double foreign_per_s = 0.0;  ///< of these, frames outside the protocol
 };
 
 /// Safe from any thread.
 class FrameHistory {
  public:
-  /// keep_s: older frames are forgotten; 0: none is. bit_rate: of the bus, for its load.
+  /// keep_s: older frames are dropped; 0: none are. bit_rate: of the bus, to compute its load.
   FrameHistory(double keep_s, double bit_rate)
       : keep_(hal::duration_from(keep_s)), bit_rate_(bit_rate) {}
 
@@ -31,22 +31,22 @@ class FrameHistory {
 
   struct Part {
     std::vector<hal::CanFrame> frames;
-    std::uint64_t next = 0;  ///< from where the next part begins
+    std::uint64_t next = 0;  ///< where the next part begins
   };
-  /// What came since; nothing but `next` when from is that of now.
+  /// Frames since `from`; only `next` when `from` is the present end.
   Part since(std::uint64_t from) const;
   std::uint64_t end() const;
   /// Frames between two times of the bus; a negative from is relative to the newest frame.
   std::vector<hal::CanFrame> between(hal::Time from, hal::Time to) const;
-  /// As of the newest frame; everything 0 when that is older than a second of the machine's clock.
+  /// As of the newest frame; all 0 when that is more than a second old by the machine's clock.
   BusFigures figures() const;
-  /// Nodes of supercoil that told something, in order.
+  /// supercoil nodes that have sent a message, in order.
   std::vector<std::uint8_t> nodes() const;
 
-  /// The FirstCause of the fault that a node told last; empty: none was heard, or it was reset.
+  /// FirstCause of the last fault that a node reported; empty: none was received, or it was reset.
   std::optional<hal::CanFrame> first_cause(std::uint8_t node) const;
 
-  /// Empty: the source is there. Else why not.
+  /// Why the source is lost; empty: it is connected.
   void set_lost(const std::string& reason);
   std::string lost() const;
 
@@ -56,7 +56,7 @@ class FrameHistory {
   mutable std::mutex mutex_;
   std::deque<hal::CanFrame> frames_;
   std::uint64_t forgotten_ = 0;
-  std::uint64_t nodes_ = 0;  ///< a bit for each
+  std::uint64_t nodes_ = 0;  ///< one bit for each
   std::map<std::uint8_t, hal::CanFrame> first_causes_;
   std::string lost_;
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr auto first_try = std::chrono::seconds(2);
 constexpr auto later_try = std::chrono::seconds(1);
 
-/// What was seen, and what it may be. request: empty before the greeting.
+/// What happened, and the likely cause. request: empty before the greeting.
 std::string silence(const std::string& request, bool is_open) {
   if (!is_open) return "closed the connection";
   if (!request.empty()) return "did not answer '" + request + "' in time: it is stopped or busy";
@@ -83,7 +83,7 @@ void SocketcandBus::lose() {
   socket_.close(ignored);
 }
 
-/// All of it or the connection is lost: half an element would spoil the next.
+/// A partial write ends the connection: half an element would corrupt the next one.
 bool SocketcandBus::write(const std::string& text) {
   boost::system::error_code error;
   const std::size_t sent = socket_.write_some(boost::asio::buffer(text), error);

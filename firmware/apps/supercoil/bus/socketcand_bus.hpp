@@ -17,11 +17,11 @@
 
 namespace supercoil::operating {
 
-/// Of one thread. A connection that is lost is `down` and everything answers gone; receive() then
-/// tries every second to have it again, which takes up to a second when the host does not answer.
+/// Used by one thread. A lost connection is `down`, and every call answers gone; receive() then
+/// tries every second to reconnect, which takes up to a second when the host does not answer.
 class SocketcandBus final : public hal::CanBus {
  public:
-  /// Waits at most 2 s. The error has the server's answer, or says that there was none.
+  /// Waits at most 2 s. The error contains the server's answer, or says that there was none.
   static Result<std::unique_ptr<SocketcandBus>> open(const SocketcandAddress& address);
   explicit SocketcandBus(SocketcandAddress address) : address_(std::move(address)) {}
 
@@ -36,7 +36,7 @@ class SocketcandBus final : public hal::CanBus {
   using Clock = std::chrono::steady_clock;
 
   Result<void> connect(Clock::duration within);
-  /// The next element that the server sends; empty: none came in time.
+  /// The next element from the server; empty: none arrived in time.
   std::optional<std::string> element_until(Clock::time_point deadline);
   bool write(const std::string& text);
   void read();

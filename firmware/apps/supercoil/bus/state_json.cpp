@@ -22,7 +22,7 @@ Json value_json(const can::SignalInfo& signal, double value) {
 
 Json state_json(const FrameHistory& frame_history) {
   std::map<int, Json> nodes;
-  // Everything is sent within this time.
+  // Every message is sent at least once within this time.
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     const auto decoded = can::decode(frame);
@@ -31,7 +31,7 @@ Json state_json(const FrameHistory& frame_history) {
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i) {
       const can::SignalInfo& signal = decoded->message->signals[i];
       const std::string name(signal.name);
-      // A multiplexed signal stays as the last frame that had it told it.
+      // A multiplexed signal keeps the value from the last frame that carried it.
       const bool elsewhere =
           signal.selected_by != can::always && decoded->values[0] != signal.selected_by;
       if (elsewhere && message.contains(name)) continue;

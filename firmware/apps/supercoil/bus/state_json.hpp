@@ -7,9 +7,9 @@
 
 namespace supercoil::operating {
 
-/// {"nodes":[{"node":1,"Status":{"state":"armed",…},…}]}: of each node that is heard the newest of
-/// every message, by the names and in the units of the DBC. A value with a name is that name; what
-/// is not available is null.
+/// {"nodes":[{"node":1,"Status":{"state":"armed",…},…}]}: for each node on the bus the newest of
+/// every message, with the names and units of the DBC. A value with a name is given as that name;
+/// null: not available.
 nlohmann::ordered_json state_json(const FrameHistory& frame_history);
 
 }  // namespace supercoil::operating

@@ -49,17 +49,17 @@ std::string shown(const char* what, double quantity, int digits, const char* uni
   return text.data();
 }
 
-/// Off is not cold: how hot it may be, by the hot end of its interval.
+/// Off is not cold: tells how hot the muscle may be, by its upper bound.
 std::string off_text(const Newest& node) {
   const double hottest_C = value(node, "Temperature", "hottest_C");
   if (std::isnan(hottest_C)) return "off; temperature not known";
-  // Skin that is touched for hours is burnt from here on (docs/safety.md).
+  // From here on, contact for hours burns skin (docs/safety.md).
   constexpr double hot_C = 43.0;
   return (hottest_C < hot_C ? "off; at most " : "off; may still be at ") +
          std::to_string(std::lround(std::ceil(hottest_C))) + " C";
 }
 
-/// Of the detector that led to the fault, in its own unit (docs/faults).
+/// The margin of the detector that led to the fault, in its own unit (docs/faults).
 std::string margin_text(const Newest& node) {
   const double measured = value(node, "FirstCause", "measured");
   const double limit = value(node, "FirstCause", "limit");
@@ -69,10 +69,10 @@ std::string margin_text(const Newest& node) {
   return text.data();
 }
 
-/// By their numbers.
+/// By node number.
 std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
   std::map<int, Newest> nodes;
-  // Everything is sent within this time.
+  // Every message is sent at least once within this time.
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     if (const auto decoded = can::decode(frame))
@@ -81,7 +81,7 @@ std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
   return nodes;
 }
 
-/// "  program 0.2.0 (2780ebf)"; empty: a board that does not tell it.
+/// "  program 0.2.0 (2780ebf)"; empty: the board does not report it.
 std::string program_text(const Newest& node) {
   const auto part = [&](const char* signal) {
     return static_cast<unsigned>(value(node, "Boot", signal));
@@ -192,7 +192,7 @@ int show_on_terminal(const FrameHistory& frame_history, bool log,
   const auto every = std::chrono::milliseconds(terminal ? 200 : 1000);
   do {
     if (!log) std::this_thread::sleep_for(every);
-    // Home, and clear what is below.
+    // Cursor home, and clear the screen below.
     const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(frame_history);
     if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return exit_failed;
   } while (!log && !ended());

@@ -9,15 +9,15 @@
 
 namespace supercoil::operating {
 
-/// Of each node that is heard the place of the controller that is at work.
+/// The place of the active controller, for each node on the bus.
 std::map<int, int> controllers_at_work(const FrameHistory& frame_history);
 
-/// What is known of every node now, some lines each. laws: the kinds of those controllers, as far
-/// as they are known: frames do not tell them.
+/// The present state of every node, a few lines each. laws: the kinds of the active controllers, as
+/// far as they are known: frames do not carry them.
 std::string state_text(const FrameHistory& frame_history,
                        const std::map<int, std::string>& laws = {});
 
-/// Shows it anew five times a second on a terminal, once a second elsewhere, until `ended`; of a
+/// Redraws it five times a second on a terminal, once a second elsewhere, until `ended`; shows a
 /// log once. Returns the exit status.
 int show_on_terminal(const FrameHistory& frame_history, bool log,
                      const std::function<bool()>& ended);

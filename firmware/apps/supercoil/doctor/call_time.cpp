@@ -15,12 +15,12 @@ namespace supercoil::doctor {
 
 namespace {
 
-/// The first ones find memory and caches as no later one does.
+/// The first calls meet cold memory and caches.
 constexpr int first_calls = 20;
 constexpr int counted_calls = 200;
 constexpr int max_interrupted = 200;
 
-/// How often the processor was taken from the calling thread against its will.
+/// Involuntary context switches of the calling thread.
 std::int64_t times_preempted() {
   rusage usage{};
   ::getrusage(RUSAGE_THREAD, &usage);
@@ -71,7 +71,7 @@ CallTime time_calls(const std::function<void()>& call, int priority) {
     time = measured(call);
     time.real_time = real_time;
   };
-  // The thread has ended when this statement has.
+  // The thread is joined at the end of this statement.
   if (!hal_linux::Thread::start({"doctor"}, body).map([](hal_linux::Thread&&) {})) {
     time = measured(call);
   }

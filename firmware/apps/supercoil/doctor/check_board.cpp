@@ -39,7 +39,7 @@ std::string in_percent(double part) {
   return text.data();
 }
 
-/// The interface that is asked for, or that of the configuration; and what the board will send.
+/// Checks the requested interface, or the configured one, and what the board will send.
 void check_can(const config::BoardConfig& config, const CheckOptions& options,
                const hal::FindingSink& sink) {
   const auto& can = config.can;
@@ -53,7 +53,7 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
         ""});
 }
 
-/// What there is of a kind, by the names that the kernel gives it.
+/// Lists the devices of one kind by their kernel names.
 void list_devices(const std::string& what, const std::string& folder, const std::string& prefix,
                   const std::string& remedy, const hal::FindingSink& sink) {
   std::vector<std::string> names;

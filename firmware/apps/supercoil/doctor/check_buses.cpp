@@ -8,7 +8,7 @@ namespace supercoil::doctor {
 
 namespace {
 
-/// Measured times vary with what else the board does.
+/// Measured times vary with the board's other load.
 constexpr double borne = 1.25;
 
 std::string of_tick(double time_s, double tick_s) {

@@ -14,7 +14,7 @@ using linux_board::ConverterPart;
 
 constexpr int rounds = 50;
 
-/// One converter, and what it should give.
+/// One converter, and its expected readings.
 struct Candidate {
   ConverterPart* part;
   const config::ConverterAddress* address;
@@ -89,7 +89,7 @@ std::vector<Candidate> candidates(const config::BoardConfig& config, linux_board
   return all;
 }
 
-/// In the order and at the pace of a loop's ticks, so that a slow converter has a new value.
+/// Reads in the order and at the pace of a loop's ticks, so that a slow converter has a new value.
 void read(std::vector<Candidate>& all, double tick_s) {
   hal_linux::MonotonicClock clock;
   const hal::Duration tick = hal::duration_from(tick_s);

@@ -8,8 +8,8 @@ namespace supercoil::doctor {
 
 namespace {
 
-/// The sum over each bus's devices. A bus of which a device is missing has none: a part of its time
-/// would look like good news.
+/// Sums the times of each bus's devices. A bus with a missing device gets no sum: a partial one
+/// would look too good.
 BusTimes sums(const std::vector<BusShare>& shares) {
   BusTimes times;
   std::set<std::string> incomplete;

@@ -33,7 +33,7 @@ void check_output(const config::LineAddress& address, linux_board::OutputPart& p
   if (!part.device)
     return sink({part.what, Severity::problem, part.device.error().text(), rename_line});
   hal::Status status = hal::Status::ok;
-  // Low, as it is already: what is timed is the call.
+  // The line is already low; only the call is timed.
   const CallTime time = time_calls([&] { status = (*part.device)->set(false); }, priority);
   if (status != hal::Status::ok) {
     return sink({part.what, Severity::problem,
@@ -61,12 +61,12 @@ void check_stop(const config::LineAddress& address, linux_board::InputPart& part
   }
 }
 
-/// Duty 0 is what makes this safe on a board whose resistor is missing.
+/// Duty 0 makes this safe on a board whose resistor is missing.
 void check_released(const config::LineAddress& address, const hal_linux::Machine& machine,
                     linux_board::ChannelParts& channel, const hal::FindingSink& sink) {
   linux_board::OutputPart& enable = channel.enable;
   const std::string what = enable.what + " released";
-  // What is missing has been told.
+  // A missing device has already been reported.
   if (!enable.device) return;
   if (!channel.pwm.device) {
     return sink({what, Severity::warning, "not looked at: its duty is not known to be 0",

@@ -19,7 +19,7 @@ std::string number(double value) {
   return text.data();
 }
 
-/// The rail at which all readings stand; empty: none.
+/// The rail at which all readings are stuck; empty: none.
 std::string rail(const Readings& readings, const std::optional<hal_linux::CountRange>& range) {
   if (!range || readings.lowest() != readings.highest()) return {};
   if (readings.lowest() == range->lowest) return "lowest";

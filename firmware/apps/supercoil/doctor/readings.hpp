@@ -1,4 +1,4 @@
-// What a converter gives while everything is off.
+// A converter's readings while everything is off.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace supercoil::doctor {
 
-/// Conversions of one converter, one after the other.
+/// Successive conversions of one converter.
 class Readings {
  public:
-  /// took: how long it was waited for.
+  /// took: how long the conversion took.
   void add(const hal::Sample& sample, hal::Duration took);
 
   std::int64_t good() const { return good_; }
@@ -39,16 +39,16 @@ class Readings {
   hal::Duration time_{};
 };
 
-/// What is expected of a converter whose board is off.
+/// Expected readings of a converter while its board is off.
 struct Expected {
   std::string quantity;  ///< "the supply"
   board::Scaling scaling;
   double lowest = 0.0;  ///< in its unit
   double highest = 0.0;
-  std::string unit;             ///< shown
+  std::string unit;             ///< as shown
   double shown_per_unit = 1.0;  ///< 1e3 shows metres as mm
-  bool must_move = false;       ///< a value that never changes is none
-  std::string remedy;           ///< for a value outside
+  bool must_move = false;       ///< a value that never changes is invalid
+  std::string remedy;           ///< for a value out of range
 };
 
 /// range: of the converter's counts, if it is known.

@@ -58,7 +58,7 @@ std::string to_json(const Report& report) {
                          {"problems", report.count(Severity::problem)},
                          {"warnings", report.count(Severity::warning)},
                          {"findings", findings}};
-  // A device's name may hold bytes that are no text.
+  // A device's name may contain bytes that are not valid text.
   return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// What doctor found, for people and for programs.
+// Findings of doctor, for people and for programs.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Report {
   std::int64_t count(hal::Severity severity) const;
 };
 
-/// One finding: verdict, what, how it is; under it what to do.
+/// One finding: verdict, subject, state; below it the remedy.
 std::string to_text(const hal::Finding& finding);
 /// "1 problem, 2 warnings, 20 in order".
 std::string summary(const Report& report);

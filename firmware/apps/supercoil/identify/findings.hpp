@@ -1,4 +1,4 @@
-// What identify found in a recording, and how it is told.
+// The findings of identify in a recording, and their reports.
 #pragma once
 
 #include <string>
@@ -19,21 +19,21 @@ struct Findings {
   identification::Fit linear_first;  ///< its linear part, fitted to the fitted part
   identification::Fit linear;        ///< and to the whole recording
   identification::Assumed assumed;
-  bool stiffness_assumed = true;  ///< nobody said it, nor the mass
+  bool stiffness_assumed = true;  ///< neither stiffness nor mass was given
   bool thermal_mass_assumed = true;
 };
 
-/// For a person at a terminal.
+/// As text for a terminal.
 std::string report(const Findings& findings);
-/// The same as JSON, with a line end.
+/// The same as JSON, ending with a newline.
 std::string json_report(const Findings& findings);
-/// [muscle] as a scenario and a board's configuration read it, with what is assumed in comments.
-/// The error says which value no muscle has.
+/// The [muscle] table as scenarios and board configurations read it; comments mark assumed values.
+/// The error names a value that no muscle can have.
 Result<std::string> muscle_table(const Findings& findings);
-/// Measured and predicted position, what is left, and power.
+/// Measured and predicted position, residual, and power.
 Figure identify_figure(const Findings& findings);
 
-/// Whether the recording says more of a parameter than was assumed before.
+/// Whether the recording constrains a parameter more tightly than what was assumed before.
 bool told(const identification::Fit& fit, std::size_t parameter);
 
 }  // namespace supercoil::operating

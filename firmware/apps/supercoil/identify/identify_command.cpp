@@ -29,7 +29,7 @@ std::optional<double> seconds_in(std::string_view text, double absent) {
   return value;
 }
 
-/// "FROM:TO", where either may be left out, with enough of the recording in it.
+/// "FROM:TO"; either may be omitted. The span must contain enough of the recording.
 Result<Span> span_in(const char* option, const std::string& text, const Samples& samples) {
   constexpr std::size_t min_samples = 50;
   const std::size_t colon = text.find(':');
@@ -52,7 +52,7 @@ Result<Parts> parts_in(const IdentifyOptions& o, const Samples& samples) {
     const auto fitted = span_in("--fit", o.fit, samples);
     if (!fitted) return tl::unexpected(fitted.error());
     parts.fitted = *fitted;
-    // What is left of the recording after it, else before it.
+    // The rest of the recording after the fitted part, or else the part before it.
     parts.unseen = fitted->to_s < samples.end_s() ? Span{fitted->to_s, samples.end_s()}
                                                   : Span{samples.start_s, fitted->from_s};
   }
@@ -92,7 +92,7 @@ Findings find(const IdentifyOptions& o, std::size_t rows, Samples samples, const
   return f;
 }
 
-/// What is already there under that name is the recording itself.
+/// Whether the file that already has this name is the recording itself.
 bool is_input(const IdentifyOptions& o, const std::string& path) {
   std::error_code ignored;
   return !path.empty() && std::filesystem::equivalent(o.file, path, ignored);

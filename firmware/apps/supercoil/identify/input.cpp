@@ -12,7 +12,7 @@ namespace {
 using identification::Problem;
 using identification::Recording;
 
-/// The rows of one channel. Lines are counted as supercoil log would write them.
+/// The rows of one channel. Line numbers are those that supercoil log would write.
 tl::expected<Recording, Problem> from_flight_recording(std::string_view content, int channel) {
   const auto flight = recorder::decode(content, recorder::Damaged::refuse);
   if (!flight) return tl::unexpected(Problem{0, flight.error().text()});

@@ -1,4 +1,4 @@
-// A recording from a file, whatever kind of file it is.
+// Reads a recording from a file of any supported kind.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace supercoil::operating {
 
-/// CSV or a flight recording, checked and cut as the options say. The error has the file's name,
-/// and the line where there is one.
+/// Reads CSV or a flight recording, checks it, and cuts it as the options say. The error names the
+/// file, and the line if there is one.
 Result<identification::Recording> read_input(const IdentifyOptions& options);
 
 /// "FILE:LINE: what is wrong"

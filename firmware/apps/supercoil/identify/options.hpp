@@ -1,4 +1,4 @@
-// What supercoil identify is asked for.
+// Options of supercoil identify.
 #pragma once
 
 #include <limits>
@@ -18,7 +18,7 @@ struct IdentifyOptions {
   identification::Columns columns;
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();
-  std::string fit;    ///< "FROM:TO"; empty: the usual part
+  std::string fit;    ///< "FROM:TO"; empty: the default part
   std::string judge;  ///< likewise
   bool bridge_gaps = false;
   std::optional<double> thermal_mass_J_per_K;

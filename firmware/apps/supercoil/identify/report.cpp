@@ -13,7 +13,7 @@ using identification::Comparison;
 using identification::Fit;
 using identification::Judged;
 
-/// Less motion than this share of the stroke judges no model.
+/// With less motion than this share of the stroke, no model can be judged.
 constexpr double still = 0.1;
 
 // NOLINTNEXTLINE(cert-dcl50-cpp): printf's own form
@@ -59,7 +59,7 @@ void add_value(std::string& text, const Fit& fit, std::size_t i) {
   print(text, " %11.4g ± %-9.2g", value, fit.deviation(i));
 }
 
-/// A model's parameters after the fitted part and after all of it.
+/// A model's parameters, fitted to the fitted part and to the whole recording.
 void add_parameters(std::string& text, const Fit& part, const Fit& whole) {
   print(text, "\n%-31s %23s %23s\n", (name(part.effects) + ":").c_str(), "fitted part",
         "whole recording");

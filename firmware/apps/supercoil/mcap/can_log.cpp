@@ -23,7 +23,7 @@ ordered_json properties(const can::MessageInfo& message) {
   return all;
 }
 
-/// By name where the value has one.
+/// The value's name if it has one.
 ordered_json value_json(const SignalInfo& signal, double value) {
   if (const auto name = can::value_name(signal, value); !name.empty()) return std::string(name);
   return std::isfinite(value) ? ordered_json(value) : nullptr;

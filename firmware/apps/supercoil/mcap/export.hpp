@@ -1,4 +1,4 @@
-// What `supercoil log` reads, as MCAP: values by name as JSON, null where there is none.
+// Exports what `supercoil log` reads as MCAP: JSON values by name; null: not available.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 namespace supercoil::operating::mcap {
 
 /// Topics /channel_1 to /channel_16 have the rows' quantities and time_s, relative to the fault;
-/// /faults each fault that latched or was reset. Times are the board's clock. Metadata "recording":
-/// what the header says.
+/// /faults has each fault that latched or was reset. Times are the board's clock. Metadata
+/// "recording" holds the header.
 Written from_recording(const recorder::Recording& recording, const recorder::Sink& write);
 
-/// Topic /node_1/Status and so on for each message of each node; times are the log's. Returns how
-/// many messages it wrote.
+/// Topic /node_1/Status and so on for each message of each node; times are the log's. Returns the
+/// number of messages written.
 Result<std::size_t> from_can_log(const std::vector<hal::CanFrame>& frames,
                                  const CanSelection& selection, const recorder::Sink& write);
 

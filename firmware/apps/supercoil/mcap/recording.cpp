@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// As many digits as it takes to read the same back.
+/// With enough digits to read back the same value.
 template <class Number>
 void add_number(std::string& json, Number value) {
   if (!std::isfinite(value)) {
@@ -35,12 +35,12 @@ ordered_json properties() {
         quantity.word != nullptr ? ordered_json("string") : ordered_json({"number", "null"});
     describe_unit(property, can::unit_of(quantity.name));
   }
-  // On the bus it is two signals, one for each of its units.
+  // On the bus there are two signals for it, one per unit.
   all["reference"]["description"] = "in m; in mode power in W";
   return all;
 }
 
-/// Names of states and the like need no escapes.
+/// No escaping: names of states and the like do not need it.
 std::string row_json(const Row& row, double time_s) {
   std::string json = "{\"time_s\":";
   add_number(json, time_s);

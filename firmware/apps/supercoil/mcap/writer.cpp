@@ -66,7 +66,7 @@ Writer::Writer(recorder::Sink write) : write_(std::move(write)), part_(magic) {
 std::uint16_t Writer::add_channel(std::string_view topic, std::string_view schema_name,
                                   const nlohmann::ordered_json& properties) {
   messages_of_.push_back(0);
-  // A schema of each; 0 would be none.
+  // Each channel has its own schema; 0 would mean no schema.
   const auto number = static_cast<std::uint16_t>(messages_of_.size());
   std::string of_schema;
   put(of_schema, number);
@@ -120,7 +120,7 @@ Written Writer::finish() {
   put_record(part_, data_end, no_checksum);
   std::string end;
   put(end, position());
-  put(end, std::uint64_t{0});  // no table of the summary's own parts
+  put(end, std::uint64_t{0});  // no summary offset section
   put(end, std::uint32_t{0});
   part_.append(schemas_).append(channels_).append(metadata_indexes_);
   put_record(part_, statistics, counted());

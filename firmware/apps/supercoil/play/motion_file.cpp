@@ -20,19 +20,19 @@ namespace supercoil::operating {
 namespace {
 
 using MotionRow = std::vector<double>;
-/// Places of columns; none: the file lacks it.
+/// Column positions; empty: the file lacks that column.
 struct Columns {
   std::optional<std::size_t> position;
   std::optional<std::size_t> velocity;
 };
 
-/// The largest that a knot can tell.
+/// The largest value that a knot can carry.
 double largest(can::SignalOf<can::message::knot> signal) {
   hal::CanFrame frame;
   can::put(frame, signal.info(), INFINITY);
   return can::get(frame, signal.info());
 }
-/// Its times are whole milliseconds.
+/// A knot's times are whole milliseconds.
 constexpr double min_row_step_s = 0.001;
 
 class MotionReader {
@@ -119,7 +119,7 @@ class MotionReader {
     }
     double& time_s = row[*time_];
     if (rows_.empty()) begins_s_ = time_s;
-    // What the bus's milliseconds leave of it.
+    // Round to the bus's milliseconds.
     time_s = std::round((time_s - begins_s_) * 1e3) / 1e3;
     const double step_s = rows_.empty() ? min_row_step_s : time_s - rows_.back()[*time_];
     const double max_row_step_s = largest("after_s");

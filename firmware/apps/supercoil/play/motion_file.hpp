@@ -1,4 +1,4 @@
-// The motions that supercoil play sends: a CSV file of knots.
+// Reads the motions that supercoil play sends: a CSV file of knots.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct Motion {
   std::vector<control::Knot> knots;
 };
 
-/// As CsvLines reads it. Columns: time_s, position_m and, if wanted, velocity_m_per_s; for several
-/// nodes 2:position_m and so on. Velocities that the file lacks are those of the parabola through
-/// three rows, and 0 at both ends. node: whose the columns without a number are. The error names
-/// file, line and value.
+/// Reads as CsvLines does. Columns: time_s, position_m and optionally velocity_m_per_s; for several
+/// nodes 2:position_m and so on. Missing velocities are those of the parabola through three rows,
+/// and 0 at both ends. node: owns the columns without a number. The error names file, line and
+/// value.
 Result<std::vector<Motion>> read_motions(const std::string& path, std::uint8_t node);
 
 }  // namespace supercoil::operating

@@ -55,7 +55,7 @@ MotionLink::Played LocalMotionLink::add_knot(double after_s, const control::Knot
                              shortest_text(knot.velocity_m_per_s));
 }
 
-/// A time that is over is all that it can be out of range by.
+/// Out of range can only mean that the start time has passed.
 MotionLink::Played LocalMotionLink::start(const Start& start) {
   auto played = command_then_status("start " + shortest_text(start.board_s + start.after_s));
   if (played && played->refusal == Refusal::out_of_range)

@@ -1,4 +1,4 @@
-// How one muscle is told to play a motion: over a bus, or by the socket of this board.
+// Commands one muscle to play a motion: over a bus, or through this board's socket.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace supercoil::operating {
 
-/// Each call waits for the answer. Errors say that there was none, or what the board says that is
-/// no answer to a command.
+/// Each call waits for the answer. The error says that there was no answer, or quotes a reply of
+/// the board that is not an answer to a command.
 class MotionLink {
  public:
   MotionLink() = default;
@@ -29,17 +29,17 @@ class MotionLink {
   virtual Answered ask(Verb verb, double value) = 0;
   virtual Played add_knot(double after_s, const control::Knot& knot) = 0;
   virtual Played playback() = 0;
-  /// What all that start together have in common.
+  /// Common to all nodes that start together.
   struct Start {
     std::uint8_t sync;  ///< number of a Sync that is still to be sent
     double after_s;     ///< after that, or after board_s
-    double board_s;     ///< of one of them, for all
+    double board_s;     ///< of one channel, for all
   };
   virtual Played start(const Start& start) = 0;
-  /// The board's time, where it has one that all of its channels share; else NaN.
+  /// The board's time if it has one that all its channels share; else NaN.
   virtual Result<double> board_s() = 0;
   virtual void send_sync(std::uint8_t number, double master_time_s) = 0;
-  /// Why one that was told to start has not.
+  /// Why a node that was told to start has not started.
   virtual std::string why_not_started() const = 0;
   virtual void release() = 0;
 };
@@ -60,7 +60,7 @@ class CanMotionLink final : public MotionLink {
   Commander commander_;
 };
 
-/// Nothing but the board's own clock is needed to start its channels together.
+/// The board's own clock suffices to start its channels together.
 class LocalMotionLink final : public MotionLink {
  public:
   /// channel: from 1.
@@ -82,7 +82,7 @@ class LocalMotionLink final : public MotionLink {
   };
   Result<Status> read_status();
   Answered command(const std::string& words);
-  /// The command, and then what became of the trajectory.
+  /// Sends the command, then reads the state of the trajectory.
   Played command_then_status(const std::string& words);
 
   BoardSocket socket_;

@@ -1,4 +1,4 @@
-// supercoil play: motions of a file, on one or several nodes in step.
+// supercoil play: plays motions from a file, on one or several nodes in step.
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto turn = std::chrono::milliseconds(20);
 
-/// Until it is done, there is a problem, or Ctrl-C.
+/// Repeats the step until it is done, there is a problem, or Ctrl-C.
 template <class Step, class Done>
 Player::Problem repeat(const Step& step, const Done& done) {
   while (interrupted == 0 && !done()) {

@@ -17,11 +17,11 @@ using namespace std::chrono_literals;
 
 constexpr auto renew_every = 80ms;
 constexpr auto sync_every = 1s;
-/// So many are sent before all are renewed.
+/// Knots sent in a row before all commands are renewed.
 constexpr int knots_in_a_row = 6;
-/// Between Play and the start: each node has heard of it, one after the other, and Sync was sent.
+/// From Play to the start: time to tell each node in turn and to send Sync.
 constexpr double start_after_s = 0.1;
-/// A channel by the socket counts from the time at which the first of them was told.
+/// Over the socket the start time counts from when the first channel was told.
 constexpr double start_after_s_per_channel = 0.05;
 constexpr auto started_within = 2s;
 
@@ -92,7 +92,7 @@ Player::Problem Player::renew(Node& node) {
   return take(node, Verb::none, "playback", node.link->playback());
 }
 
-// Each answer takes a board some 10 ms: one node after the other, two would not get 50 knots a
+// A board takes some 10 ms per answer: one after the other, two nodes would not get 50 knots a
 // second.
 Player::Problem Player::for_each_at_once(Problem (Player::*step)(Node&)) {
   std::vector<std::future<Problem>> others;
@@ -175,7 +175,7 @@ Player::Problem Player::go_on() {
 
 Player::Problem Player::stopped(const Node& node) const {
   const PlaybackState state = node.played.state;
-  // At rest in the middle it has ended as well, as far as the board knows.
+  // If the last knot it got is at rest, the board considers the motion ended.
   if (state == PlaybackState::dry || (state == PlaybackState::ended && !node.has_sent_all())) {
     const double last_s = node.motion.knots[node.next - 1].time_s;
     return whose(node) + "ran dry: the knot after the one at " + seconds_text(last_s) +

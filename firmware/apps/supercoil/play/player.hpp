@@ -15,33 +15,33 @@
 
 namespace supercoil::operating {
 
-/// Each step waits for the nodes' answers alone; one is to be called every 20 ms or so, as commands
-/// to heat expire. Errors name the node, or the channel, and what it was asked.
+/// Each step waits only for the nodes' answers. Call one every 20 ms or so, because commands to
+/// heat expire. Errors name the node or channel, and the request.
 class Player {
  public:
   using Problem = std::optional<std::string>;
 
   /// bus: by its name.
   static Result<Player> open(const std::string& bus, std::vector<Motion> motions);
-  /// Of the supercoild that listens at this socket; a motion's node is the channel.
+  /// On the supercoild that listens at this socket; a motion's node is the channel.
   static Result<Player> open_local(const std::string& socket, std::vector<Motion> motions);
 
-  /// Tells all to go to their first knot.
+  /// Tells all nodes to go to their first knots.
   Problem go_to_start();
-  /// Renews what is commanded.
+  /// Renews the commands.
   Problem renew();
-  /// Sends knots for which there is room; loaded(): no more have any.
+  /// Sends knots to nodes that have room; loaded(): no node has room left.
   Problem load();
   bool loaded() const;
-  /// All start together: at the Sync that this sends, or at a time of the board.
+  /// Starts all together: at the Sync that this sends, or at a time of the board.
   Problem start();
-  /// As load() and renew(), with a Sync a second.
+  /// Like load() and renew(), and sends a Sync every second.
   Problem go_on();
-  /// All hold their last knot.
+  /// Whether all nodes hold their last knots.
   bool ended() const;
   /// 0 to 1.
   double progress() const;
-  /// Lets go of all; what heats expires anyway.
+  /// Releases all nodes; commands to heat expire anyway.
   void rest();
 
  private:
@@ -49,7 +49,7 @@ class Player {
   struct Node {
     std::unique_ptr<MotionLink> link;
     Motion motion;
-    std::size_t next = 0;  ///< of its knots
+    std::size_t next = 0;  ///< index of the next knot to send
     can_client::Played played{};
     Clock::time_point renewed{};
 
@@ -57,16 +57,16 @@ class Player {
   };
 
   explicit Player(std::string_view kind);
-  /// "node 5: "
+  /// Prefix for errors: "node 5: ".
   std::string whose(const Node& node) const;
-  /// verb: what was asked; none: no command.
+  /// verb: the command that was sent; none: not a command.
   Problem take(Node& node, Verb verb, const std::string& what, const MotionLink::Played& played);
-  /// Each on a thread of its own, as each has a connection of its own. The first
-  /// problem in the order of the nodes.
+  /// Runs the step for each node on its own thread, as each has its own connection. Returns the
+  /// first problem in the order of the nodes.
   Problem for_each_at_once(Problem (Player::*step)(Node&));
   Problem renew(Node& node);
   Problem load(Node& node);
-  /// Of what ends a motion early, by what the node told last.
+  /// The problem that ended a motion early, by the node's last answer.
   Problem stopped(const Node& node) const;
   void send_sync();
 

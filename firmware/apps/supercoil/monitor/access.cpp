@@ -11,7 +11,7 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Takes as long whatever the difference is.
+/// Takes constant time, whatever the difference.
 bool same(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -25,12 +25,12 @@ bool names_us(const Access& access, const std::string& host_and_port, int port) 
   const std::string end = ":" + std::to_string(port);
   if (host_and_port == access.host + end) return true;
   if (access.loopback) return host_and_port == "localhost" + end;
-  // Whoever listens on every address cannot know by which one he is called; the token decides.
+  // A server on every address cannot know by which one it is reached; the token decides.
   return access.host == "0.0.0.0";
 }
 
-/// Browsers name the page that sends a request, or at least what it is to this server, and let no
-/// page of another server set the token's headers.
+/// Whether no browser sent it. Browsers name the page that sends a request, or at least its
+/// relation to this server, and let no other server's page set the token's headers.
 bool is_from_no_browser(const httplib::Request& request) {
   return !request.has_header("Origin") && !request.has_header("Sec-Fetch-Site");
 }
@@ -41,7 +41,7 @@ void bind_exclusively(httplib::Server& server) {
   server.set_socket_options([](socket_t socket) {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
-    // Of each connection: otherwise a reader that takes nothing may have megabytes waiting.
+    // Per connection: otherwise megabytes may queue for a reader that takes nothing.
     const int waiting_bytes = 128 * 1024;
     setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &waiting_bytes, sizeof(waiting_bytes));
   });
@@ -89,7 +89,7 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
 }
 
 void answer_json(httplib::Response& response, const std::string& json) {
-  // With a parameter, so that the library does not take it for a type to compress.
+  // With a parameter, so that the library does not treat it as a type to compress.
   response.set_content(json, "application/json; charset=utf-8");
 }
 

@@ -29,7 +29,7 @@ constexpr auto stream_every = std::chrono::milliseconds(50);
 constexpr auto stream_retry_after = std::chrono::milliseconds(1000);
 constexpr int beat_after = 20;  // quiet pieces: a second
 
-/// Seconds of a query; the fallback when there are none.
+/// A time in seconds from a query; the fallback when the query has none.
 std::optional<hal::Time> time_of(const httplib::Request& request, const std::string& name,
                                  hal::Time fallback) {
   if (!request.has_param(name)) return fallback;
@@ -42,7 +42,7 @@ std::optional<hal::Time> time_of(const httplib::Request& request, const std::str
   return hal::duration_from(time_s);
 }
 
-/// By which limits, and for how long on end, a reference shows to have been infeasible.
+/// The limits, and how long without a break one must last, that show a reference was infeasible.
 json infeasible_json() {
   json limits = json::array();
   for (std::size_t i = 0; i < limit_names.size(); ++i) {
@@ -51,8 +51,8 @@ json infeasible_json() {
   return {{"limits", limits}, {"lasts_s", infeasible_lasts_s}};
 }
 
-/// Where the page may post STOP to: this server's other port, under whatever name the page was
-/// asked for.
+/// Origins to which the page may post STOP: this server's other port, under the name by which the
+/// page was requested.
 std::string stop_origins(const Access& access, int stop_port) {
   const std::string port = ":" + std::to_string(stop_port);
   if (!access.loopback) return "http://*" + port;
@@ -69,7 +69,7 @@ void add_headers(httplib::Server& server, const Access& access, int stop_port) {
        {"Cache-Control", "no-store"}});
 }
 
-/// A provider's content is not compressed either.
+/// Content from a provider is not compressed either.
 void answer_with(httplib::Response& response, const Asset& file, const std::string& type) {
   response.set_content_provider(
       file.text.size(), type,
@@ -110,7 +110,7 @@ json results_json() {
   return told;
 }
 
-/// By their bits, from the least on.
+/// In the order of their bits, the lowest first.
 json notes_json() {
   json told = json::array();
   for (std::size_t i = 0; i < identify_note_names.size(); ++i)
@@ -200,7 +200,7 @@ void Api::serve_with(httplib::Server& server) {
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   server.Post("/api/trajectory", commanded([this](const auto& q, auto& a) { play(q, a); }));
   const auto told = [this](auto read) {
-    // this-> as clang 14 otherwise takes the captured this for unused.
+    // this->, because clang 14 otherwise reports the captured this as unused.
     return operating::shown(
         access_, [this, read](const auto& q, auto& a) { this->tell_of_node(q, a, read); });
   };
@@ -217,7 +217,7 @@ void Api::serve_with(httplib::Server& server) {
 }
 
 void Api::about(const Request& request, Response& response) const {
-  // A request for data has no Origin that could be asked for.
+  // Requests for data have no Origin header to check.
   const bool may = !about_.log && !access_.read_only && has_token(access_, request);
   const json told{
       {"version", program_version()},

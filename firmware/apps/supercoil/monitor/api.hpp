@@ -1,4 +1,4 @@
-// What the page asks the monitor for: its files, the bus's data, commands.
+// What the monitor serves to the page: its files, the bus's data, commands.
 #pragma once
 
 #include <atomic>
@@ -16,24 +16,24 @@
 
 namespace supercoil::operating {
 
-/// The hands on all nodes; each is made when it is first asked for. Safe from any thread.
+/// Manual controls of all nodes, each created on first use. Safe from any thread.
 class ManualControls {
  public:
   explicit ManualControls(std::function<ManualControl::OpenBus(std::uint8_t)> bus_of)
       : bus_of_(std::move(bus_of)) {}
 
   ManualControl& of(std::uint8_t node);
-  /// All values of a node's controllers and estimators, over a connection of its own: this may take
+  /// All values of a node's controllers and estimators, over a separate connection: may take
   /// seconds.
   Result<TunedChannel> read_tuning(std::uint8_t node);
-  /// Their kinds only, which is quick.
+  /// Only their kinds, which is quick.
   Result<nlohmann::ordered_json> read_kinds(std::uint8_t node);
-  /// What a node goes by, likewise.
+  /// The muscle that a node uses, also over a separate connection.
   Result<KnownMuscle> read_muscle(std::uint8_t node);
   void release_hold(const std::string& reason);
 
  private:
-  /// For one question after the other.
+  /// For a series of questions.
   Result<AskTuning> ask_tuning(std::uint8_t node);
 
   std::function<ManualControl::OpenBus(std::uint8_t)> bus_of_;
@@ -41,14 +41,14 @@ class ManualControls {
   std::map<std::uint8_t, std::unique_ptr<ManualControl>> controls_;
 };
 
-/// Handlers of one server. Nothing of it is copied; all outlives the server.
+/// Handlers of one server. Nothing is copied; all arguments outlive the server.
 class Api {
  public:
   struct About {
     std::string source;  ///< as the user named it
     bool log = false;
     int stop_port = 0;   ///< 0: nothing can be commanded
-    bool setup = false;  ///< it leads through setup as well
+    bool setup = false;  ///< it also offers setup
   };
 
   Api(Access access, const FrameHistory& frame_history, ManualControls& controls, About about);
@@ -67,7 +67,7 @@ class Api {
   void command(const Request& request, Response& response);
   void play(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
-  /// read(node): what the board answers, as JSON. The node is in the address.
+  /// read(node): the board's answer as JSON. The address contains the node.
   template <class Read>
   void tell_of_node(const Request& request, Response& response, Read read);
   void tune(const Request& request, Response& response);
@@ -76,20 +76,20 @@ class Api {
     bool begun = false;
     bool was_lost = false;
   };
-  /// The frame with which it begins: where it left off, if its Last-Event-ID is of this run.
+  /// The stream's first frame: where the client left off, if its Last-Event-ID is from this run.
   std::uint64_t first_frame(const Request& request) const;
   std::string event_id(const Reader& reader) const;
-  /// One piece of a stream; false: the reader is gone.
+  /// Sends one piece of a stream; false: the client is gone.
   bool stream_piece(httplib::DataSink& sink, Reader& reader);
 
-  /// The page's threads are more, so that streams cannot take them all.
+  /// The page has more threads than this, so that streams cannot take them all.
   static constexpr int max_streams = 24;
 
   Access access_;
   const FrameHistory* frame_history_;
   ManualControls* controls_;
   About about_;
-  /// Numbers of frames are of one run.
+  /// Frame numbers are only valid within one run.
   const std::string run_ =
       std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   std::atomic<bool> ending_{false};

@@ -7,15 +7,15 @@
 namespace supercoil::operating {
 
 struct Asset {
-  std::string_view name;  ///< "index.html"; of a fault's text its name without ending
+  std::string_view name;  ///< "index.html"; for a fault's text its name without ending
   std::string_view text;
 };
 
 std::span<const Asset> page_files();
 std::span<const Asset> fault_pages();
-/// Null: there is none of this name.
+/// Null: no asset has this name.
 const Asset* find_asset(std::span<const Asset> assets, std::string_view name);
-/// By the ending of its name.
+/// From the ending of the name.
 std::string_view media_type(std::string_view name);
 
 }  // namespace supercoil::operating

@@ -36,7 +36,7 @@ void add_number(std::string& text, double value, int precision) {
   text += ',';
 }
 
-/// To the microsecond: nine digits would not do for a time since 1970.
+/// With microseconds: nine digits would not suffice for a time since 1970.
 void add_time(std::string& text, hal::Time time) {
   std::array<char, 40> digits{};
   const auto end =
@@ -67,7 +67,7 @@ std::string figures_json(const BusFigures& bus) {
   return text;
 }
 
-/// The page keeps an hour of each signal: in single precision what that can hold.
+/// The page keeps an hour of each signal, in single precision where that is exact enough.
 constexpr int single_bits = 24;
 constexpr int single_digits = 8;
 

@@ -1,4 +1,4 @@
-// Frames as the page gets them.
+// Frames as the page receives them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a page asks for, as JSON.
+// Command requests of a page, as JSON.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct CommandRequest {
   double value;
 };
 
-/// {"node":1,"opcode":"position","value":0.002}; value may be absent where the verb has none. The
-/// error says what is wrong, and with what.
+/// {"node":1,"opcode":"position","value":0.002}; value may be absent if the verb takes none. The
+/// error says what is wrong, and with which value.
 Result<CommandRequest> parse_command_request(const std::string& text);
 /// {"node":1}
 Result<std::uint8_t> parse_node(const std::string& text);

@@ -1,4 +1,4 @@
-// cpp-httplib, without a macro of <resolv.h> that Eigen's own names run into.
+// cpp-httplib, without a macro of <resolv.h> that conflicts with Eigen's names.
 #pragma once
 
 #include <httplib.h>

@@ -9,9 +9,9 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Five times before a command expires by default.
+/// Five renewals before a command expires by default.
 constexpr auto renew_every = std::chrono::milliseconds(50);
-/// A start whose time is over when the board's loop hears of it is refused.
+/// The board refuses a start whose time has passed when its loop gets it.
 constexpr double start_after_s = 0.1;
 
 bool heats(Verb verb) {
@@ -89,7 +89,7 @@ bool ManualControl::holds() const {
   return holding_;
 }
 
-/// A board that did not answer is asked over a new connection the next time.
+/// After a board did not answer, the next request opens a new connection.
 ManualControl::Answer ManualControl::with_commander(const std::function<Answer(Commander&)>& act) {
   if (!commander_) {
     auto bus = open_bus_();
@@ -154,7 +154,7 @@ void ManualControl::renew() {
   }
   const Answer answer = command(Verb::renew, 0.0);
   if (!answer) return release_hold("expired: " + answer.error().text());
-  // Identification and calibration end by themselves; what else ended it, the board's state tells.
+  // Identification and calibration end by themselves; the board's state tells any other reason.
   if (*answer == Refusal::wrong_state) return release_hold("ended: the board stopped it");
   if (*answer != Refusal::none) release_hold("refused: " + std::string(refusal_words(*answer)));
 }
@@ -170,7 +170,7 @@ void ManualControl::run() {
       order = std::exchange(pending_, std::nullopt);
     }
     if (order) order->answer.set_value(order->act());
-    // Also while one order follows the other: what heats would expire.
+    // Also renew between orders in quick succession: a command to heat would expire.
     if (order && Clock::now() - renewed < renew_every) continue;
     renewed = Clock::now();
     renew();

@@ -1,4 +1,4 @@
-// Manual control of one muscle: commands, and renewals for as long as somebody watches.
+// Manual control of one muscle: commands, and renewals while somebody watches.
 #pragma once
 
 #include <chrono>
@@ -18,9 +18,9 @@
 
 namespace supercoil::operating {
 
-/// What heats is renewed every 50 ms while a page says again and again that it is alive; when none
-/// has for page_timeout, nothing is renewed any more, and the board lets the command expire.
-/// Safe from any thread; a thread of its own talks to the node.
+/// Commands to heat are renewed every 50 ms while a page keeps reporting that it is alive. When no
+/// page has for page_timeout, renewals stop, and the board lets the command expire. Safe from any
+/// thread; a separate thread talks to the node.
 class ManualControl {
  public:
   using Answer = Result<Refusal>;
@@ -32,39 +32,39 @@ class ManualControl {
   ManualControl& operator=(const ManualControl&) = delete;
   ~ManualControl();
 
-  /// Waits for the board's answer. One at a time; others wait for their turn.
+  /// Waits for the board's answer. Requests are served one at a time.
   Answer ask(Verb verb, double value);
-  /// Prepares a value of a controller, likewise.
+  /// Like ask(): prepares a value of a controller.
   Answer prepare(const can_client::TunedPlace& place, double value);
-  /// One knot of a trajectory, so long after the one before it.
+  /// One knot of a trajectory, this long after the previous one.
   struct NextKnot {
     double after_s;
     double position_m;
     double velocity_m_per_s;
   };
-  /// What became of some knots.
+  /// The result of sending some knots.
   struct Sent {
-    std::size_t knots;          ///< so many were taken
-    can_client::Played played;  ///< the answer to the last one that was sent
+    std::size_t knots;          ///< number of knots that were taken
+    can_client::Played played;  ///< the answer to the last knot that was sent
   };
-  /// Sends knots, up to the first one that is refused, and starts the trajectory if told to.
-  /// Without either it asks for the playback. Only what is held is played, and letting go ends it
-  /// between two knots. Whoever sends knots is alive.
+  /// Sends knots, up to the first one that is refused, and starts the trajectory if `start`. With
+  /// neither it asks for the playback. Knots are only sent while a command is held; releasing it
+  /// ends sending between two knots. Sending knots counts as being alive.
   Result<Sent> play(const std::vector<NextKnot>& knots, bool start);
   struct Holding {
     bool holding;
-    std::string reason;  ///< why not, since the last command that was held
+    std::string reason;  ///< why nothing is held, since the last held command
   };
-  /// A page that heats lives.
+  /// Reports that a heating page is alive.
   Holding alive();
-  /// Nothing is renewed any more. Does not wait for the board.
+  /// Stops renewing. Does not wait for the board.
   void release_hold(const std::string& reason);
 
  private:
   using Clock = std::chrono::steady_clock;
   using Act = std::function<Answer()>;
   struct PendingCommand {
-    Act act;  ///< in the thread
+    Act act;  ///< runs in the thread
     std::promise<Answer> answer;
   };
 
@@ -79,8 +79,8 @@ class ManualControl {
 
   std::uint8_t node_;
   OpenBus open_bus_;
-  std::unique_ptr<Commander> commander_;  ///< of the thread
-  std::mutex asking_;                     ///< of those who ask
+  std::unique_ptr<Commander> commander_;  ///< used by the thread
+  std::mutex asking_;                     ///< held while a request waits
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::optional<PendingCommand> pending_;

@@ -9,7 +9,7 @@
 
 namespace supercoil::operating {
 
-/// The server is bound already, and outlives this.
+/// The server is already bound, and outlives this object.
 class ServerThread {
  public:
   explicit ServerThread(httplib::Server& server)
@@ -20,7 +20,7 @@ class ServerThread {
   ServerThread(const ServerThread&) = delete;
   ServerThread& operator=(const ServerThread&) = delete;
   ~ServerThread() {
-    // To stop a server that does not listen yet does nothing, and it would then listen for ever.
+    // Stopping a server that does not listen yet has no effect, and it would then listen for ever.
     while (!server_->is_running() && !ended_)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server_->stop();

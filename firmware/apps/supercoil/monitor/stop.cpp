@@ -12,11 +12,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A frame that the bus lost is made up for by the next one.
+/// If the bus loses a frame, the next one makes up for it.
 constexpr int repetitions = 3;
 constexpr auto between = std::chrono::milliseconds(10);
 constexpr auto max_busy_time = std::chrono::milliseconds(500);
-/// Between stops: what the bus brings is read, and a lost bus is tried again.
+/// Between stops: received frames are read, and a lost bus is reopened.
 constexpr auto read_every = std::chrono::milliseconds(50);
 constexpr auto try_every = std::chrono::seconds(1);
 
@@ -45,7 +45,7 @@ Result<std::unique_ptr<StopServer>> StopServer::start(const Access& access,
   return server;
 }
 
-/// The listener goes last: answers need it.
+/// The listener is destroyed last: answers need it.
 StopServer::~StopServer() {
   {
     const std::lock_guard lock(mutex_);
@@ -56,7 +56,7 @@ StopServer::~StopServer() {
 }
 
 void StopServer::take(const httplib::Request& request, const StopListener::Answer& answer) {
-  // The page's own port is another origin than this one.
+  // The page's port is a different origin from this one.
   const std::string origin =
       is_same_origin(access_, request) ? request.get_header_value("Origin") : std::string();
   if (request.method != "POST" || request.path != "/stop") return answer({404, origin, "{}"});
@@ -88,7 +88,7 @@ void StopServer::run() {
   }
 }
 
-/// Requests that came during a stop are answered together by the next one.
+/// The next stop answers all requests that came during a stop together.
 void StopServer::stop(const std::vector<Waiting>& waiting) {
   const std::string failed = disarm_all();
   nlohmann::json told{{"nodes", frame_history_->nodes()}};
@@ -106,7 +106,7 @@ std::string StopServer::open_bus() {
   return {};
 }
 
-/// Only reading shows that a bus was lost silently; what is read is dropped.
+/// A silent loss of the bus only shows when reading; the frames are dropped.
 void StopServer::keep_bus() {
   if (bus_) {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {

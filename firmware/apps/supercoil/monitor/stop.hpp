@@ -1,4 +1,4 @@
-// STOP, whatever else the monitor does.
+// STOP, independent of everything else the monitor does.
 #pragma once
 
 #include <chrono>
@@ -18,11 +18,11 @@
 namespace supercoil::operating {
 
 /// POST /stop to a port of its own disarms every node that was heard. One thread listens and never
-/// waits; another has a connection of its own to the bus, open before it is needed.
+/// waits; another has its own connection to the bus, opened before it is needed.
 class StopServer {
  public:
-  /// release_hold: tells the hands, without waiting. port: the one after the page's if it is free,
-  /// else any. recent outlives it. The error says why it cannot listen.
+  /// release_hold: tells the manual controls, without waiting. port: the one after the page's if it
+  /// is free, else any. frame_history outlives it. The error says why it cannot listen.
   static Result<std::unique_ptr<StopServer>> start(const Access& access,
                                                    ManualControl::OpenBus open_bus,
                                                    const FrameHistory& frame_history,
@@ -44,7 +44,7 @@ class StopServer {
   void take(const httplib::Request& request, const StopListener::Answer& answer);
   void run();
   void stop(const std::vector<Waiting>& waiting);
-  /// Empty: done.
+  /// Returns the error; empty: done.
   std::string disarm_all();
   std::string send_disarm();
   std::string open_bus();
@@ -54,7 +54,7 @@ class StopServer {
   ManualControl::OpenBus new_bus_;
   const FrameHistory* frame_history_;
   std::function<void()> release_hold_;
-  std::unique_ptr<hal::CanBus> bus_;  ///< of the thread
+  std::unique_ptr<hal::CanBus> bus_;  ///< used by the thread
   std::chrono::steady_clock::time_point next_try_{};
   std::mutex mutex_;
   std::condition_variable woken_;

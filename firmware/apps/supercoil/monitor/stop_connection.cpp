@@ -12,9 +12,9 @@ namespace http = boost::beast::http;
 
 namespace {
 
-/// From being accepted to a whole request. A browser connects when it has the request to send.
+/// From accepting to a complete request. A browser connects when it has the request to send.
 constexpr auto max_request_time = std::chrono::milliseconds(250);
-/// From a whole request to the end: the bus may be busy for half a second.
+/// From the complete request to the end: the bus may be busy for half a second.
 constexpr auto max_answer_time = std::chrono::seconds(2);
 
 std::string text(boost::beast::string_view view) {
@@ -38,7 +38,7 @@ void StopConnection::start() {
 
 void StopConnection::close() {
   boost::system::error_code ignored;
-  // A connection without a request leaves nothing behind in the kernel either.
+  // Closes a connection without a request so that nothing remains in the kernel either.
   if (!has_asked_) socket_.set_option(boost::asio::socket_base::linger(true, 0), ignored);
   socket_.close(ignored);
   deadline_.cancel();

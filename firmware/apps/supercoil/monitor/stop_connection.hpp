@@ -1,4 +1,4 @@
-// One connection to the port of STOP: a request, an answer, the end.
+// One connection to the STOP port: a request, an answer, the end.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace supercoil::operating {
 
-/// Of the listener's thread, which is never kept waiting.
+/// Used by the listener's thread, which it never blocks.
 class StopConnection : public std::enable_shared_from_this<StopConnection> {
  public:
   StopConnection(boost::asio::ip::tcp::socket socket, const StopListener::Take& take)
@@ -24,7 +24,7 @@ class StopConnection : public std::enable_shared_from_this<StopConnection> {
   void start();
   void close();
   bool is_open() const { return socket_.is_open(); }
-  /// Its request is whole.
+  /// Whether its request is complete.
   bool has_asked() const { return has_asked_; }
 
  private:

@@ -77,14 +77,14 @@ void StopListener::accept() {
   });
 }
 
-/// Without a descriptor that is free no attempt succeeds: one of ours makes room for the next.
+/// With no free descriptor every accept fails: closing one of our connections makes room.
 void StopListener::accept_later() {
   if (!connections_.empty()) close_oldest();
   retry_.expires_after(retry_after);
   retry_.async_wait([this](boost::system::error_code) { accept(); });
 }
 
-/// Of those without a whole request; a STOP that was asked for is obeyed whether answered or not.
+/// Only those without a complete request: a requested STOP is obeyed whether answered or not.
 void StopListener::close_oldest() {
   auto oldest = std::find_if(connections_.begin(), connections_.end(),
                              [](const auto& connection) { return !connection->has_asked(); });

@@ -1,4 +1,4 @@
-// The port of STOP: a slow or silent client never blocks another.
+// The STOP port: a slow or silent client never blocks another.
 #pragma once
 
 #include <cstdint>
@@ -20,26 +20,26 @@ namespace supercoil::operating {
 
 class StopConnection;
 
-/// For STOP's threads: the calling one gets the processor before others do, where the system lets
-/// this user have that (RLIMIT_NICE). No real-time priority: flooding STOP's port would take
-/// a processor from all else.
+/// For STOP's threads: the calling thread gets the processor before others do, if the system
+/// permits this user that (RLIMIT_NICE). No real-time priority: flooding STOP's port would then
+/// take a processor from everything else.
 void take_precedence();
 
-/// One thread that never waits for one connection: each must bring a whole request within 250 ms of
-/// being accepted, and when too many are open, the oldest one without a whole request is closed.
+/// One thread that never waits for a connection. Each connection must deliver a complete request
+/// within 250 ms of being accepted. When too many are open, the oldest without one is closed.
 class StopListener {
  public:
   struct Reply {
     int status = 200;
-    std::string allowed_origin;  ///< empty: no other origin may read it
+    std::string allowed_origin;  ///< empty: no other origin may read the answer
     std::string json;
   };
-  /// Safe from any thread while the listener lives, also when the connection is gone.
+  /// Safe from any thread while the listener lives, even when the connection is gone.
   using Answer = std::function<void(Reply)>;
-  /// Is called in the listener's thread with every whole request, and must not wait.
+  /// Called in the listener's thread with every complete request; must not wait.
   using Take = std::function<void(const httplib::Request&, Answer)>;
 
-  /// port: the one that is wanted; another when it is not free. The error says why there is none.
+  /// port: the wanted one; another is taken if it is not free. The error says why there is none.
   static Result<std::unique_ptr<StopListener>> open(const std::string& host, int port);
   StopListener() = default;
   StopListener(const StopListener&) = delete;
@@ -60,7 +60,7 @@ class StopListener {
   boost::asio::ip::tcp::acceptor acceptor_{io_};
   boost::asio::steady_timer retry_{io_};
   int port_ = 0;
-  std::list<std::shared_ptr<StopConnection>> connections_;  ///< the oldest first
+  std::list<std::shared_ptr<StopConnection>> connections_;  ///< oldest first
   std::thread thread_;
 };
 

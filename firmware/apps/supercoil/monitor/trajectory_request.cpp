@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What the frame of a knot can carry of a value beyond its range.
+/// The value nearest to an out-of-range one that a knot's frame can carry.
 double nearest_sent(can::SignalOf<can::message::knot> signal, double value) {
   hal::CanFrame frame;
   can::put(frame, signal.info(), value);

@@ -11,7 +11,7 @@
 
 namespace supercoil::operating {
 
-/// The board takes some 10 ms to answer each, and other requests wait meanwhile.
+/// The board takes some 10 ms to answer each knot, and other requests wait meanwhile.
 inline constexpr std::size_t max_knots_at_once = 16;
 
 struct TrajectoryRequest {

@@ -1,4 +1,4 @@
-// What a page asks of a node's controllers and estimators, and how it is done.
+// Requests of a page about a node's controllers and estimators.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace supercoil::operating {
 
 struct TuningRequest {
   std::uint8_t node;   ///< 1 to 63
-  std::uint8_t place;  ///< as Tuner counts: 0 to 3 a controller, 8 to 11 an estimator
-  TuningSet from;      ///< the set that is changed
+  std::uint8_t place;  ///< as in Tuner: 0 to 3 a controller, 8 to 11 an estimator
+  TuningSet from;      ///< the set to change
   struct Value {
     std::uint8_t tunable;
     double value;
@@ -23,10 +23,10 @@ struct TuningRequest {
 };
 
 /// {"node":1,"place":0,"from":"in_use","values":{"kind":"pi"}}; values are text, as on the command
-/// line. The error says what is wrong, and with what.
+/// line. The error says what is wrong, and with which value.
 Result<TuningRequest> parse_tuning_request(const std::string& text);
 
-/// Prepares what is asked for, and takes it into use. The error: no answer of the board.
+/// Prepares the requested values, and puts them into use. The error: the board did not answer.
 ManualControl::Answer tune(ManualControl& control, const TuningRequest& request);
 
 }  // namespace supercoil::operating

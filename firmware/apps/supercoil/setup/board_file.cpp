@@ -51,7 +51,7 @@ Result<config::BoardConfig> write_entries(const SetupOptions& options, const std
   }
   auto config = config::parse_board_config(changed, options.config);
   if (!config) {
-    // The lines are those of a text that is not written.
+    // The line numbers belong to a text that is not written.
     for (Error& problem : config.error())
       problem.line = 0;
     return failure(config::to_text(config.error()));

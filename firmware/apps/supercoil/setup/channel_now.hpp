@@ -1,4 +1,4 @@
-// A channel as its board goes by it now: what it found, and what it was tuned to.
+// A channel as its board uses it now: the muscle that it found, and its tuning.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@
 namespace supercoil::operating {
 
 struct ChannelNow {
-  /// With the muscle and the senses that are known. Its first controller is as it is in use.
+  /// With the known muscle and senses. Its first controller has the values in use.
   ChannelSettings settings;
 
   bool in_joint() const { return settings.joint.has_other(); }
-  /// Of a controller in the place of the first; empty: its law promises none, or the muscle turns a
-  /// joint.
+  /// The promise of a controller in place of the first; empty: its law promises no error, or the
+  /// muscle turns a joint.
   std::optional<Promise> promise(const control::ControllerSettings& controller,
                                  const BoardSettings& board, const FirstMotion& motion) const;
 };
 
-/// channel: as in a line of a command. configured: as the board's file has it.
+/// channel: as in a line of a command. configured: from the board's file.
 Result<ChannelNow> channel_now(BoardLink& board, const std::string& channel,
                                const ChannelSettings& configured);
 

@@ -32,29 +32,29 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds renewal{50};
 constexpr std::chrono::milliseconds reference_step{20};
-/// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
+/// A muscle that is cold by all bounds is armed at once; for others the file gives the time.
 constexpr double arming_s = 5.0;
-/// Of each muscle. What a find is followed by takes a minute or two more.
+/// For each muscle. The steps after a find take a minute or two more.
 constexpr double max_calibrate_s = modes::Calibrate::Settings{}.max_wait_s + 10.0;
 constexpr double max_identify_s = modes::Identify::Settings{}.max_s + 200.0;
-/// Above the air, from which on calibrate takes a zero.
+/// Rise above the air at and below which calibrate takes a zero.
 constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
-/// Of the first motion over the promised error: less, and the motion is hardly more than the error.
+/// Min ratio of the first motion to the promised error: less is hardly more than the error.
 constexpr double telling_ratio = 3.0;
 
-/// However hot it was at boot.
+/// Time until the muscle is cold, however hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
   return control::slowest_s(channel.thermal.bounds) *
          std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
 }
 
-/// Identify of half of the random muscles (tests/setup/setup_study.cpp) takes no longer.
+/// Half of the random muscles (tests/setup/setup_study.cpp) are identified within this time.
 double usual_identify_s(const ChannelSettings& channel) {
   const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
   return 20.0 + std::min(23.0 * tau_s, 100.0 + 6.0 * tau_s);
 }
 
-/// A calibration never finds just what the file says.
+/// A calibration never finds exactly the file's values.
 bool is_calibrated(const board::Calibration& now, const board::Calibration& configured) {
   const auto same = [](double a, double b) {
     return std::abs(a - b) <= float_rounding_ratio * std::abs(b);
@@ -118,7 +118,7 @@ Commission::Done Commission::reset_faults() {
   return {};
 }
 
-/// A board that was just started waits until its muscle must be cool.
+/// After a start the board waits until its muscle must be cool.
 Commission::Done Commission::arm() {
   if (auto reset = reset_faults(); !reset) return reset;
   const double max_s = arming_s + longest_s([&](const ChannelSettings& channel) {
@@ -133,7 +133,7 @@ Commission::Done Commission::arm() {
     if (!refuses(*answer, Refusal::not_ready) || elapsed_s >= max_s) {
       const std::string fault = present_fault(board_, channel_);
       if (!fault.empty()) return failure("cannot be armed: " + fault);
-      // Without a fault it is armed already.
+      // Refused without a fault: it is armed already.
       if (refuses(*answer, Refusal::wrong_state)) return {};
       return failure("arm: " + *answer);
     }
@@ -145,7 +145,7 @@ Commission::Done Commission::arm() {
 
 Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
   const auto done = [&] { return board_.progress(channel_).value_or(NAN); };
-  // The first time takes a moment, in which a command to heat would expire.
+  // The first call takes a moment, in which a command to heat would expire.
   if (who_.sees_progress()) done();
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   if (antagonist()) max_s *= 2.0;
@@ -228,7 +228,7 @@ StepResult Commission::calibrate() {
 
 namespace {
 
-/// How far a muscle that calibrate takes for cold may still have contracted.
+/// Max contraction that may remain when calibrate considers a muscle cold.
 double zero_uncertainty_m(const control::PhysicalParameters& muscle) {
   return cold_K * muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
 }

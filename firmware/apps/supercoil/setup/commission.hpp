@@ -1,4 +1,4 @@
-// The steps by which a muscle on a running board comes to follow.
+// The steps that commission a muscle on a running board.
 #pragma once
 
 #include <cstddef>
@@ -22,31 +22,31 @@ using StepResult = Result<nlohmann::ordered_json>;
 
 class Commission {
  public:
-  /// channel: as in a line of a command. settings: as the board's file has them; index: of this
-  /// channel there. All outlive it.
+  /// channel: as in a line of a command. settings: from the board's file; index: of this channel
+  /// there. All outlive it.
   Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
              std::size_t index, Operator& who);
 
   /// One of setup_steps that needs a running board, by its name.
   StepResult run(const std::string& step);
 
-  /// The senses of voltage and current, by a meter.
+  /// The senses of voltage and current, compared with a meter.
   StepResult compare_senses();
-  /// Zero and resistance of the cold muscle; as identify(), of an agonist also the antagonist's, as
-  /// "antagonist".
+  /// Zero and resistance of the cold muscle. For an agonist, as in identify(), also the
+  /// antagonist's, as "antagonist".
   StepResult calibrate();
-  /// The position sensor's scale, by a second known place.
+  /// The position sensor's scale, from a second known position.
   StepResult scale();
-  /// How far it may move, by who watches a slow pull.
+  /// The travel limit, by a person who watches a slow pull.
   StepResult limits();
-  /// The muscle's parameters, beside those that are configured.
+  /// The muscle's parameters, compared with the configured ones.
   StepResult identify();
-  /// The controller in use beside the recommended one, which is taken over if that is wanted.
+  /// The controller in use compared with the recommended one, which is taken over if wanted.
   StepResult gains();
-  /// A sine that the muscle can follow; its error beside the promised one, where one is promised.
+  /// Tracks a sine that the muscle can follow; compares its error with the promised one, if any.
   StepResult move();
 
-  /// False where a promise was made and not kept.
+  /// False if a promise was made and not kept.
   static bool kept(const nlohmann::ordered_json& result);
 
  private:
@@ -54,12 +54,12 @@ class Commission {
   using OrWhy = Result<std::string>;
 
   Done ask(const std::string& command);
-  /// A fault from before this step is told, and reset where that is wanted.
+  /// Reports a fault from before this step, and resets it if wanted.
   Done reset_faults();
-  /// Of a mode that ended with this.
+  /// Succeeds only if the mode ended with "found".
   Done only_found(const std::string& mode, const OrWhy& result);
   Done arm();
-  /// identify or calibrate, until it ends; how it did.
+  /// Runs identify or calibrate until it ends; returns how it ended.
   OrWhy run_mode(const std::string& mode, double max_s);
   struct Measured {
     std::string channel;  ///< as in a line of a command
@@ -67,15 +67,15 @@ class Commission {
   };
   using Tell = StepResult (Commission::*)(const Measured& whose);
 
-  /// Which identify and calibrate go on with; empty: this channel is no agonist.
+  /// The muscle that identify and calibrate continue with; empty: this channel is not an agonist.
   std::optional<Measured> antagonist() const;
-  /// The longest of those that are heated together: all have to be cold.
+  /// The longest time of the muscles that are heated together: all have to be cold.
   double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
-  /// What was found, of an agonist also the antagonist's.
+  /// Reports what was found; for an agonist also for the antagonist.
   StepResult tell(Tell found);
   StepResult tell_calibration(const Measured& whose);
   StepResult tell_muscle(const Measured& whose);
-  /// calibrate again and again, until the muscle must be cold.
+  /// Repeats calibrate until the muscle must be cold.
   OrWhy calibrate_when_cold();
 
   BoardLink& board_;

@@ -14,30 +14,30 @@ namespace {
 using control::PhysicalParameters;
 
 constexpr double gravity_m_per_s2 = 9.81;
-/// Of nylon 6,6 between 25 and 100 °C, plated with silver, which has less: 1.4 to 1.9.
+/// Nylon 6,6 between 25 and 100 °C, plated with silver, which has less: 1.4 to 1.9.
 constexpr double specific_heat_J_per_gK = 1.65;
-/// A swing that dies away within one period, as most muscles with a hanging load do.
+/// A swing that decays within one period, as with most muscles with a hanging load.
 constexpr double usual_damping_ratio = 0.7;
 
-/// Free convection, up to 0.7 of what cools a muscle, falls with the fourth root of its rise: below
-/// an eighth of the rise at which half_cooling_s was taken a muscle cools by so much more slowly.
+/// Free convection, up to 0.7 of a muscle's cooling, falls with the fourth root of its rise: below
+/// an eighth of the rise at which half_cooling_s was taken, it cools slower by this ratio.
 constexpr double nearly_cold_ratio = 1.25;
 
-/// What follows from answers has no more digits than they; an answer keeps its own.
+/// Values derived from answers have no more digits than the answers; an answer keeps its own.
 constexpr int digits_that_follow = 4;
 constexpr int digits_of_answers = 9;
 
-/// What the answers may be wrong by, as ratios of the truth to what follows from them.
+/// How far the answers may be wrong, as ratios of the true value to the derived one.
 struct Spread {
   double low = 1.0;
   double high = 1.0;
 
-  /// By one more answer that it is proportional to.
+  /// Adds an answer that the value is proportional to.
   void times(double error) {
     low /= 1.0 + error;
     high /= 1.0 - error;
   }
-  /// That it is inversely proportional to.
+  /// Adds an answer that the value is inversely proportional to.
   void over(double error) {
     low *= 1.0 - error;
     high *= 1.0 + error;

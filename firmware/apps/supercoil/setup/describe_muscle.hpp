@@ -1,4 +1,4 @@
-// From what a person knows of a muscle to what a board's file says of it.
+// Derives a board file's entries from what a person knows of a muscle.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ struct Entry {
   std::string path;
   std::string literal;
   std::string reason;                  ///< how it follows from the answers
-  std::optional<std::size_t> joint{};  ///< of which it is, from 0; empty: of the channel
+  std::optional<std::size_t> joint{};  ///< its joint, from 0; empty: the channel
 
-  /// As somebody is told it: "limits.max_W", "joint.range_deg".
+  /// As shown to a person: "limits.max_W", "joint.range_deg".
   std::string key() const { return (joint ? "joint." : "") + path; }
 };
 
@@ -30,10 +30,9 @@ struct MuscleDescription {
   std::vector<Entry> entries;
 };
 
-/// Every question without a fallback must be answered. Each parameter follows from two or three
-/// answers; its bounds follow from how wrong those may be, all of them to the same side. The error
-/// says which answers contradict each other, or what no muscle of thread has. time: of the board's
-/// loop.
+/// Every question without a fallback must be answered. Each parameter is derived from two or three
+/// answers; its bounds assume that all of these are wrong to the same side. The error says which
+/// answers contradict each other, or what no muscle of thread can have. time: of the board's loop.
 Result<MuscleDescription> describe_muscle(const MuscleAnswers& answers,
                                           const config::LoopTime& time = {});
 

@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What was said to describe: of the nameplate, if there is one, and of the muscle.
+/// The answers to describe: of the nameplate, if there is one, and of the muscle.
 struct Said {
   Nameplate nameplate;
   MuscleAnswers muscle;
 };
 
-/// The answer is kept at once, and offered when it is asked for again.
+/// Stores the answer at once, and offers it when the question is asked again.
 Result<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
   const std::string key(q.key);
   const auto before = record.answer(key);
@@ -37,7 +37,7 @@ Result<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
   return *value;
 }
 
-/// One after the other.
+/// Asks the questions one after the other.
 Result<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
   Said said;
   const auto has = ask_and_keep(has_nameplate, record, who);
@@ -58,14 +58,14 @@ Result<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& w
   return said;
 }
 
-/// That the board does not allow. As a person is told where it is asked.
+/// The error for a value that the board does not allow, worded like the question to a person.
 Error beyond(const Question& q, double value, const std::string& script, int line) {
   return {script, line, "muscle." + std::string(q.key),
           "must be " + range_text(q.allowed) + " here: " + std::string(q.text),
           number_text(value, range_digits)};
 }
 
-/// What a script leaves open, or an error for each.
+/// Fills in what a script leaves open, or returns an error for each gap.
 Result<Said> completed(const Script& script, const SetupOptions& options,
                        const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
@@ -92,8 +92,8 @@ Result<Said> completed(const Script& script, const SetupOptions& options,
   return Said{script.nameplate, answers};
 }
 
-/// What bounds the travel where a joint's range_deg does; where the answer leaves no less than
-/// that, nothing is written.
+/// Sets the joint's range_deg instead of the travel where it bounds the travel; writes nothing if
+/// range_deg is at least as tight as the answer.
 void fit_travel(const std::string& text, int channel, std::vector<Entry>& entries, Operator& who) {
   const auto travel = std::ranges::find(entries, travel_key, &Entry::path);
   auto fitting =
@@ -107,7 +107,7 @@ void fit_travel(const std::string& text, int channel, std::vector<Entry>& entrie
   entries.erase(travel);
 }
 
-/// A list of controllers was chosen by somebody: it stays, with the model that its laws are for.
+/// A list of controllers was chosen by a person: it stays, with the model for its laws.
 bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   if (entry.path != "controller" && entry.path != "reference_model") return false;
   const toml::table document = toml::parse(text);
@@ -124,7 +124,7 @@ void say_how_a_joint_is_measured(const FileJoint& joint, Operator& who) {
       "over the lever's square");
 }
 
-/// Of a file that need not be complete yet.
+/// From a file that need not be complete yet.
 config::LoopTime loop_time_in_file(const std::string& text, int channel) {
   const toml::table document = toml::parse(text);
   const double rate_Hz = document.at_path("board.rate_Hz").value_or(BoardSettings().rate_Hz);

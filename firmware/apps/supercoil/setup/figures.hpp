@@ -1,4 +1,4 @@
-// What a step found, as people and programs read it.
+// Formats the findings of a step for people and programs.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace supercoil::operating {
 
-/// Of what a bus tells.
+/// For values received over a bus.
 inline constexpr double float_rounding_ratio = 1e-6;
 
 inline std::string in_digits(double value) {

@@ -13,7 +13,7 @@ namespace supercoil::operating {
 namespace {
 
 constexpr double deg_per_rad = 180.0 / std::numbers::pi;
-/// What is written is whole hundredths of a degree.
+/// Angles are written in whole hundredths of a degree.
 constexpr double angle_step_deg = 0.01;
 constexpr int angle_digits = 6;
 constexpr const char* range_key = "range_deg";

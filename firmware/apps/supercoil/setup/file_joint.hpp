@@ -1,4 +1,4 @@
-// The joint that a channel's muscle turns, as far as a board's file tells it before it is complete.
+// The joint that a channel's muscle turns, as far as an incomplete board file tells it.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 namespace supercoil::operating {
 
 struct FileJoint {
-  std::size_t place = 0;  ///< among [[joint]]
+  std::size_t place = 0;  ///< index among [[joint]]
   bool agonist = true;
   bool has_other = true;  ///< another muscle opposes this one
   control::Lever lever{};
-  /// How far it may turn back and forth; empty: the limits of its channels say it.
+  /// How far it may turn back and forth; empty: its channels' limits determine it.
   std::optional<std::array<double, 2>> range_deg;
 
   /// How far range_deg lets this muscle contract.
   double max_travel_m() const;
-  /// Of range_deg with this muscle's side changed. Never wider than travel_m.
+  /// range_deg with this muscle's side changed. Never wider than travel_m.
   std::string range_literal(double travel_m) const;
 };
 
-/// text: TOML in order. channel: from 1. Empty: its muscle turns none, or what is told of it is
+/// text: valid TOML. channel: from 1. Empty: its muscle turns no joint, or the joint's entries are
 /// wrong.
 std::optional<FileJoint> joint_in_file(const std::string& text, int channel);
 
-/// The key that makes a muscle's travel smaller: of its channel or, where that bounds it, range_deg
-/// of its joint. Empty: range_deg leaves it no more than that already.
+/// The key that reduces a muscle's travel: its channel's or, where that is the bound, range_deg of
+/// its joint. Empty: range_deg already allows no more than that.
 std::optional<Entry> travel_entry(const std::string& text, int channel, double travel_m,
                                   const std::string& literal, const std::string& reason);
 

@@ -12,12 +12,12 @@
 
 namespace supercoil::operating {
 
-/// What a person knows of the muscle goes into the board's file: asks, or takes what the script
-/// answers if there is one; writes the file only if it is in order then. The error is whole lines.
+/// Puts what a person knows of the muscle into the board's file: asks, or uses a script's answers
+/// if there is one; writes the file only if it is valid then. The error consists of whole lines.
 Result<nlohmann::ordered_json> describe_step(const SetupOptions& options, Operator& who);
 
-/// Looks at this machine if it is the board's: of a board on a bus it says what to run there. Tells
-/// what does not hold, and how much does; whatever it is, setup may go on.
+/// Checks this machine if it is the board; for a board on a bus it says what to run there. Reports
+/// what failed, and how much passed; setup may go on in any case.
 StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& config,
                        Operator& who);
 

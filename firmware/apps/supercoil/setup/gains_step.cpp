@@ -18,8 +18,7 @@ using control::Tunable;
 using control::TunableType;
 using Json = nlohmann::ordered_json;
 
-/// "learned_ff: bandwidth_rad_per_s = 8, …, reference_model = wm16". A model with a name needs no
-/// poles.
+/// "learned_ff: bandwidth_rad_per_s = 8, …, reference_model = wm16". A named model needs no poles.
 std::string values_text(const ControllerSettings& controller) {
   std::string text(control::name_of(control::controller_names, controller.kind));
   bool named = false;
@@ -37,7 +36,7 @@ std::string values_text(const ControllerSettings& controller) {
   return text;
 }
 
-/// What it leaves room for, and what it promises.
+/// The controller's margin, and what it promises.
 std::string expected_text(const ControllerSettings& controller, const ChannelNow& now,
                           const BoardSettings& board, const FirstMotion& motion,
                           const std::optional<Promise>& promise) {

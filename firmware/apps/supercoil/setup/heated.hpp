@@ -12,7 +12,7 @@ namespace supercoil::operating {
 /// Makes one channel cold again however its step ends.
 class Heated {
  public:
-  /// Of a command that was not obeyed, or of a person who ended it.
+  /// The error: a command was not obeyed, or a person ended it.
   using Done = Operator::Done;
 
   /// All outlive it.
@@ -22,7 +22,7 @@ class Heated {
   ~Heated();
 
   Done ask(const std::string& what);
-  /// Renews it as well: a command to heat expires.
+  /// Also renews the command: a command to heat expires.
   Done heat(double power_W);
   Done hold(double power_W, std::chrono::milliseconds time);
   double time_s() const { return board_.time_s(); }

@@ -15,7 +15,7 @@ namespace {
 using control::physical_ranges;
 using control::PhysicalParameters;
 
-/// One line where the file's bounds exclude what was found: the muscle gets its power by them.
+/// One line if the file's bounds exclude what was found: the muscle's power is based on them.
 void tell_outside(const char* what, double found, double lowest, double highest,
                   const std::string& bounds, Operator& who) {
   if (found >= lowest && found <= highest) return;

@@ -1,4 +1,4 @@
-// What identify found, beside what was configured.
+// Compares what identify found with the configuration.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace supercoil::operating {
 
-/// Lines for people; what it returns is for programs.
+/// Prints lines for people; the return value is for programs.
 nlohmann::ordered_json tell_identified(const KnownMuscle& known, const ChannelSettings& configured,
                                        Operator& who);
 

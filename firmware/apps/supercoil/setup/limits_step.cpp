@@ -18,21 +18,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Then the end lags behind its power by a twentieth of the way.
+/// With this ratio the muscle's end lags behind its power by a twentieth of the way.
 constexpr double time_constants_to_rise = 20.0;
 constexpr double time_constants_to_settle = 5.0;
 constexpr double min_rise_s = 30.0;
-/// Of the rising power, for each comparison by StallWatch.
+/// Fraction of the rising power for each comparison by StallWatch.
 constexpr double stall_step_ratio = 0.04;
-/// Beyond the configured travel the board sees a fault.
+/// Beyond the configured travel the board faults.
 constexpr double stop_ratio = 0.97;
 constexpr double told_every_ratio = 0.05;
 
-/// That the limit keeps from where the end was.
+/// Distance of the limit from where the end was.
 constexpr double min_distance_m = 0.5e-3;
 constexpr double distance_ratio = 0.02;
 constexpr double min_limit_m = 1e-3;
-/// So that what is told and what is written are the same in few digits.
+/// So that the printed and the written value agree in few digits.
 constexpr double limit_step_m = 1e-5;
 constexpr double min_limit_noises = 2.0;
 
@@ -63,7 +63,7 @@ struct SlowPull {
 
 SlowPull plan_slow_pull(const ChannelSettings& channel, const BoardSettings& board) {
   const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
-  // With more, the board itself would take power away sooner or later, and the end stop rising.
+  // With more power the board would sooner or later reduce it, and the end would stop rising.
   return {feasibility(channel, board).held_W, std::max(min_rise_s, time_constants_to_rise * tau_s),
           time_constants_to_settle * tau_s, stop_ratio * channel.supervision.max_travel_m};
 }
@@ -81,7 +81,7 @@ double min_limit(const ChannelSettings& channel) {
   return std::max(min_limit_m, min_limit_noises * channel.supervision.position_noise_rms_m);
 }
 
-/// Until a person answers; a script has done so, and look() compares.
+/// Waits for a person's answer; a script has answered already, and look() compares with it.
 Operator::OrWhy wait_for_answer(BoardLink& board, const SlowPull& plan, Operator& who,
                                 const std::function<Operator::Done()>& look) {
   if (std::isinf(plan.scripted_m)) return who.ask(at_limit, look);
@@ -137,7 +137,7 @@ StepResult limit_at(double position_m, const ChannelSettings& channel, Operator&
     return failure("a limit of " + in_mm(limit_m) + " leaves no travel, less than " +
                    in_mm(least_m) + "; nothing changed");
   }
-  // It pulled less far than what is configured: this is smaller.
+  // It pulled less far than the configured limit, so this limit is smaller.
   who.say("limit: " + in_mm(limit_m) + " (configured: " + in_mm(channel.supervision.max_travel_m) +
           ")");
   return Json{{"position_m", position_m}, {travel_key, number_text(limit_m, digits)}};

@@ -1,4 +1,4 @@
-// What a person knows of a muscle, in the units of a bench.
+// A person's knowledge of a muscle, in the units of a bench.
 #pragma once
 
 #include <array>
@@ -67,11 +67,11 @@ class MuscleAnswers {
   std::array<double, questions.size()> values_{};
 };
 
-/// Of each step that arms a muscle which has a fault from before.
+/// Asked by each step that arms a muscle with an earlier fault.
 inline constexpr Question reset_fault{
     "reset_fault", "1: its cause is gone, reset the fault; 0: leave it", {0.0, 1.0}, NAN};
 
-/// Of the step gains, which comes when the muscle was found.
+/// Asked by the step gains, after the muscle was found.
 inline constexpr Question take_gains{
     "take_gains",
     "1: take over the recommended controller, 0: keep the one in use",

@@ -8,11 +8,11 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Of the air in which it is rated.
+/// Air temperature at which the muscle is rated.
 constexpr double rated_air_C = 25.0;
-/// The most that a person may say of their answers: suppliers' data are of muscles like it.
+/// The max that a person may state for their answers: suppliers' data are of similar muscles.
 constexpr double uncertainty_percent = 60.0;
-/// Of the rise to the hottest: from there on power is derated.
+/// Power is derated over this fraction of the rise, up to the max temperature.
 constexpr double derated_ratio = 0.2;
 constexpr int temperature_digits = 4;
 

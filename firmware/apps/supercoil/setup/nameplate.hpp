@@ -1,4 +1,4 @@
-// What a muscle's supplier says of it, in place of what a bench would show.
+// A supplier's data of a muscle, instead of measurements on a bench.
 #pragma once
 
 #include <array>
@@ -34,20 +34,20 @@ class Nameplate {
   void set(std::size_t question, double value) { values_.at(question) = value; }
   bool present() const { return !std::isnan(values_.front()); }
 
-  /// What it says of a question of describe; NaN: nothing. The rated power is believed to heat the
-  /// muscle to the hottest that it may become: whoever believes it hotter than it is heats it less.
+  /// Its answer to a question of describe; NaN: none. The rated power is assumed to heat the muscle
+  /// to its max temperature: a muscle that is believed hotter than it is gets less heat.
   double suggested(Asked what) const;
-  /// The limits of its temperature, where they are lower than trip_C, which it is now.
+  /// Limits of the muscle's temperature, if they are below trip_C, the present limit.
   std::vector<Entry> limits(double trip_C) const;
 
  private:
   std::array<double, nameplate_questions.size()> values_{};
 };
 
-/// The least that a temperature may be limited to: below, no muscle moves.
+/// Min temperature limit: below it no muscle moves.
 inline constexpr double min_rated_C = 50.0;
 
-/// At which a channel, from 1, trips by its file; 0: near skin, far below any that is rated.
+/// The trip temperature of a channel, from 1, in its file; 0: near skin, far below any rated one.
 double trip_in_file_C(const std::string& text, int channel);
 
 }  // namespace supercoil::operating

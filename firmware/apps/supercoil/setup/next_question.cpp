@@ -8,13 +8,13 @@ namespace supercoil::operating {
 
 namespace {
 
-/// What is not known leaves the question's own limit.
+/// An unknown limit leaves the question's own limit.
 void allow_at_most(double highest, Question& q) {
   if (highest >= q.allowed.lowest)
     q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest, range_digits));
 }
 
-/// Without both nothing says how hot the muscle gets.
+/// With neither this nor thread_g, nothing says how hot the muscle gets.
 constexpr Question needed_heated_K{
     "heated_K",
     "How much warmer than the air was it with that power, by a thermometer, in K; needed, as "

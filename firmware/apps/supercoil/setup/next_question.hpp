@@ -1,4 +1,4 @@
-// What describe asks next, by what the board's file and the answers so far already say.
+// What describe asks next, given the board's file and the answers so far.
 #pragma once
 
 #include <cmath>
@@ -9,15 +9,15 @@
 
 namespace supercoil::operating {
 
-/// Of the channel, as far as its file tells it; NaN: it does not.
+/// Ranges of the channel, as far as its file tells them; NaN: not told.
 struct BoardRanges {
   double min_supply_V = NAN;
   double max_position_m = NAN;  ///< in a joint the sensor reads something else
 };
-/// text: TOML in order, though the file need not be complete. channel: from 1.
+/// text: valid TOML, though the file need not be complete. channel: from 1.
 BoardRanges board_ranges(const std::string& text, int channel);
 
-/// A place in questions, with what is allowed after the answers before it.
+/// The question at this place, with the range that the earlier answers allow.
 Question next_question(std::size_t place, const MuscleAnswers& answers, const BoardRanges& board);
 
 }  // namespace supercoil::operating

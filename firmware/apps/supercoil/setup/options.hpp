@@ -1,4 +1,4 @@
-// What supercoil setup is asked for.
+// Options of supercoil setup.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ namespace supercoil::operating {
 inline constexpr const char* default_config = "/etc/supercoil/board.toml";
 
 struct SetupOptions {
-  std::vector<std::string> steps;  ///< of setup_steps; empty: what was not done yet
+  std::vector<std::string> steps;  ///< of setup_steps; empty: those not done yet
   std::string config = default_config;
   int channel = 1;     ///< of the file, from 1
-  std::string script;  ///< answers; empty: they are asked for
+  std::string script;  ///< file of answers; empty: the user is asked
   std::string can;     ///< a bus; empty: the board on which this runs
   std::string socket = default_socket;
   bool undo = false;

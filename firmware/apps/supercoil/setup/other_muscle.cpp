@@ -13,7 +13,7 @@ namespace supercoil::operating {
 
 namespace {
 
-/// A place in known_quantities, which is the figure's name as well.
+/// An index into known_quantities, which also has the figure's name.
 struct Figure {
   std::string_view step;
   std::size_t quantity;
@@ -28,7 +28,7 @@ constexpr std::array<Figure, 8> figures{{{"calibrate", known_position_offset},
                                          {"identify", 5}}};
 
 constexpr double rounding_ratio = 1e-5;
-/// A zero may be next to none.
+/// A zero position may be close to 0.
 constexpr double least_difference = 1e-9;
 constexpr int digits_compared = 5;
 

@@ -10,15 +10,15 @@
 namespace supercoil::operating {
 
 struct OtherMuscle {
-  std::string step;    ///< from which on it is to be done anew
+  std::string step;    ///< the first step to repeat
   std::string reason;  ///< in one line
 };
 
-/// calibrate or identify found something.
+/// Whether calibrate or identify found something.
 bool tells_of_muscle(const SetupRecord& record);
 
-/// The first step whose figures are not the board's, beyond what floats on a bus and on a disk
-/// round; empty: all are.
+/// The first step whose figures differ from the board's by more than the rounding of floats on bus
+/// and disk; empty: none.
 std::optional<OtherMuscle> other_muscle(const SetupRecord& record, const KnownMuscle& known);
 
 }  // namespace supercoil::operating

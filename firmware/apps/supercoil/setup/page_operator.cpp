@@ -105,7 +105,7 @@ void PageOperator::end(const std::string& why) {
 
 void PageOperator::alive() {
   const std::lock_guard lock(mutex_);
-  // Who comes back does not save a step that ends already.
+  // A page that returns does not save a step that is already ending.
   if (Clock::now() - alive_ <= page_timeout) alive_ = Clock::now();
 }
 

@@ -1,4 +1,4 @@
-// Setup on a page: what the thread of a step and those of the page's requests share.
+// Setup on a page: what the step's thread and the page's request threads share.
 #pragma once
 
 #include <chrono>
@@ -15,10 +15,10 @@
 
 namespace supercoil::operating {
 
-/// Of one step after the other. Safe from any thread.
+/// Serves one step after the other. Safe from any thread.
 class PageOperator final : public Operator {
  public:
-  /// After so long without a page that watches, the step ends: nobody sees the muscle.
+  /// After this long without a watching page the step ends: nobody sees the muscle.
   static constexpr std::chrono::seconds page_timeout{10};
 
   // For the step.
@@ -33,11 +33,11 @@ class PageOperator final : public Operator {
   void conclude(const StepResult& found);
 
   // For the page.
-  /// Of the question that is asked now. The error: nothing is asked, or what is allowed.
+  /// Answers the current question. The error: nothing is asked, or what is allowed.
   Done answer(const std::string& text);
-  /// The step is to end; the first reason is kept.
+  /// Tells the step to end; the first reason is kept.
   void end(const std::string& why);
-  /// A page watches.
+  /// Reports that a page is watching.
   void alive();
   bool busy() const;
   /// running, last, lines, progress, question, error and kept of SetupSession::state().
@@ -54,7 +54,7 @@ class PageOperator final : public Operator {
   nlohmann::ordered_json progress_;
   std::optional<Question> question_;
   std::optional<double> answer_;
-  std::string ending_;  ///< why the step is to end; empty: it is not
+  std::string ending_;  ///< why the step is to end; empty: it may go on
   std::string error_;
   bool kept_ = true;
   Clock::time_point alive_{};

@@ -150,7 +150,7 @@ Result<void> SetupRecord::read_again() {
 }
 
 Result<void> SetupRecord::write() {
-  // It is the last key, after what there is to remember.
+  // schema_version is the last key; alone it is not worth a file.
   document_.erase("schema_version");
   if (document_.empty()) {
     std::error_code error;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int told_digits = 6;
 
-/// How somebody finds in the file what the board tells of it.
+/// The key in the file for a quantity that the board tells.
 std::string place_in_file(std::size_t quantity) {
   const std::string name(known_quantities[quantity]);
   if (quantity == known_max_set_point) return "limits.max_travel_m";
@@ -42,7 +42,7 @@ std::vector<std::string> differences(const KnownMuscle& board, const BoardSettin
       known_muscle(c.muscle, c.calibration, 0.0, 0.0, {}, configured_muscle(c, NAN));
   std::vector<std::string> all;
   for (std::size_t i = known_configured; i < known_quantities.size(); ++i) {
-    // Follows from the other muscle's limits, which are compared as well; is none of the file's.
+    // Not in the file: the first follows from the other muscle's limits, which are compared too.
     if (i == known_min_set_point || i == known_identified || same(board[i], expected[i])) continue;
     all.push_back(place_in_file(i) + " = " + told(expected[i]) + " (the board: " + told(board[i]) +
                   ")");

@@ -10,8 +10,8 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Of the steps that need a person: what any board could be answered. Each step knows how much of
-/// that its board allows.
+/// For the steps that need a person: answers that some board could allow. Each step checks what its
+/// own board allows.
 struct StepKey {
   const char* table;
   std::string_view key;
@@ -82,7 +82,7 @@ Result<Script> read_script(const std::string& path) {
     config::Section muscle = root.section("muscle");
     for (std::size_t i = 0; i < questions.size(); ++i) {
       const Question& q = questions[i];
-      // An absent key is known nevertheless: to be meant by a misspelt one.
+      // Absent keys are known too, so that a misspelt key can be matched to one.
       if (muscle.has(q.key)) {
         script.muscle.set(i, muscle.number(q.key, NAN, q.allowed));
         script.lines.at(i) = static_cast<int>(muscle.table()->get(q.key)->source().begin.line);

@@ -1,4 +1,4 @@
-// What a person would answer, in a file.
+// A person's answers, in a file.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@
 
 namespace supercoil::operating {
 
-/// To what the steps of a running board ask, by a question's key.
+/// Answers for the steps of a running board, by a question's key.
 class ScriptedAnswers {
  public:
   /// path: of the file, for errors.
   explicit ScriptedAnswers(std::string path = "") : path_(std::move(path)) {}
 
-  /// values: each time that it is asked the next one, and in the end the last one.
+  /// values: one for each time that the question is asked; the last one repeats.
   void add(const std::string& table, std::string_view key, std::vector<double> values);
-  /// Answers a step that needs a person; its table has the step's name.
+  /// Whether it answers a step that needs a person; its table has the step's name.
   bool has_table(std::string_view table) const;
-  /// Empty: it does not answer that. The error: what is allowed, as the board is now.
+  /// Empty: the script has no answer. The error: what the board allows now.
   std::optional<Operator::OrWhy> next(const Question& question);
 
  private:
@@ -40,11 +40,11 @@ class ScriptedAnswers {
 
 struct Script {
   Nameplate nameplate;
-  MuscleAnswers muscle;                       ///< a key that is not there is not answered
-  std::array<int, questions.size()> lines{};  ///< of those that are
+  MuscleAnswers muscle;                       ///< an absent key is not answered
+  std::array<int, questions.size()> lines{};  ///< of the answered ones
   ScriptedAnswers answers;
 };
-/// The tables of a file, all but [muscle] may be absent. The error is whole lines.
+/// Reads the tables of a file; all but [muscle] may be absent. The error consists of whole lines.
 Result<Script> read_script(const std::string& path);
 
 }  // namespace supercoil::operating

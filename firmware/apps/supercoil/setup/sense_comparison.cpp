@@ -16,7 +16,7 @@ using board::MeterComparison;
 /// The error: why it ended.
 
 constexpr std::chrono::milliseconds probing{300};
-/// The board asks for a second at a steady power; a meter needs some time as well.
+/// The board requires a second at steady power; a meter needs some time too.
 constexpr std::chrono::milliseconds settling{2500};
 constexpr double max_question_s = 300.0;
 
@@ -88,7 +88,7 @@ Result<board::SenseComparison> compare_senses(BoardLink& board, const Comparison
     return failure(with_present_fault(why, board, plan.channel));
   };
   if (const auto armed = heated.ask("arm"); !armed) return ended(armed.error().text());
-  // The probe of arming refuses to be disturbed.
+  // The probe that follows arming must not be disturbed.
   board.wait(probing);
   for (const double part : {0.5, 1.0}) {
     if (const auto asked = compare_at(part * plan.power_W, plan, heated, who); !asked)

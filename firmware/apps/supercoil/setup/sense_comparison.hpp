@@ -1,5 +1,5 @@
-// Leads a person with a meter through the comparison that the running firmware makes. All that
-// protects is there; this only asks.
+// Leads a person with a meter through the comparison that the running firmware makes. The firmware
+// contains all protection; this only asks.
 #pragma once
 
 #include <string>
@@ -18,16 +18,17 @@ struct ComparisonPlan {
   config::Range supply_V{0.0, 60.0};
 };
 
-/// With the steady power that leaves full power allowed in the warmest air, were the muscle cooled
-/// by a quarter of the least that is configured and the senses as wrong as nobody would notice.
+/// Plans with the steady power at which full power stays allowed in the warmest air, even if the
+/// muscle were cooled by a quarter of the configured min and the senses had the largest unnoticed
+/// errors.
 ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
                                const BoardSettings& board);
 
-/// What it will do, and for how long, before it heats.
+/// What it will do, and for how long; shown before it heats.
 std::string describe_plan(const ComparisonPlan& plan);
 
 /// Arms the channel, heats it with half of that power and then all of it, and asks two questions at
-/// each; it is disarmed however this ends. The error: why it ended.
+/// each; always disarms it at the end. The error: why it ended.
 Result<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
                                               Operator& who);
 

@@ -20,7 +20,7 @@ SetupBoard::~SetupBoard() {
 }
 
 StepResult SetupBoard::run(const std::string& step) {
-  // A step before may have changed the file.
+  // An earlier step may have changed the file.
   if (auto again = read_again(); !again) return tl::unexpected(again.error());
   if (const std::string why = left_out(step); !why.empty()) return failure(why);
   if (step == "doctor") {
@@ -86,14 +86,14 @@ Result<void> SetupBoard::open() {
     opened = std::move(*link);
   }
   BoardLink& board = opened ? *opened : *link_;
-  // What a step heats with, and what the board makes of it, is by the file.
+  // Both a step's heating and the board's own limits rely on the file.
   const auto others = differences_of_board(board, first_address(), config_->settings, index());
   if (!others) return failure(others.error().text() + "; " + how_to_start());
   if (!others->empty()) {
     return failure(options_.config + ": the board does not run with this file: " + *others + "; " +
                    how_to_start());
   }
-  // Only that board is disarmed in the end.
+  // Only this board is disarmed in the end.
   if (opened) link_ = std::move(opened);
   return {};
 }

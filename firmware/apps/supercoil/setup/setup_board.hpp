@@ -1,4 +1,4 @@
-// The running board that setup leads to, by the file that it was started with.
+// The running board that setup works on, with the file that it was started with.
 #pragma once
 
 #include <memory>
@@ -20,28 +20,28 @@ class SetupBoard {
   SetupBoard(const SetupOptions& options, Operator& who) : options_(options), who_(who) {}
   SetupBoard(const SetupBoard&) = delete;
   SetupBoard& operator=(const SetupBoard&) = delete;
-  /// However it ends, the muscle gets no power.
+  /// The muscle gets no power, however this ends.
   ~SetupBoard();
 
-  /// A step of setup_steps, all but the first. The board is looked for when it is first needed.
+  /// Runs a step of setup_steps, all but the first. Connects to the board when it is first needed.
   StepResult run(const std::string& step);
-  /// Compares what calibrate and identify found with what the board goes by now; the record
-  /// discounts what is another muscle's, and somebody is told. Without any of both the board is
-  /// not looked for.
+  /// Compares what calibrate and identify found with what the board uses now. The record discounts
+  /// what belongs to another muscle, and the operator is told. If neither step is recorded, the
+  /// board is not contacted.
   Result<void> compare_with(SetupRecord& record);
-  /// Why a step of setup_steps is not done with this channel; empty: it is.
+  /// Why a step of setup_steps is not done with this channel; empty: it may be done.
   std::string left_out(const std::string& step);
 
  private:
   Result<void> read();
-  /// What was read before stays where the file is in no order now.
+  /// Keeps what was read before if the file is not valid now.
   Result<void> read_again();
   /// Refuses a board that runs with another file.
   Result<void> open();
-  /// The board with the file, as commands to copy.
+  /// How to start the board with the file, as commands to copy.
   std::string how_to_start() const;
   std::size_t index() const { return static_cast<std::size_t>(options_.channel) - 1; }
-  /// Of the file's first channel: on a bus channels are nodes.
+  /// Address of the file's first channel: on a bus channels are nodes.
   int first_address() const;
   std::string address() const;
 

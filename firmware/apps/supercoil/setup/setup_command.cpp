@@ -1,4 +1,4 @@
-// supercoil setup: from a muscle that somebody has to one that follows.
+// supercoil setup: commissions a muscle until it follows a reference.
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Steps are left: the board has to be started with the changed file before they can be done.
+/// Steps remain: the board has to be started with the changed file before they can be done.
 constexpr int exit_restart_board = 3;
 
 std::vector<std::string> step_names() {
@@ -35,14 +35,14 @@ std::vector<std::string> step_names() {
   return names;
 }
 
-/// Without a name: what comes after all that is done.
+/// Without a name: the steps after all that are done.
 bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecord& record) {
   const std::string name(step.name);
   if (options.steps.empty()) return !record.has(name) && !record.is_past(name);
   return std::ranges::find(options.steps, name) != options.steps.end();
 }
 
-/// A step that needs a person is asked for; where nobody answers, nor the script, it is left.
+/// Asks before a step that needs a person; without an answer, from a script either, it is skipped.
 bool takes(const SetupStep& step, const SetupOptions& options,
            const std::optional<ScriptedAnswers>& script, Operator& who) {
   if (!step.needs_person || !options.steps.empty()) return true;
@@ -55,7 +55,7 @@ bool takes(const SetupStep& step, const SetupOptions& options,
 }
 
 int concluded(const SetupOptions& options, const Json& results, int status, std::string error) {
-  // What is wrong with a file is whole lines.
+  // Errors in a file consist of whole lines.
   if (error.ends_with('\n')) error.pop_back();
   if (options.json) {
     Json told{{"steps", results}, {"restart_board", status == exit_restart_board}};
@@ -127,7 +127,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   return concluded(options, results, status, "");
 }
 
-/// Whoever sits at a terminal may decide on the spot.
+/// At a terminal the user may decide on the spot.
 bool undo_anyway(const SetupOptions& options, const std::string& why) {
   if (options.force) return true;
   if (options.json || isatty(STDIN_FILENO) == 0) return false;

@@ -1,4 +1,4 @@
-// Setup as a page leads through it: one step at a time, in a thread of its own.
+// Setup on a page: one step at a time, in its own thread.
 #pragma once
 
 #include <functional>
@@ -30,7 +30,7 @@ class SetupSession {
   /// "step": …}, {"do": "answer", "text": …}, {"do": "end"} or {"do": "undo"}: the state after it
   /// with "done", what was done in words, or {"error": …}. It and access outlive the server.
   void serve_with(httplib::Server& server, const Access& access);
-  /// The step ends, and the muscle is disarmed. Does not wait for it.
+  /// Ends the step, and disarms the muscle. Does not wait for it.
   void end(const std::string& why) { page_.end(why); }
 
  private:
@@ -41,7 +41,7 @@ class SetupSession {
   /// question, error, kept}: what a page shows. running is null where no step is under way; lines,
   /// error and kept are of the last one.
   nlohmann::ordered_json state() const;
-  /// What was done, in words where somebody should read it.
+  /// What was done; in words if the user should read it.
   Result<std::string> obey(const nlohmann::ordered_json& asked);
   Done begin(const std::string& step);
   Result<std::string> undo();

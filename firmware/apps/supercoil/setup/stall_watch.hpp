@@ -1,10 +1,10 @@
-// Does a muscle's end still rise while its power does?
+// Detects that a muscle's end no longer rises while its power does.
 #pragma once
 
 namespace supercoil::operating {
 
-/// Compares what equal steps of a slowly rising power bring. A muscle that is not linear varies by
-/// a factor of two over its travel, and one whose end touches something stands still.
+/// Compares the rise for equal steps of a slowly rising power. The rise of a nonlinear muscle
+/// varies by a factor of two over its travel; a muscle whose end touches something stands still.
 class StallWatch {
  public:
   /// noise_m: of the position, rms.

@@ -1,4 +1,4 @@
-// The steps of setup, in their order.
+// The steps of setup, in order.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace supercoil::operating {
 
 struct SetupStep {
   std::string_view name;
-  std::string_view does;  ///< said before it begins
-  bool optional = false;  ///< may be left
+  std::string_view does;  ///< printed before it begins
+  bool optional = false;  ///< may be skipped
   bool needs_person =
-      false;  ///< who is asked first whether it is to be left; a script without its table leaves it
+      false;  ///< a person is asked first whether to skip it; a script without its table skips it
   enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
-  bool of_each_in_bundle = false;  ///< else of the channel that leads, for all
+  bool of_each_in_bundle = false;  ///< else once, by the leading channel, for all
   bool of_machine =
-      false;  ///< where it is done, nothing follows of the muscle, nor of steps before
+      false;  ///< if it is done, that implies nothing about the muscle, nor about steps before it
 };
 
 /// Why a step is not done with this channel, from 0; empty: it is.

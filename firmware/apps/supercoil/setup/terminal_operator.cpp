@@ -51,7 +51,7 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
                                               const std::function<Done()>& meanwhile) {
   progress_.reset();
   if (const auto value = scripted(q)) return *value;
-  // A person may try as often as it takes; what is no terminal would answer wrong for ever.
+  // A person may try any number of times; another input might answer wrongly for ever.
   const bool patient = isatty(STDIN_FILENO) == 1;
   for (int i = 0; patient || i < max_tries; ++i) {
     std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range_text(q.allowed).c_str(),
@@ -59,8 +59,8 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
     std::fflush(out_);
     const auto line = next_line(meanwhile);
     if (!line) {
-      // What is said next has a line of its own, which Ctrl-C ended already; where answers come
-      // from a file, it goes on there.
+      // Starts a new line for the next message. After Ctrl-C there is one already; with answers
+      // from a file the message continues on this line.
       if (patient && !interrupted()) std::fputs("\n", out_);
       return tl::unexpected(line.error());
     }

@@ -22,12 +22,12 @@ class TerminalOperator final : public Operator {
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
   bool interrupted() const override;
-  /// The next message has a line of its own.
+  /// Starts a new line for the next message.
   void end_progress() { progress_.reset(); }
-  /// What a script answers is not asked any more.
+  /// Questions that the script answers are no longer asked.
   void take(ScriptedAnswers answers) { script_ = std::move(answers); }
   std::optional<OrWhy> scripted(const Question& question) override;
-  /// Three tries, where standard input is no terminal.
+  /// Allows three tries if standard input is not a terminal.
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
  private:

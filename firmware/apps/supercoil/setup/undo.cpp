@@ -19,7 +19,7 @@ std::string change_text(const Write& write) {
   return write.step + " of channel " + std::to_string(write.channel);
 }
 
-/// The last write, where it is this channel's.
+/// The last write, if it is this channel's.
 Result<Write> own_write(const SetupOptions& options, const SetupRecord& record) {
   const auto last = record.last_write();
   if (!last) {
@@ -36,7 +36,7 @@ Result<Write> own_write(const SetupOptions& options, const SetupRecord& record) 
                  other + " --undo takes that back first");
 }
 
-/// Of the steps from this one on that are done. The channel is as the commands would call it.
+/// What the completed steps from this one on left there. The channel is numbered as in commands.
 std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecord& record,
                                    const std::string& first) {
   int channel = options.channel;

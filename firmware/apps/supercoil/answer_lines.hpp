@@ -1,4 +1,4 @@
-// What a person or a script answers, line by line, while something else must go on.
+// A person's or a script's answers, line by line, without blocking other work.
 #pragma once
 
 #include <chrono>
@@ -7,14 +7,14 @@
 
 namespace supercoil::operating {
 
-/// Of one thread, and of one file. Reads what is there and never waits longer than asked.
+/// Used by one thread, for one file. Reads what is there and never waits longer than asked.
 class AnswerLines {
  public:
   explicit AnswerLines(int file) : file_(file) {}
 
-  /// The next line, without its end; empty: none came within that time, or none will.
+  /// The next line, without its end; empty: none came within that time, or none will come.
   std::optional<std::string> wait(std::chrono::milliseconds longest);
-  /// Nobody will answer any more.
+  /// Whether no more answers can come.
   bool ended() const { return ended_ && read_.empty(); }
 
  private:

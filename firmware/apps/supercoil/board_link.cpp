@@ -6,7 +6,7 @@ namespace supercoil::operating {
 
 namespace {
 
-/// As in a line; empty: the channel is no agonist of a joint.
+/// The antagonist's channel, as in a line; empty: the channel is not the agonist of a joint.
 Result<std::string> antagonist_of(BoardLink& board, const std::string& channel) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
@@ -24,7 +24,7 @@ std::string fault_text(const std::string& fault) {
 BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   auto answer = board.ask(channel + " arm");
   if (!answer || *answer != "ok") return answer;
-  // A probe lasts 50 ms at most; the rest is the machine's.
+  // A probe lasts 50 ms at most; the rest is slack for the machine.
   constexpr int tries = 40;
   for (int i = 0; i < tries; ++i) {
     const auto now = board.status(channel);
@@ -58,7 +58,7 @@ BoardLink::Answer interruption(BoardLink& board, const std::string& channel) {
 
 Result<std::vector<ChannelEnding>> endings(BoardLink& board, const std::string& channel) {
   auto ending = board.ending(channel);
-  // What is known of the board's state may be a moment older than its refusal.
+  // The known state of the board may be slightly older than its refusal.
   for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
     board.wait(std::chrono::milliseconds(100));
     ending = board.ending(channel);

@@ -1,4 +1,4 @@
-// What commands are sent to: the supercoild of this board, or nodes on a CAN bus.
+// Where commands are sent: the supercoild of this board, or nodes on a CAN bus.
 #pragma once
 
 #include <chrono>
@@ -32,45 +32,45 @@ class BoardLink {
 
   /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: no answer.
   virtual Answer ask(const std::string& line) = 0;
-  /// " --can can0" or " --socket PATH", as a command to it takes it; empty: neither is needed.
+  /// " --can can0" or " --socket PATH", the option that addresses it; empty: none is needed.
   virtual std::string words() const { return ""; }
-  /// What is known of the board, in lines.
+  /// The known state of the board, in lines.
   virtual Answer state() = 0;
-  /// The same for programs, as one JSON object.
+  /// The same as one JSON object.
   virtual Answer state_json() = 0;
-  /// What the board says of a channel now. channel: as in a line.
+  /// A channel's present status. channel: as in a line.
   struct Status {
     std::string state;
     std::string fault;     ///< "none", or its first cause
     bool probing = false;  ///< its heater is being measured
   };
   virtual Result<Status> status(const std::string& channel) = 0;
-  /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
+  /// How identify or calibrate ended: the names of a ModeResult and of IdentifyNotes.
   struct Ending {
     std::string result;
     std::string notes;  ///< "theta2_uncertain,poor_fit"; empty: none
   };
   /// channel: as in a line.
   virtual Result<Ending> ending(const std::string& channel) = 0;
-  /// What a comparison with a meter found; without its date. channel: as in a line.
+  /// The result of a comparison with a meter, without its date. channel: as in a line.
   virtual Result<board::SenseComparison> senses(const std::string& channel) = 0;
-  /// What the board goes by, in the order of known_quantities. channel: as in a line.
+  /// The muscle that the board uses, in the order of known_quantities. channel: as in a line.
   virtual Result<KnownMuscle> muscle(const std::string& channel) = 0;
   /// One value of a controller; NaN: it has none. channel: as in a line.
   virtual Result<double> tuning(const std::string& channel, int place, std::size_t tunable,
                                 TuningSet set) = 0;
-  /// Prepares one value, or all of a set: then name is "all" and value the set's. As ask().
+  /// Prepares one value, or a set: then name is "all" and value the set's. Answers as ask().
   virtual Answer prepare(const std::string& channel, int place, const std::string& name,
                          const std::string& value) = 0;
-  /// Position less reference model, the newest; NaN while no position is followed.
+  /// The newest position less reference model; NaN while no position is followed.
   virtual Result<double> error_m(const std::string& channel) = 0;
-  /// From rest, the newest; NaN: the sensor tells nothing.
+  /// The newest position, from rest; NaN: the sensor has no value.
   virtual Result<double> position_m(const std::string& channel) = 0;
-  /// Of identify or calibrate, 0 to 1, the newest; NaN while it is not known.
+  /// The newest progress of identify or calibrate, 0 to 1; NaN while it is not known.
   virtual Result<double> progress(const std::string& channel) = 0;
   /// Lets the board go on.
   virtual void wait(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
-  /// From whenever; grows as the board's time does.
+  /// From an arbitrary origin; runs with the board's time.
   virtual double time_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -98,7 +98,7 @@ class LocalBoardLink final : public BoardLink {
   Result<double> progress(const std::string& channel) override;
 
  private:
-  /// The line of a channel in the answer for all.
+  /// A channel's line from the answer for all channels.
   Answer line_of(const std::string& request, const std::string& channel);
 
   BoardSocket socket_;
@@ -130,7 +130,7 @@ class CanBoardLink final : public BoardLink {
   Result<double> progress(const std::string& channel) override;
 
  private:
-  /// What a node tells by itself, the newest.
+  /// The newest values that a node sends by itself.
   struct Told {
     std::unique_ptr<hal::CanBus> bus;
     double error_m = NAN;
@@ -139,9 +139,9 @@ class CanBoardLink final : public BoardLink {
   };
   Result<Told*> listen(const std::string& channel);
   Result<Commander*> commander(std::uint8_t node);
-  /// The kinds of the controllers that are at work, by their nodes; without those that do not tell.
+  /// The kinds of the active controllers by node; omits nodes that do not report them.
   std::map<int, std::string> laws(const FrameHistory& frame_history);
-  /// What is told of what is heard meanwhile.
+  /// Listens for a while and returns tell() of the frames received.
   Answer heard(const std::function<std::string(const FrameHistory&)>& tell);
 
   std::string bus_;
@@ -149,18 +149,18 @@ class CanBoardLink final : public BoardLink {
   std::map<std::uint8_t, Told> told_;
 };
 
-/// Arms a channel and waits until its heater was measured: a command to heat is refused before.
+/// Arms a channel and waits until its heater was measured: before, commands to heat are refused.
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
 /// "fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1
 /// reset --can can0". Empty: it has none, or does not answer.
 std::string present_fault(BoardLink& board, const std::string& channel);
-/// An error with that behind it.
+/// The error with that appended.
 std::string with_present_fault(const std::string& error, BoardLink& board,
                                const std::string& channel);
 
-/// What interrupted identify or calibrate, as long as nothing came after it: "fault heater_open;
+/// What interrupted identify or calibrate, if nothing came after it: "fault heater_open;
 /// docs/faults/heater_open.md", "disarmed" or "by another command". The error: no answer.
 BoardLink::Answer interruption(BoardLink& board, const std::string& channel);
 
@@ -168,8 +168,8 @@ struct ChannelEnding {
   std::string channel;  ///< as in a line
   BoardLink::Ending ending;
 };
-/// How identify or calibrate of a channel ended, once the board tells it. Both go on with the
-/// antagonist where the channel is the agonist of a joint: that is then the second one.
+/// How identify or calibrate of a channel ended, once the board reports it. For the agonist of a
+/// joint both go on with the antagonist, which is then the second one.
 Result<std::vector<ChannelEnding>> endings(BoardLink& board, const std::string& channel);
 
 /// can: a bus by its name; empty: the supercoild that listens at this socket.

@@ -17,7 +17,7 @@ namespace {
 constexpr time_t max_answer_s = 2;
 constexpr std::size_t max_answer = 8192;
 
-/// A signal, as Ctrl-C is, ends a call that waits with a limit of time, SA_RESTART or not.
+/// A signal such as Ctrl-C interrupts a call that has a timeout, SA_RESTART or not.
 template <class Call>
 ssize_t uninterrupted(const Call& call) {
   for (;;) {
@@ -57,7 +57,7 @@ BoardSocket::~BoardSocket() {
 Result<std::string> BoardSocket::ask(const std::string& line) const {
   const auto sent =
       uninterrupted([&] { return ::send(file_, line.data(), line.size(), MSG_NOSIGNAL); });
-  // Who was turned away is told why before the connection ends: that end shows first.
+  // A rejected client is told why before the connection closes, but send() fails first.
   if (sent < 0 && errno != EPIPE) return failure("supercoild does not listen: " + reason());
   std::array<char, max_answer> answer{};
   const auto receive = [&] {

@@ -8,10 +8,10 @@
 
 namespace supercoil::operating {
 
-/// Where supercoild listens, if nothing else is said.
+/// Where supercoild listens by default.
 inline constexpr const char* default_socket = "/run/supercoil/commands";
 
-/// " --socket PATH", as a command takes it; empty: it is that one.
+/// " --socket PATH", as a command takes it; empty: path is the default.
 inline std::string socket_words(const std::string& path) {
   return path == default_socket ? "" : " --socket " + path;
 }
@@ -26,7 +26,7 @@ class BoardSocket {
   BoardSocket& operator=(const BoardSocket&) = delete;
   ~BoardSocket();
 
-  /// One line there, one answer back, within 2 s.
+  /// Sends one line and receives one answer, within 2 s.
   Result<std::string> ask(const std::string& line) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view board_node = "Board";
 
-/// The text with the first `old` in it replaced; unchanged when there is none.
+/// The text with its first `old` replaced; unchanged if it has none.
 std::string with(std::string_view text, std::string_view old, const std::string& replacement) {
   const std::size_t at = text.find(old);
   std::string result(text);
@@ -20,7 +20,7 @@ std::string named(std::string_view name, int node) {
   return std::string(name) + "_" + std::to_string(node);
 }
 
-/// Where a message's identifier stands in a line of the DBC's sections; npos: in none.
+/// The position of a message's identifier in a line of the DBC's sections; npos: none.
 std::size_t identifier_in(std::string_view line) {
   static constexpr std::array<std::string_view, 5> before{"BO_ ", "CM_ BO_ ", "CM_ SG_ ", "VAL_ ",
                                                           "SIG_VALTYPE_ "};

@@ -92,7 +92,7 @@ BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
   return answer_text(heard->refusal, out ? (*node)->nearest() : NAN);
 }
 
-/// Without waiting.
+/// Does not wait.
 Result<CanBoardLink::Told*> CanBoardLink::listen(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   Told& told = told_[node];
@@ -191,7 +191,7 @@ Result<BoardLink::Ending> CanBoardLink::ending(const std::string& channel) {
   if (!bus) return tl::unexpected(bus.error());
   std::optional<std::string> result;
   std::optional<std::string> notes;
-  unsigned friction = 0;  // has no bit left in the estimates
+  unsigned friction = 0;  // the estimates have no bit left for it
   for (int i = 0; i < 100 && !(result && notes); ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
       const auto heard = can::decode(frame);

@@ -17,7 +17,7 @@ using can::SignalInfo;
 /// Written in pieces of about this size.
 constexpr std::size_t piece_bytes = 1U << 16U;
 
-/// With its name if it has one; empty: not available.
+/// A named value as its name; empty: not available.
 std::string value_text(const SignalInfo& signal, double value) {
   const std::string_view name = can::value_name(signal, value);
   if (!name.empty()) return std::string(name);
@@ -63,7 +63,7 @@ std::size_t add_row(std::string& csv, const Decoded& decoded, hal::Time time) {
 }  // namespace
 
 bool is_wanted(const CanSelection& selection, const Decoded& decoded, double time_s) {
-  // Logs are in microseconds: a time as it is printed there is that line's.
+  // Logs have microseconds: a time as printed there must select that line.
   constexpr double rounding_s = 0.5e-6;
   return time_s >= selection.from_s - rounding_s && time_s <= selection.to_s + rounding_s &&
          (selection.node == 0 || selection.node == decoded.node) &&

@@ -12,9 +12,9 @@
 
 namespace supercoil::operating {
 
-/// What of a log is wanted.
+/// Selects a part of a log.
 struct CanSelection {
-  double from_s;        ///< of the log's own times
+  double from_s;        ///< in the log's own time
   double to_s;          ///< included
   int node = 0;         ///< 0: all
   std::string message;  ///< empty: all
@@ -22,10 +22,10 @@ struct CanSelection {
 
 bool is_wanted(const CanSelection& selection, const can::Decoded& decoded, double time_s);
 
-/// Of all messages: a row for each value, "time_s,node,message,signal,value,unit"; what is not
-/// available has none. Of one message: a row a frame, a column a signal; what is not available is
-/// empty. Values with names are written by name. The message must be one of the protocol's. Returns
-/// how many rows it wrote; the error is the writer's.
+/// For all messages: a row for each value, "time_s,node,message,signal,value,unit"; a value that is
+/// not available has no row. For one message: a row a frame, a column a signal; empty: not
+/// available. Named values are written as names. The message must be one of the protocol's. Returns
+/// the number of rows written; the error is the writer's.
 Result<std::size_t> can_to_csv(const std::vector<hal::CanFrame>& frames,
                                const CanSelection& selection, const recorder::Sink& write);
 

@@ -1,4 +1,4 @@
-// supercoil log, of a candump log.
+// supercoil log, for a candump log.
 #include <cstdio>
 #include <fstream>
 

@@ -20,8 +20,8 @@ TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer)
   return failure(what + ": " + told_answer(what, *answer));
 }
 
-/// Of a value that was refused without a nearest one: a kind that does not have it, as far as the
-/// board tells that. Empty: it is something else.
+/// Why a value was refused without a nearest one: the kind does not have it, as far as the board
+/// tells. Empty: another reason.
 std::string why_not(BoardLink& board, const std::string& channel, int place,
                     const TuningChange& change) {
   const AskTuning ask = ask_tuning(board, channel);

@@ -19,11 +19,10 @@ struct TuningChange {
 /// The error: what was refused, and why.
 using TuningDone = Result<void>;
 
-/// from: the set that is changed, of tuning_set_names. changes: in the order of
-/// control::tunables().
+/// from: the set to change, one of tuning_set_names. changes: in the order of control::tunables().
 TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int place,
                           const std::string& from, const std::vector<TuningChange>& changes);
-/// A line that takes over, stores or forgets: "1 tune 0", "1 store tuning", "1 clear tuning".
+/// Sends a line that takes over, stores or forgets: "1 tune 0", "1 store tuning", "1 clear tuning".
 TuningDone ask_for_tuning(BoardLink& board, const std::string& line);
 
 }  // namespace supercoil::operating

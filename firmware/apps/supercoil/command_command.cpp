@@ -1,4 +1,4 @@
-// supercoil command: one command to a board, once or again and again.
+// supercoil command: sends one command to a board, once or repeatedly.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -32,12 +32,12 @@ using Clock = std::chrono::steady_clock;
 constexpr int digits = 9;  // of a position in metres: nanometres
 constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
-/// Otherwise the line was wrong: no channel has heard of it.
+/// Otherwise the line was wrong and reached no channel.
 bool is_answer(std::string_view answer) {
   return answer == "ok" || answer.starts_with("refused") || answer.starts_with("fault");
 }
 
-/// A board's answer as an exit status; anything but "ok" is also said.
+/// A board's answer as an exit status; prints anything but "ok".
 int judged(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
   return fail(is_answer(answer) ? exit_failed : exit_wrong_input,
@@ -51,8 +51,8 @@ std::optional<double> number_of(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Of the nearest position that would be obeyed, where degrees were asked for: rounded towards 0,
-/// so that it is obeyed.
+/// The nearest position that would be obeyed, for a request in degrees: rounded towards 0, so that
+/// it is obeyed.
 std::string in_degrees(const CommandOptions& options, double position_m) {
   constexpr double per_deg = 1e4;
   const double angle_deg = deg_per_rad * options.joint.angle_rad(position_m);
@@ -65,8 +65,8 @@ std::string with_degrees(const CommandOptions& options, const std::string& answe
   return answer + " (" + in_degrees(options, reply->nearest) + ")";
 }
 
-/// Of a value that is out of range: "; -0.025 to 0.025 are in range". Empty: the board does not
-/// tell.
+/// The range, after an out-of-range value: "; -0.025 to 0.025 are in range". Empty: the board does
+/// not tell.
 std::string range_of_refused(BoardLink& board, const CommandOptions& options,
                              const std::string& answer) {
   if (options.words.size() != 3 || !refuses(answer, Refusal::out_of_range)) return "";
@@ -89,7 +89,7 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
          " are in range";
 }
 
-/// One command's end, as text or as JSON on standard output.
+/// Reports a command's result, as text or as JSON on standard output.
 int concluded(const CommandOptions& options, const std::string& line,
               const BoardLink::Answer& answer, const std::string& range = "") {
   if (options.json) {
@@ -103,11 +103,11 @@ int concluded(const CommandOptions& options, const std::string& line,
                 : fail(exit_failed, answer.error().text());
 }
 
-/// A command that is held is refused, as its channel may not heat, or not any more: by which fault.
+/// A held command was refused: its channel may not heat, or no longer may. Tells by which fault.
 int stopped(BoardLink& board, const CommandOptions& options, const std::string& line,
             const std::string& answer) {
   std::string fault = present_fault(board, options.words[0]);
-  // What is known of the board's state may be a moment older than its refusal.
+  // The known state of the board may be slightly older than its refusal.
   for (int i = 0; fault.empty() && i < 5; ++i) {
     board.wait(std::chrono::milliseconds(100));
     fault = present_fault(board, options.words[0]);
@@ -138,7 +138,7 @@ struct Value {
   bool in_degrees = false;  ///< else in the unit of its command
 };
 
-/// Of "0.02", "20deg" or "20°".
+/// Parses "0.02", "20deg" or "20°".
 std::optional<Value> value_of(std::string_view text) {
   bool in_degrees = false;
   for (const std::string_view unit : {"deg", "°"}) {
@@ -151,7 +151,7 @@ std::optional<Value> value_of(std::string_view text) {
   return number ? std::optional(Value{*number, in_degrees}) : std::nullopt;
 }
 
-/// Of a command; degrees are those of a position.
+/// The value of a command; only a position may be in degrees.
 std::optional<Value> value_of(const std::vector<std::string>& words) {
   if (words.size() != 3) return std::nullopt;
   const auto value = value_of(words[2]);
@@ -162,7 +162,7 @@ bool is_angle(const CommandOptions& options) {
   return value_of(options.words).value_or(Value{}).in_degrees;
 }
 
-/// As the board takes it: channel and verb as they are; the value on its sine, if there is one, and
+/// The line for the board: channel and verb unchanged; the value on the sine, if there is one, and
 /// in metres.
 std::string line_at(const CommandOptions& options, double time_s) {
   const bool has_sine = options.sine_period_s > 0.0;
@@ -176,7 +176,7 @@ std::string line_at(const CommandOptions& options, double time_s) {
   return joined({options.words[0], options.words[1], number_text(value, digits)});
 }
 
-/// What was asked wrongly, or of nobody; as JSON too where that is wanted.
+/// Reports a wrong request, or one without an answer; as JSON too if wanted.
 int refused(const CommandOptions& options, int status, const std::string& why) {
   if (options.json) {
     const nlohmann::ordered_json told{{"command", joined(options.words)}, {"error", why}};
@@ -191,13 +191,13 @@ bool has_result(const CommandOptions& options) {
   return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
 }
 
-/// Given once they would end as the fault command_timeout.
+/// Sent only once, they would end with the fault command_timeout, so they are held.
 double held_s(const CommandOptions& options) {
   const bool until_it_ends = options.words.size() == 2 && has_result(options);
   return options.hold_s == 0.0 && until_it_ends ? INFINITY : options.hold_s;
 }
 
-/// One channel's, as text or as JSON. own: how this program ended it; empty: it did not.
+/// Reports one channel's end, as text or JSON. own: how this program ended it; empty: it did not.
 int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEnding& of,
                 const std::string& own) {
   const auto& [result, notes] = of.ending;
@@ -219,7 +219,7 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
   return exit_done;
 }
 
-/// A mode ended by itself, or was ended: if it has a result, which. own: as in tell_ending().
+/// Reports the result of an ended mode, if it has one. own: as in tell_ending().
 int ended(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
   if (!has_result(options)) return exit_done;
   const auto all = endings(board, options.words[0]);
@@ -230,18 +230,18 @@ int ended(BoardLink& board, const CommandOptions& options, const std::string& ow
   return status;
 }
 
-/// Of a mode that ends by itself what the board says, otherwise of the time.
+/// Progress: the board's for a mode that ends by itself, otherwise that of the time.
 double done(BoardLink& board, const CommandOptions& options, double time_s) {
   if (has_result(options)) return board.progress(options.words[0]).value_or(NAN);
   return std::isfinite(options.hold_s) ? time_s / options.hold_s : NAN;
 }
 
-/// Until its time is over or it is interrupted; then the muscle rests.
+/// Holds a command until its time is over or it is interrupted; then the muscle rests.
 int hold(BoardLink& board, const CommandOptions& options) {
   watch_for_interrupts();
   const bool renews_itself = options.words.size() == 3;
   Progress progress(joined(options.words), false);
-  // The first time takes a moment, in which a command to heat would expire.
+  // The first call takes a moment, in which a command to heat would expire.
   if (progress.shows()) done(board, options, 0.0);
   const auto begin = Clock::now();
   auto next = begin;
@@ -278,8 +278,8 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
-/// Of a position in degrees; its channel must be in a joint. Returns an exit status where it is
-/// not.
+/// Takes the joint for a position in degrees. Returns an exit status: the channel must be in a
+/// joint.
 int take_joint(BoardLink& board, CommandOptions& options) {
   if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
@@ -309,9 +309,9 @@ std::string sine_problem(const CommandOptions& options) {
   return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
 }
 
-/// A controller or an estimator by its kind becomes its place. A number is the board's to refuse,
-/// but for that of `tune`, whose nearest would be the wire's. Returns an exit status where it is
-/// none.
+/// Replaces the kind of a controller or an estimator by its place. The board refuses wrong numbers
+/// itself, except for `tune`, where its nearest value would be that of the wire. Returns an exit
+/// status.
 int take_place(BoardLink& board, CommandOptions& options) {
   auto& words = options.words;
   if (words.size() != 3) return exit_done;
@@ -319,7 +319,7 @@ int take_place(BoardLink& board, CommandOptions& options) {
   const bool chooses_controller = words[1] == name(Verb::controller);
   const bool chooses = chooses_controller || words[1] == name(Verb::estimator);
   const auto channel = number_of(words[0]);
-  // A wrong channel is told by whoever reads the line.
+  // Whoever parses the line reports a wrong channel.
   if (!channel || !(*channel >= 1.0 && *channel <= can::max_nodes)) return exit_done;
   if (!tunes && (!chooses || number_of(words[2]))) return exit_done;
   const AskTuning ask = ask_tuning(board, words[0]);

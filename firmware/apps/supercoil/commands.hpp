@@ -22,7 +22,7 @@ namespace supercoil::operating {
 int fail(int status, const std::string& message);
 /// {"error": message} on standard output, for programs that asked for JSON.
 void tell_error(const std::string& message);
-/// As fail(), and for programs too.
+/// Like fail(), and also as JSON if wanted.
 int refuse(bool json, int status, const std::string& message);
 
 struct LogOptions {
@@ -33,19 +33,19 @@ struct LogOptions {
   int channel = 0;  ///< from 1; 0: all
   bool damaged = false;
   bool summary = false;
-  bool json = false;    ///< the summary, for programs
-  bool mcap = false;    ///< in place of CSV
+  bool json = false;    ///< the summary as JSON
+  bool mcap = false;    ///< instead of CSV
   int node = 0;         ///< of a CAN log, 1 to 63; 0: all
   std::string message;  ///< of a CAN log; empty: all
 };
-/// A flight recording or a CAN log, whichever the file is.
+/// Reads a flight recording or a CAN log, whichever the file is.
 int log_command(const LogOptions& options);
 bool is_can_log(const std::string& path);
 int can_log_command(const LogOptions& options);
-/// Writes it all to the sink, and says how much there was of whatever it counts.
+/// Writes everything to the sink, and returns the number of items that it counts.
 using Produce = std::function<Result<std::size_t>(const recorder::Sink&)>;
-/// Into a file, or with an empty path to standard output. Where there was nothing no file is left,
-/// and that is said.
+/// Writes to a file, or with an empty path to standard output. If there is nothing to write, it
+/// leaves no file and says so.
 int write_output(const std::string& path, const std::string& nothing, const Produce& produce);
 
 struct CommandOptions {
@@ -65,8 +65,8 @@ struct PlayOptions {
   std::string can;  ///< a bus; empty: the board's own socket
   std::string socket = default_socket;
   int node = 1;           ///< of columns without a number
-  double settle_s = 3.0;  ///< at the first knot, before the start
-  bool hold = false;      ///< the last knot, until Ctrl-C
+  double settle_s = 3.0;  ///< time at the first knot, before the start
+  bool hold = false;      ///< hold the last knot, until Ctrl-C
   bool json = false;
 };
 int play_command(const PlayOptions& options);
@@ -87,7 +87,7 @@ struct TuneOptions {
   std::string controller = "0";          ///< its place or kind
   std::optional<std::string> estimator;  ///< its place or kind: that is tuned instead
   std::vector<std::string> assignments;  ///< NAME=VALUE
-  std::string from = "in_use";           ///< the set that is changed
+  std::string from = "in_use";           ///< the set to change
   bool only_prepare = false;
   bool store = false;
   bool clear = false;
@@ -98,13 +98,13 @@ int tune_command(const TuneOptions& options);
 struct DoctorOptions {
   std::string config = "/etc/supercoil/board.toml";
   std::string run_folder = "/run/supercoil";
-  int priority = 80;  ///< that supercoild is given
-  int cpu = -1;       ///< that supercoild is given; negative: any
-  std::string can;    ///< an interface to look at, e.g. can0; empty: that of [can]
+  int priority = 80;  ///< supercoild's
+  int cpu = -1;       ///< supercoild's; negative: any
+  std::string can;    ///< interface to check, e.g. can0; empty: that of [can]
   bool json = false;
   bool compare_senses = false;  ///< then can is a bus to command over; empty: the socket
   int channel = 1;
-  double power_W = 0.0;  ///< of the comparison; 0: what is safe by the configuration
+  double power_W = 0.0;  ///< for the comparison; 0: what is safe by the configuration
   std::string socket = default_socket;
 };
 /// Leads a person with a meter through a comparison of a running board's senses.
@@ -117,9 +117,9 @@ struct MonitorOptions {
   int port = 8080;                   ///< 0: a free one
   bool read_only = false;
   bool text = false;        ///< on the terminal; no page
-  double keep_s = 3600.0;   ///< how much a page that is opened later still sees
-  double bit_rate = 500e3;  ///< of the bus, for its load
-  std::string setup;        ///< a board's file, through whose setup the page leads; empty: none
+  double keep_s = 3600.0;   ///< how far back a page that is opened later can see
+  double bit_rate = 500e3;  ///< of the bus, to compute its load
+  std::string setup;        ///< board's file for setup on the page; empty: none
   int channel = 1;          ///< of that file, from 1
 };
 int monitor_command(const MonitorOptions& options);

@@ -1,4 +1,4 @@
-// supercoil doctor --compare-senses: the comparison of a running board's senses with a meter.
+// supercoil doctor --compare-senses: compares a running board's senses with a meter.
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Of the file's first channel: over CAN it is a node.
+/// Address of the file's first channel: over CAN it is a node.
 int first_address(const DoctorOptions& options, const config::BoardConfig& config) {
   return options.can.empty() || !config.can ? 1 : config.can->first_node;
 }
@@ -28,7 +28,7 @@ std::size_t channel_of(const DoctorOptions& options, const config::BoardConfig& 
   return index >= 0 && index < known ? static_cast<std::size_t>(index) + 1 : 0;
 }
 
-/// What the power is safe by is the file's. Empty: the board runs with it.
+/// The safe power follows from the file, so the board must run with it. Empty: it does.
 std::string other_board(BoardLink& board, const DoctorOptions& options,
                         const config::BoardConfig& config, std::size_t place) {
   const auto others =

@@ -1,4 +1,4 @@
-// supercoil docs: the documentation's site, for a browser of this machine.
+// supercoil docs: serves the documentation to a browser on this machine.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -32,18 +32,18 @@ constexpr int not_allowed = 405;
 constexpr int not_found = 404;
 constexpr int forbidden = 403;
 
-/// The file below folder that a request's path names, decoded already: "/docs/can.html", or of a
-/// folder its index.html. None where there is no such file, or where it lies outside of folder.
+/// The file below folder for a request's path, already decoded: "/docs/can.html", or a folder's
+/// index.html. None if there is no such file, or if it lies outside folder.
 std::optional<std::filesystem::path> find_site_file(const std::filesystem::path& folder,
                                                     std::string_view path) {
-  // The operating system would take a path with a NUL for the part before it.
+  // The operating system would cut a path at a NUL.
   if (path.find('\0') != std::string_view::npos) return std::nullopt;
   std::error_code error;
   const auto site = std::filesystem::canonical(folder, error);
   if (error) return std::nullopt;
   auto wanted = site / std::filesystem::path(path).relative_path();
   if (std::filesystem::is_directory(wanted, error)) wanted /= "index.html";
-  // Compared after ".." and links are followed.
+  // Compared after ".." and links are resolved.
   auto found = std::filesystem::canonical(wanted, error);
   if (error || !std::filesystem::is_regular_file(found, error)) return std::nullopt;
   const auto ends = std::mismatch(site.begin(), site.end(), found.begin(), found.end());
@@ -51,7 +51,7 @@ std::optional<std::filesystem::path> find_site_file(const std::filesystem::path&
   return found;
 }
 
-/// As a provider's content, which the library does not compress: Brotli needs seconds for a script.
+/// From a provider, as the library does not compress that: Brotli needs seconds for a script.
 void answer_with(httplib::Response& response, const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   auto bytes = std::make_shared<const std::string>(std::istreambuf_iterator<char>(file),
@@ -83,7 +83,7 @@ void serve_site(httplib::Server& server, const std::filesystem::path& folder,
         response.status = forbidden;
         return Handled::Handled;
       });
-  // It answers HEAD as well.
+  // Answers HEAD as well.
   server.Get(".*", [folder](const httplib::Request& request, httplib::Response& response) {
     const auto file = find_site_file(folder, request.path);
     if (file) return answer_with(response, *file);
@@ -97,7 +97,7 @@ void open_browser(std::string address) {
   std::array<char*, 3> arguments{program.data(), address.data(), nullptr};
   posix_spawnattr_t attributes{};
   posix_spawnattr_init(&attributes);
-  // This program ignores SIGPIPE, and what it starts would too.
+  // This program ignores SIGPIPE; a program that it starts would inherit that.
   sigset_t usual{};
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);

@@ -11,14 +11,14 @@ namespace supercoil::operating {
 
 namespace {
 
-/// Nobody has written the board's file yet. One that is asked for by name must be there.
+/// Whether the board's file does not exist yet. A file that is named must exist.
 bool unconfigured(const DoctorOptions& options) {
   std::error_code error;
   return options.config == DoctorOptions().config &&
          !std::filesystem::exists(options.config, error) && !error;
 }
 
-/// Each finding is printed as it comes: a device that hangs is the one after the last line.
+/// Prints each finding as it comes: a device that hangs is the one after the last line.
 hal::FindingSink sink_of(doctor::Report& report, bool json) {
   return [&report, json](const hal::Finding& finding) {
     report.findings.push_back(finding);

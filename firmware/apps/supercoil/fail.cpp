@@ -1,4 +1,4 @@
-// How the commands of supercoil say that something is wrong.
+// How the commands of supercoil report errors.
 #include <cstdio>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What a flight recording tells of a fault, to be told in words or to programs.
+// A fault's story from a flight recording, for text and JSON.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace supercoil::operating {
 
-/// Ticks that are further apart than one and a half periods have lost rows, or were left out.
+/// More than one and a half periods between ticks: rows were lost, or ticks left out.
 struct Gaps {
   std::int64_t count = 0;
   double max_s = 0.0;
   double max_from_s = 0.0;
 };
 
-/// Besides the one for which it was recorded.
+/// A fault besides the one for which the recording was made.
 struct OtherFault {
   double at_s;
   int channel;         ///< from 0
   std::uint8_t fault;  ///< 0: it was reset
 };
 
-/// What a channel did up to the fault, and the most there was in the whole recording.
+/// What a channel did up to the fault, and its maxima over the whole recording.
 struct ChannelStory {
   const Row* last_before = nullptr;
   const Row* hottest = nullptr;
@@ -34,13 +34,13 @@ struct ChannelStory {
 
   void add(const Row& row, double time_s);
   double mean_W() const { return sum_W / static_cast<double>(powers); }
-  /// The fullest first.
+  /// The largest first.
   std::vector<const Row*> ranked_margins() const;
 };
 
 Gaps gaps_of(const recorder::Recording& recording);
 std::vector<OtherFault> other_faults_of(const recorder::Recording& recording);
-/// By their numbers, from 0. They point into the recording.
+/// By channel, from 0. The stories point into the recording.
 std::map<int, ChannelStory> channels_of(const recorder::Recording& recording);
 
 }  // namespace supercoil::operating

@@ -11,7 +11,7 @@ namespace {
 using control::physical_ranges;
 using control::PhysicalParameters;
 
-/// Of theta, either way, by which its effect is measured.
+/// Relative step of theta, either way, by which its effect is measured.
 constexpr double step_ratio = 1e-4;
 
 }  // namespace

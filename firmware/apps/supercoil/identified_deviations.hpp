@@ -1,4 +1,4 @@
-// How sure identify is of each parameter, of the time constant and of the gain: for the terminal
+// How accurately identify knows each parameter, the time constant and the gain: for the terminal
 // and the page.
 #pragma once
 
@@ -20,24 +20,24 @@ inline constexpr std::size_t identified_gain = identified_time_constant + 1;
 using IdentifiedValues = std::array<double, identified_gain + 1>;
 IdentifiedValues identified_values(const control::PhysicalParameters& muscle);
 
-/// Standard, relative, of what identify finds; NaN: not known. Moving mass and force per kelvin are
-/// taken as configured.
+/// Relative standard deviations of what identify finds; NaN: not known. Moving mass and force per
+/// kelvin are taken as configured.
 struct IdentifiedDeviations {
   std::array<double, identified_parameters> parameters{};  ///< the first of physical_ranges
   double time_constant = NAN;
   double gain = NAN;  ///< of position over power, at rest
 };
-/// To first order from those of theta, as if these did not depend on each other. NaN of theta1
-/// alone: identify scaled it with theta3, and each parameter rests on what was believed; time
-/// constant and gain do not.
+/// To first order from the deviations of theta, as if these were independent. If only that of
+/// theta1 is NaN, identify scaled theta1 with theta3, and each parameter rests on what was
+/// believed; time constant and gain do not.
 IdentifiedDeviations identified_deviations(const control::PhysicalParameters& muscle,
                                            const std::array<double, 4>& theta_ratios);
 
-/// The physical parameters that a board goes by.
+/// The physical parameters that a board uses.
 control::PhysicalParameters told_parameters(const KnownMuscle& known);
 IdentifiedDeviations identified_deviations(const KnownMuscle& known);
 
-/// By the names that programs read: "stiffness_N_per_m_deviation_ratio", "gain_deviation_ratio".
+/// With the names in JSON: "stiffness_N_per_m_deviation_ratio", "gain_deviation_ratio".
 std::array<std::pair<std::string, double>, identified_gain + 1> named_deviations(
     const IdentifiedDeviations& deviations);
 

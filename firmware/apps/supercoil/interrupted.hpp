@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM, seen at the next look.
+// Ctrl-C and SIGTERM, as flags to poll.
 #pragma once
 
 #include <cerrno>
@@ -12,8 +12,8 @@ namespace supercoil::operating {
 inline volatile std::sig_atomic_t interrupted = 0;
 inline volatile std::sig_atomic_t terminal_echoes = 0;
 
-/// On a terminal what is said after Ctrl-C has a line of its own: ^C is echoed wherever the cursor
-/// is, behind a question or progress that is redrawn in place.
+/// On a terminal a message after Ctrl-C needs a line of its own: ^C is echoed at the cursor, behind
+/// a question or progress that is redrawn in place.
 inline void watch_for_interrupts() {
   terminal_echoes = isatty(STDERR_FILENO);
   const auto note = [](int signal) {
@@ -27,7 +27,7 @@ inline void watch_for_interrupts() {
   std::signal(SIGTERM, note);
 }
 
-/// What interrupted it, where something did.
+/// The name of what interrupted the program.
 inline const char* interrupter() {
   return interrupted == SIGTERM ? "SIGTERM" : "Ctrl-C";
 }

@@ -1,4 +1,4 @@
-// The supercoild of this board, by its socket.
+// The supercoild of this board, through its socket.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -100,7 +100,7 @@ Result<KnownMuscle> LocalBoardLink::muscle(const std::string& channel) {
   const auto line = line_of("muscle", channel);
   if (!line) return tl::unexpected(line.error());
   KnownMuscle known;
-  known.fill(NAN);  // what an older board does not tell
+  known.fill(NAN);  // for what an older board does not report
   std::istringstream words(line->substr(channel.size()));
   std::size_t told = 0;
   for (std::string word; told < known.size() && words >> word; ++told)

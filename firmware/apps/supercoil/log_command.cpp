@@ -63,7 +63,7 @@ int write_rows(const recorder::Recording& recording, const LogOptions& options) 
 
 /// Why these rows cannot be shown; empty when they can.
 std::string wrong_choice(const LogOptions& o, const recorder::Recording& recording) {
-  // Written so that NaN is wrong as well.
+  // Written so that NaN is rejected too.
   if (!(o.from_s <= o.to_s)) return "--from must not be later than --to";
   if (o.channel > recording.header.channels) {
     return "--channel " + std::to_string(o.channel) + ": the recording has channels 1 to " +

@@ -49,7 +49,7 @@ void add_log(CLI::App& app, LogOptions& options) {
     summary->excludes(of_csv);
 }
 
-/// An empty name, as of a variable that is not set, must not mean the board on which this runs.
+/// An empty name, e.g. from an unset variable, must not mean the board on which this runs.
 const CLI::Validator is_named(
     [](const std::string& name) {
       return std::string(name.empty() ? "a bus has a name: can0, or socketcand:PORT" : "");
@@ -293,7 +293,7 @@ void add_docs(CLI::App& app, DocsOptions& options) {
       ->capture_default_str();
 }
 
-/// Also where the options cannot be read.
+/// Works even if the options cannot be parsed.
 bool wants_json(int count, char** arguments) {
   return std::any_of(arguments, arguments + count,
                      [](const char* word) { return std::string_view(word) == "--json"; });
@@ -351,7 +351,7 @@ int run_program(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  // A reader that closes the pipe early is an error of writing, with its message and status.
+  // A reader that closes the pipe early causes a write error, with its message and status.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);

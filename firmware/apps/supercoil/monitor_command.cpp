@@ -1,4 +1,4 @@
-// supercoil monitor: a bus or a log on a page.
+// supercoil monitor: shows a bus or a log on a page.
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -59,8 +59,8 @@ Result<Source> open_source(const MonitorOptions& options) {
   return source;
 }
 
-/// Connections to the page are not counted: a thousand of them must not take the descriptors
-/// that STOP's own port needs.
+/// Connections to the page are not limited: a thousand of them must not take the descriptors that
+/// STOP's own port needs.
 void allow_many_connections() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;

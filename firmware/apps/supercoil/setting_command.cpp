@@ -1,4 +1,4 @@
-// supercoil setting: what may be changed on a running board, until it starts again.
+// supercoil setting: values that may be changed on a running board until it starts again.
 #include <cmath>
 #include <cstdio>
 
@@ -44,7 +44,7 @@ void tell(const can_client::Master::Setting& heard, bool json) {
   }
 }
 
-/// Of a value that is out of range. nearest: that would have been obeyed; NaN: the node tells none.
+/// The range after an out-of-range value. nearest: would have been obeyed; NaN: not reported.
 std::string range_of_refused(const can_client::Master::Setting& heard, double value,
                              double nearest) {
   using telemetry::Message;
@@ -62,7 +62,7 @@ std::string range_of_refused(const can_client::Master::Setting& heard, double va
   return "; 0, for never, and " + allowed(telemetry::min_rate_Hz, max_Hz).substr(2) + as_far;
 }
 
-/// What was meant, also of another command.
+/// Suggests what was meant, also of another command.
 std::string no_setting(const SettingOptions& options) {
   const std::string& written = options.name;
   if (const auto renamed = config::renamed_to("setting", written); !renamed.empty())
@@ -90,7 +90,7 @@ int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   return fail(exit_failed, options.name + ": " + told_answer({heard->refusal, nearest}) + range);
 }
 
-/// Those that this node has: the board's own are its first node's.
+/// Prints the settings that this node has: the board's own belong to its first node.
 int all(Commander& node, bool json) {
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
     const auto heard = node.read(i);

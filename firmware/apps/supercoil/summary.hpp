@@ -1,4 +1,4 @@
-// What happened, in words or for programs.
+// A summary of what happened, as text or JSON.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace supercoil::operating {
 
-/// Lines for an operator: which fault, when and where, what followed, what each channel did and how
-/// near each detector of the channel with the fault was. The recording must have a row.
+/// Lines for an operator: which fault, when and where, what followed, what each channel did, and
+/// how near to tripping each detector of the faulted channel was. The recording must have a row.
 std::string summary(const recorder::Recording& recording);
 
 /// The same as an object: docs/json.md.

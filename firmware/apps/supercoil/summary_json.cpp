@@ -15,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// It grows when a key is renamed or means something else.
+/// Increases when a key is renamed or changes its meaning.
 constexpr int schema_version = 1;
 
-/// As many digits as a float has; what could not be measured is null, as JSON has no NaN.
+/// With as many digits as a float has; null: not measured, as JSON has no NaN.
 Json json_of(float value) {
   if (!std::isfinite(value)) return nullptr;
   std::array<char, 32> text{};

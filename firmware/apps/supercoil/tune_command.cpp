@@ -1,4 +1,4 @@
-// supercoil tune: values of controllers and estimators, read, changed and stored on a running
+// supercoil tune: reads, changes and stores values of controllers and estimators on a running
 // board.
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace {
 
 using control::Tunable;
 
-/// That nothing of this name can be tuned: what was meant, also of another command.
+/// The error for a name that cannot be tuned; suggests what was meant, also of another command.
 std::string not_tunable(const std::string& name, const std::string& value,
                         const std::vector<std::string>& known, const TuneOptions& options) {
   std::uint8_t setting = 0;
@@ -49,7 +49,7 @@ Result<std::vector<TuningChange>> parse(Tuned what, const TuneOptions& options) 
     if (!value) return tl::unexpected(value.error());
     all.push_back({tunable, *value});
   }
-  // What there is depends on the kind, and the poles on the model: as in tunables().
+  // The available values depend on the kind, and the poles on the model: as in tunables().
   std::ranges::stable_sort(all, {}, &TuningChange::tunable);
   return all;
 }

@@ -1,4 +1,4 @@
-// Which controller or estimator of a running board is meant: by its place or its kind.
+// Finds a controller or estimator of a running board by its place or its kind.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ AskTuning ask_tuning(BoardLink& board, const std::string& channel);
 /// "0 (mrac), 1 (pi)"
 std::string places_text(const std::vector<std::string>& kinds);
 
-/// What a word means among the kinds that are in use, by their places: "1", or "pi" where there is
-/// but one. The error says what there is, with the code invalid_argument.
+/// The place that a word means among the kinds in use: "1", or "pi" if there is only one. The error
+/// lists what there is, with the code invalid_argument.
 Result<std::size_t> find_place(Tuned what, std::string_view word,
                                const std::vector<std::string>& kinds);
 
-/// The same of a running board.
+/// The same for a running board.
 Result<std::size_t> find_place(Tuned what, std::string_view word, const AskTuning& ask);
 
-/// Of the command `tune`, as Tuner counts: its number, or the kind of a controller or an estimator.
+/// For `tune`, numbered as in Tuner: a number, or the kind of a controller or an estimator.
 Result<std::size_t> find_any_place(std::string_view word, const AskTuning& ask);
 
-/// A place that is not there is a wrong input; a board that does not answer is none.
+/// A place that does not exist is a wrong input; a board that does not answer is not.
 inline int exit_for(const Error& wrong_place) {
   return wrong_place.code == std::errc::invalid_argument ? exit_wrong_input : exit_failed;
 }

@@ -39,12 +39,12 @@ nlohmann::ordered_json as_json(Tuned what, const Tunable& tunable, double value)
   return tuning_text(what, tunable, value);
 }
 
-/// Not of what it cannot have: every value is four questions.
+/// Skips values that it cannot have: every value takes four questions.
 bool may_have(Tuned what, const Tunable& tunable) {
   return what == Tuned::controller ? tunable.controllers_have() : tunable.estimators_have();
 }
 
-/// Empty: there is none at this place.
+/// Empty: nothing is at this place.
 Result<TunedValues> read_place(Tuned what, std::size_t place, const AskTuning& ask) {
   TunedValues told;
   for (std::size_t i = 0; i < control::tunable_count; ++i) {

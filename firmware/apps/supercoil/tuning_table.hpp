@@ -25,38 +25,38 @@ constexpr std::string_view name(Tuned what) {
 constexpr Tuned tuned_at(int place) {
   return place < static_cast<int>(first_estimator_place) ? Tuned::controller : Tuned::estimator;
 }
-/// As Tuner counts. place: among its like.
+/// Numbered as in Tuner. place: among controllers, or among estimators.
 constexpr int place_of(Tuned what, std::size_t place) {
   return static_cast<int>(what == Tuned::controller ? place : first_estimator_place + place);
 }
 
-/// Of one tunable, in each set.
+/// Values of one tunable, in each set.
 using TunableValues = std::array<double, tuning_set_names.size()>;
-/// By place in control::tunables(); those that it has in some set.
+/// By place in control::tunables(); only those with a value in some set.
 using TunedValues = std::map<std::size_t, TunableValues>;
 
 /// By their places.
 struct TunedChannel {
   std::vector<TunedValues> controllers;
-  std::vector<TunedValues> estimators;  ///< empty: of a board that is older than their tuning
+  std::vector<TunedValues> estimators;  ///< empty: the board is too old to tune them
 };
 
-/// Asks the board for one value; place: as Tuner has it.
+/// Asks the board for one value; place: numbered as in Tuner.
 using AskTuning = std::function<Result<double>(int place, std::size_t tunable, TuningSet set)>;
 
 /// The error: no answer, or a board that cannot be tuned.
 Result<TunedChannel> read_tuning(const AskTuning& ask);
 /// The kinds in use, by their places. The error: no answer.
 Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask);
-/// The names of what the prepared set of a place has. place: as Tuner has it.
+/// Names of the values in a place's prepared set. place: numbered as in Tuner.
 Result<std::vector<std::string>> read_names(int place, const AskTuning& ask);
-/// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: their kinds in use only, by their
+/// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: only the kinds in use, by their
 /// places. The error: no answer.
 Result<nlohmann::ordered_json> read_kinds(const AskTuning& ask);
-/// The names of all that it may have.
+/// Names of all values that it may have.
 std::vector<std::string> tunable_names(Tuned what);
 
-/// By its name where it has one; "-": there is none.
+/// A named value as its name; "-": not available.
 std::string tuning_text(Tuned what, const control::Tunable& tunable, double value);
 /// A number or a name; the error says what is allowed.
 Result<double> tuning_value(Tuned what, const control::Tunable& tunable, const std::string& text);

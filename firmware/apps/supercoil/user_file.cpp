@@ -15,7 +15,7 @@ Result<OutputFile> OutputFile::open(const std::string& path, storage::Files& fil
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     return failure(path + ": is not a file");
   const std::string temporary = path + ".part";
-  static_cast<void>(files.unlink(temporary));  // of a run that was killed
+  static_cast<void>(files.unlink(temporary));  // left over from a killed run
   auto file = files.create(temporary);
   if (!file) return tl::unexpected(file.error());
   return OutputFile(path, std::move(*file), files);

@@ -1,4 +1,4 @@
-// A file that somebody names: read whole, and never half written.
+// Files that the user names: read whole, and never half written.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace supercoil::operating {
 
-/// Written as "PATH.part" and renamed when it is complete. Without commit() nothing remains of it,
-/// and a file that was there before stays as it was.
+/// Writes "PATH.part" and renames it when it is complete. Without commit() nothing of it remains,
+/// and a file that existed before is unchanged.
 class OutputFile {
  public:
   /// The error says why it cannot be written there. files must outlive it.
@@ -23,7 +23,7 @@ class OutputFile {
   ~OutputFile();
 
   Result<void> write(std::string_view part);
-  /// Gives it its name. Once; nothing can be written after it.
+  /// Gives the file its name. Call once; nothing can be written after it.
   Result<void> commit();
 
  private:
@@ -37,10 +37,10 @@ class OutputFile {
   bool kept_ = false;
 };
 
-/// At most 1 GiB. The error names the file, and says why not.
+/// Reads at most 1 GiB. The error names the file and the reason.
 Result<std::string> read_whole(const std::string& path);
 
-/// Writes a file whole, in place of one that may be there.
+/// Writes a whole file, replacing an existing one.
 Result<void> write_whole(const std::string& path, const std::string& text);
 
 }  // namespace supercoil::operating

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int digits = 3;
 
-/// NaN: the board tells none within a second. On a bus it comes with the next frame.
+/// NaN: the board reports none within a second. On a bus it comes with the next frame.
 double newest_position_m(BoardLink& board, const std::string& channel) {
   constexpr int tries = 20;
   double position_m = NAN;
@@ -22,7 +22,7 @@ double newest_position_m(BoardLink& board, const std::string& channel) {
   return position_m;
 }
 
-/// That a board keeps.
+/// The rule for the scale that a board applies.
 control::Violation scale_rule() {
   board::Learned learned;
   learned.calibration.position_scale = NAN;

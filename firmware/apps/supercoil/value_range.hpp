@@ -1,4 +1,4 @@
-// What a board would have taken in place of a value that it refused as out of range.
+// What a board would have accepted instead of a value that it refused as out of range.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace supercoil::operating {
 
-/// Of scale, controller and estimator: "; there are 0 (learned_ff), 1 (pi)". Empty: of another
+/// For scale, controller and estimator: "; there are 0 (learned_ff), 1 (pi)". Empty: for another
 /// command, or the board does not tell. channel: as in a line.
 std::string told_range(BoardLink& board, const std::string& channel, Verb verb);
 

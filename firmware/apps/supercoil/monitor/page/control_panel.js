@@ -1,9 +1,9 @@
-// The panel by which a muscle is commanded: state, arm, mode, set point.
+// The panel that commands a muscle: state, arm, mode, set point.
 
 import { element, show } from "./dom.js";
 import { LENGTH, measure_of, same_joint } from "./joint.js";
 
-// While the board has not told its limits: the stroke and the power of the paper's muscle.
+// Until the board has told its limits: the stroke and the power of the paper's muscle.
 const USUAL = { position: 0.02, power: 4.5 };
 const MODES = {
   position: { opcode: "position", button: "move", unit: LENGTH.unit, to_board: LENGTH.to_m, of_board: LENGTH.of_m, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
@@ -35,7 +35,7 @@ function modes_of_follower(leader) {
 }
 
 export class ControlPanel {
-  /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
+  /** may: {command: whether it may, why: why not}; log(text, kind): called for each command. */
   constructor(manual, may, log) {
     Object.assign(this, { manual, may, log, modes: MODES, mode: "position", values: {}, steps: {}, limits: new Map() });
     const id = (name) => `${name}-${manual.node}`;
@@ -80,7 +80,7 @@ export class ControlPanel {
     return element("button", { type: "button", class: opcode, disabled: !this.may.command, onclick: () => this.#send(opcode) }, text);
   }
 
-  /** Millimetres are no watts: each mode has a number of its own. */
+  /** Millimetres are not watts: each mode has its own number. */
   #choose(mode) {
     this.values[this.mode] = this.number.value;
     this.mode = mode;
@@ -97,7 +97,7 @@ export class ControlPanel {
     this.number.value = this.slider.value = this.values[mode] ?? "0";
   }
 
-  /** Number and slider end at the limit of the detector, where the board has told it. */
+  /** Number and slider end at the detector's limit, if the board has told it. */
   #scale() {
     const { of_board, steps: [finest], opcode, min } = this.modes[this.mode];
     const limit = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
@@ -106,7 +106,7 @@ export class ControlPanel {
     const reach = (unit) => whole(of_board(limit), unit), back = (unit) => -whole(-of_board(min(limit)), unit);
     Object.assign(this.number, { step, max: reach(finest) });
     this.min = min ? back(finest) : 0;
-    // Steps are counted from the minimum, and 0 must be among them: a slider's is a multiple of the step, and the number has none.
+    // Steps count from the minimum, and 0 must be one: the slider's minimum is a multiple of the step, and the number has none.
     if (min) {
       this.number.removeAttribute("min");
       Object.assign(this.slider, { min: back(step), step, max: reach(step) });
@@ -151,7 +151,7 @@ export class ControlPanel {
     this.answer.classList.toggle("refused", !obeyed);
   }
 
-  /** A muscle that turns out to be in a joint: its numbers are angles from now on. */
+  /** Once the muscle turns out to be in a joint, its numbers are angles. */
   #take_joint(joint) {
     if (!joint || same_joint(joint, this.joint)) return;
     this.joint = joint;
@@ -168,8 +168,8 @@ export class ControlPanel {
     this.#choose(this.mode);
   }
 
-  /** status: what the channel says of itself, in words, or null; joint, leader: of joint_of(), leader_of(). The sensible next step
-      stands out. */
+  /** status: the channel's own status, in words, or null; joint, leader: of joint_of(), leader_of(). Highlights the sensible next
+      step. */
   update(status, limits, joint, leader) {
     if (status) this.manual.observe(status);
     this.#take_joint(joint);
@@ -177,7 +177,7 @@ export class ControlPanel {
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");
-    // The same map is filled again and again.
+    // The same map is filled again each time.
     const told = limits.size !== this.limits_told;
     Object.assign(this, { limits, limits_told: limits.size });
     if (told && this.modes[this.mode].unit) this.#scale();

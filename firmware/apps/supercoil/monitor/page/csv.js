@@ -1,5 +1,5 @@
-// What was received, as CSV: a row for each frame, its signals in columns named MESSAGE.SIGNAL, times of the bus.
-// SI units, as the signals' names say; names for enumerations; empty: not available, or of another message.
+// The received data as CSV: a row for each frame, its signals in columns named MESSAGE.SIGNAL, times of the bus.
+// SI units, as the signals' names say; names for enumerations; empty: not available, or another message.
 
 const ROWS_A_PART = 20000;
 
@@ -16,7 +16,7 @@ function text(value, { values, digits }) {
   return values?.[value] ?? String(Number(value.toPrecision(digits)));
 }
 
-/** All frames of the nodes between two times, merged in their order. Yields text, piece by piece. */
+/** All frames of the nodes between two times, merged in order. Yields text, piece by piece. */
 function* lines(store, nodes, from_s, to_s) {
   const streams = [];
   for (const node of nodes)
@@ -34,7 +34,7 @@ function* lines(store, nodes, from_s, to_s) {
   }
 }
 
-/** Resolves to a Blob; lets the page breathe in between. */
+/** Resolves to a Blob; lets the page respond in between. */
 export async function csv(store, nodes, { from_s, to_s }) {
   const parts = [];
   let part = [];

@@ -1,8 +1,8 @@
-// From a table's rows to as many points as a plot has pixels, so that the shortest peak is still seen.
+// Reduces a table's rows to as many points as a plot has pixels, such that the shortest peak is still visible.
 //
-// The plot's time is cut into buckets of a pixel; each gives the least and the greatest value in it, in the order in
-// which they came. undefined: no row fell into this half bucket, the line goes on. null: not available, or nothing came
-// for so long that the line has to break.
+// The plot's time is divided into buckets of one pixel; each gives its min and max value, in the order in which they
+// came. undefined: no row fell into this half bucket, the line goes on. null: not available, or nothing came for so
+// long that the line must break.
 
 import { BLOCK } from "./table.js";
 
@@ -23,7 +23,7 @@ export function decimate(table, columns, from_s, to_s, buckets, gap_s) {
   const bucket_s = (to_s - from_s) / buckets;
   const bucket_of = (time_s) => Math.floor((time_s - from_s) / bucket_s);
   const pause_s = Math.max(gap_s, 2 * bucket_s);
-  // Blocks do when a bucket holds several of them.
+  // Blocks suffice when a bucket holds several of them.
   const blocks = table.period_s * BLOCK * 2 < bucket_s;
   let before_s = NaN;
   for (const chunk of table.chunks) {
@@ -52,7 +52,7 @@ export function decimate(table, columns, from_s, to_s, buckets, gap_s) {
   return lines.map((line) => line.finish());
 }
 
-/** Whether there is a pause within the block that begins with the row: then its rows are looked at one by one. */
+/** Whether there is a pause within the block that begins with the row: then its rows are read one by one. */
 function pauses(chunk, row, pause_s) {
   return chunk.time_s[Math.min(row + BLOCK, chunk.count) - 1] - chunk.time_s[row] > pause_s;
 }
@@ -72,7 +72,7 @@ class Line {
       this.high = -Infinity;
       this.high_last = true;
     }
-    // NaN is neither less nor greater.
+    // NaN is neither less nor greater than anything.
     if (low < this.low) {
       this.low = low;
       this.high_last = false;
@@ -83,7 +83,7 @@ class Line {
     }
   }
 
-  /** Nothing in all of it: a single null would leave a line with a hole of one pixel. */
+  /** Breaks the whole gap: a single null would leave a line with a hole of one pixel. */
   break_between(before, after) {
     this.points.fill(null, 2 * Math.max(0, before + 1), 2 * after);
   }

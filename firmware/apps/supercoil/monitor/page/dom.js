@@ -11,13 +11,13 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** A table that scrolls sideways where it has no room, by the keyboard too. */
+/** A table that scrolls sideways if there is no room, by the keyboard too. */
 export const scrolling = (label, table) => element("div", { class: "sideways", role: "region", "aria-label": label, tabindex: 0 }, table);
 
-/** A colour of style.css, as it is in light or dark. */
+/** A colour of style.css, for the current light or dark theme. */
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-/** Writes only what changed: layout is not computed anew for nothing. */
+/** Writes only changes: the layout is not recomputed needlessly. */
 export function show(where, text) {
   if (where.textContent !== text) where.textContent = text;
 }

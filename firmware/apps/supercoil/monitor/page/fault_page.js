@@ -1,4 +1,4 @@
-// A fault's page out of docs/faults, beside the plots. It is not modal: STOP stays in reach.
+// A fault's page from docs/faults, beside the plots. It is not modal: STOP stays within reach.
 
 import { element } from "./dom.js";
 import { markdown } from "./markdown.js";

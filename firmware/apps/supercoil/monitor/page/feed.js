@@ -1,4 +1,4 @@
-// Fills the store: the newest minute first, so that the first plot is there at once, then the stream, then older minutes.
+// Fills the store: the newest minute first, so that the first plot appears at once, then the stream, then older minutes.
 
 import { history_of } from "./server.js";
 
@@ -6,11 +6,11 @@ const FIRST_S = 60;
 const PIECE_S = 30;
 
 export class Feed {
-  #waiting = null; // batches of the stream while history is on its way; null: none is
+  #waiting = null; // batches of the stream while history is being fetched; null: no fetch is under way
   #filling = Promise.resolve();
   #older = 0;
 
-  /** on_problem: is told what went wrong with a request for history. */
+  /** on_problem: called with what went wrong with a request for history. */
   constructor(store, stream, is_log, on_problem) {
     this.store = store;
     this.is_log = is_log;
@@ -19,12 +19,12 @@ export class Feed {
       if (this.#waiting) this.#waiting.push(detail);
       else store.append(detail);
     });
-    // The stream was opened, perhaps again: what came before is in the history.
+    // The stream was opened, perhaps again: earlier data is in the history.
     stream.addEventListener("open", () => this.fill());
     store.addEventListener("restart", () => ++this.#older);
   }
 
-  /** Gets what is missing up to now. */
+  /** Fetches what is missing up to now. */
   fill() {
     this.#filling = this.#filling.then(() => this.#fill());
   }
@@ -40,7 +40,7 @@ export class Feed {
     } finally {
       const waiting = this.#waiting;
       this.#waiting = null;
-      // What came before the history was asked for is in it; appended again it would look like a source that begins anew.
+      // The history has what came before it was requested; appended again it would look like a source that restarts.
       for (const batch of waiting ?? []) if (!(batch.newest_s <= this.store.newest_s)) this.store.append(batch);
     }
     if (!known && !this.is_log) this.#fetch_older(++this.#older).catch((problem) => this.on_problem(problem.message));

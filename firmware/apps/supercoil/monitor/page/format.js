@@ -1,15 +1,15 @@
-// Numbers and words as they are shown. What is not available is a dash.
+// Formats numbers and words for display. What is not available is a dash.
 
 export const NONE = "–";
 
-/** A fixed number of decimals keeps digits where they are while they change. */
+/** A fixed number of decimals keeps the digits in place while they change. */
 export function fixed(value, decimals) {
   if (value == null || Number.isNaN(value)) return NONE;
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   return value.toFixed(decimals).replace("-", "−");
 }
 
-/** Three digits that count, for what may be of any size. */
+/** Three significant digits, for values of any size. */
 export function significant(value) {
   if (value == null || !Number.isFinite(value)) return fixed(value, 0);
   const size = Math.abs(value);
@@ -18,7 +18,7 @@ export function significant(value) {
   return fixed(value, Math.max(0, 2 - Math.floor(Math.log10(size))));
 }
 
-/** Of a tick's label, so that labels of ticks that lie evenly do so too: 2.5 → 1. */
+/** Decimals for a tick's label, so that evenly spaced ticks have evenly spaced labels: 2.5 → 1. */
 export function decimals_of(step) {
   const most = 9;
   let decimals = 0;
@@ -26,7 +26,7 @@ export function decimals_of(step) {
   return decimals;
 }
 
-// Beyond 1973 a time is one of a calendar; before, it is counted from a start.
+// A time beyond 1973 is a calendar time; one before is counted from a start.
 const CALENDAR_S = 1e8;
 
 /** A time of the bus. decimals: of the seconds. */
@@ -40,17 +40,17 @@ export function bus_time(time_s, decimals = 1) {
   return `${fixed(time_s, decimals)} s`;
 }
 
-/** How long ago, or how long something is. */
+/** How long ago something was, or how long it takes. */
 export function duration(seconds) {
   if (seconds < 120) return `${Math.floor(seconds)} s`;
   return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
 }
 
-/** What is held while it cannot be measured has its age beside it. */
+/** A value that is held while it cannot be measured is shown with its age. */
 export const AGES = { resistance_Ohm: "resistance_age_s" };
 const OLD_S = 1;
 
-/** An age that is not available is longer than can be said. */
+/** An age that is not available counts as old. */
 export const is_old = (age_s) => !(age_s <= OLD_S);
 
 export const measured_ago = (age_s) => (Number.isFinite(age_s) ? `measured ${duration(age_s)} ago` : "not measured for long, or ever");

@@ -1,4 +1,4 @@
-// What the active controller multiplies its signals by; an adaptive one changes it.
+// The active controller's gains; an adaptive controller changes them.
 
 import { element, place, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";

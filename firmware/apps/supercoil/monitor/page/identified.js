@@ -1,10 +1,10 @@
-// What a board goes by of its muscle: configured, or what identify and calibrate found. It tells when it is asked.
+// The muscle as the board uses it: configured, or what identify and calibrate found. The board sends it on request.
 
 import { element, scrolling, show } from "./dom.js";
 import { NONE, bus_time, significant } from "./format.js";
 import { ask_muscle } from "./server.js";
 
-// Muscle.quantity → what it is called and its unit; and the coefficients of the model, which follow from these.
+// Muscle.quantity → its name and unit; and the coefficients of the model, which follow from these.
 const QUANTITIES = {
   thermal_mass_J_per_K: ["thermal mass", "J/K"], heat_transfer_W_per_K: ["heat transfer", "W/K"], stiffness_N_per_m: ["stiffness", "N/m"],
   damping_Ns_per_m: ["damping", "N·s/m"], moving_mass_kg: ["moving mass", "kg"], force_per_kelvin_N_per_K: ["force per kelvin", "N/K"],
@@ -20,7 +20,7 @@ const FOLLOWING = {
   theta4: ["θ4", "W/m", ({ h, k, force }) => (h * k) / force],
 };
 
-// By these is known what an answer told of; single precision, as text.
+// Identifies the muscle that an answer described; in single precision, as text.
 const KEPT = ["theta2_deviation_ratio", "theta3_deviation_ratio", "theta4_deviation_ratio", "stiffness_N_per_m"];
 const SAME_RATIO = 1e-6;
 
@@ -31,7 +31,7 @@ const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NO
 /** "2026-11-28 07:15 UTC" of seconds since 1970. */
 const minute = (since_1970_s) => `${new Date(1e3 * since_1970_s).toISOString().slice(0, 16).replace("T", " ")} UTC`;
 
-/** When what is in use was identified: the time, "before" when it was earlier than what is remembered, null: never. */
+/** When the muscle in use was identified: the time, "before" if earlier than the history reaches, null: never. */
 function identified_since(store, node, now_s) {
   let later = null;
   const is = (row, signal, name) => row && store.word("Status", signal, row[signal]) === name;
@@ -43,7 +43,7 @@ function identified_since(store, node, now_s) {
 }
 
 export class Identified {
-  /** may_ask: there is a board. */
+  /** may_ask: whether there is a board. */
   constructor(node, store, may_ask) {
     Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "", answer: {} });
     const body = element("tbody");
@@ -65,14 +65,14 @@ export class Identified {
     this.key = undefined;
   }
 
-  /** Asked once, and whenever identify or calibrate has ended. */
+  /** Asks once, and whenever identify or calibrate has ended. */
   update(now_s) {
     const result = this.store.at(this.node, "Status", now_s)?.result;
     if (this.may_ask && result !== undefined && result !== this.result) this.#ask();
     this.result = result;
     const heard = {};
     for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) heard[this.store.word("Muscle", "quantity", number)] = value;
-    // The server derives deviations that no board sends.
+    // The server derives deviations that boards do not send.
     const known = { ...(is_of_same(this.answer, heard) ? this.answer : {}), ...heard };
     for (const by of ["", "configured_"]) {
       const physical = { c: known[`${by}thermal_mass_J_per_K`], h: known[`${by}heat_transfer_W_per_K`], k: known[`${by}stiffness_N_per_m`],
@@ -84,7 +84,7 @@ export class Identified {
       show(deviation, percent(known[`${name}_deviation_ratio`]));
       show(configured, significant(known[`configured_${name}`]));
     }
-    // The search goes back far: only when something has changed.
+    // The search goes far back: only do it when something has changed.
     const key = [result, known.stiffness_N_per_m, known.theta4_deviation_ratio, known.identified_s, this.problem, this.may_ask || Math.floor(now_s)].join();
     if (key !== this.key) show(this.since, this.problem || this.#since(known, now_s));
     this.key = key;

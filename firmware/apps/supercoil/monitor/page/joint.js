@@ -1,4 +1,4 @@
-// A joint of two muscles, as boards tell of it; and the unit in which set points are typed: lengths, or a joint's angles.
+// A joint of two muscles, as reported by boards; and the unit in which set points are typed: lengths, or a joint's angles.
 
 export const DEGREES = 180 / Math.PI;
 const MAX_POINTS = 7;
@@ -17,7 +17,7 @@ export class Lever {
     this.zero_m = this.#from_first(0);
   }
 
-  /** The last corner that is passed; before the first one its lever holds on. */
+  /** The last corner passed; before the first corner its lever applies. */
   #corner(passed) {
     const [first] = this.corners;
     return this.corners.findLast(passed) ?? { ...first, slope: 0 };
@@ -41,7 +41,7 @@ export class Lever {
   }
 }
 
-/** As the board has told it; constant where that is no table. */
+/** The lever that the board has told; constant unless it is a table. */
 function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...told }) {
   const levers_m = [];
   for (let i = 1; i <= MAX_POINTS && told[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(told[`joint_lever_${i}_m`]);
@@ -56,20 +56,20 @@ function told_of(store, node, now_s) {
   return told;
 }
 
-/** The node that leads the bundle in which a node's muscle pulls; null: it leads, is in none, or the board has not told yet. */
+/** The node that leads the bundle of a node's muscle; null: this node leads, is in no bundle, or the board has not told yet. */
 export function leader_of(store, node, now_s) {
   const { bundle_leader_node_offset: offset } = told_of(store, node, now_s);
   return Number.isFinite(offset) ? node + offset : null;
 }
 
-/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: the lever is this muscle's, lever_m at the angle 0, < 0 of the
-    antagonist; other is its partner's node, null where a spring draws it back, and other_travel_m how far that may contract, if it is
-    told, as an arc at this lever. null: it is in none, or the board has not told yet. */
+/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: the lever is this muscle's, lever_m at the angle 0, < 0 for the
+    antagonist; other is its partner's node, null if a spring draws it back, and other_travel_m how far the partner may contract, if told, as
+    an arc at this lever. null: it is in no joint, or the board has not told yet. */
 export function joint_of(store, node, now_s) {
   const told = told_of(store, node, now_s);
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
   if (!(Math.abs(lever_m) > 0) || offset === undefined) return null;
-  // The last of all: half of a table would turn degrees into wrong metres.
+  // The last value that is sent: half a table would turn degrees into wrong metres.
   if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
   if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(told), other: null, other_travel_m: 0 };
   const joint = { lever_m, lever: lever_of(told), other: node + offset };
@@ -79,10 +79,10 @@ export function joint_of(store, node, now_s) {
   return joint;
 }
 
-/** What joint_of() says, by its numbers: the same joint is told anew all the time. */
+/** Compares what joint_of() says by value: the board keeps sending the same joint. */
 export const same_joint = (joint, other) => JSON.stringify(joint) === JSON.stringify(other);
 
-/** to_m, of_m: a value of the unit, and back; both_ways: set points may be negative; min_m: the least, of a muscle that may travel so far. */
+/** to_m, of_m: convert from the unit and back; both_ways: set points may be negative; min_m: the minimum, for a muscle with this travel. */
 export const LENGTH = { unit: "mm", to_m: (mm) => mm / 1e3, of_m: (m) => m * 1e3, both_ways: false, min_m: () => 0 };
 const angle_at = ({ lever, other, other_travel_m }) => ({
   unit: "°",
@@ -92,5 +92,5 @@ const angle_at = ({ lever, other, other_travel_m }) => ({
   min_m: (max_m) => -(other_travel_m ?? max_m),
 });
 
-/** In which a node's positions are commanded; joint: of joint_of(). */
+/** The unit in which a node's positions are commanded; joint: of joint_of(). */
 export const measure_of = (joint) => (joint && joint.lever_m > 0 ? angle_at(joint) : LENGTH);

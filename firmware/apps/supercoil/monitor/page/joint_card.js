@@ -1,11 +1,11 @@
-// A joint of two muscles, as the board of its nodes tells of it: a picture of its angle, and what each muscle does.
+// A joint of two muscles, as reported by its nodes' board: a picture of its angle, and what each muscle does.
 
 import { element, show } from "./dom.js";
 import { fixed, words } from "./format.js";
 import { DEGREES, joint_of } from "./joint.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-// The picture: from the pivot, in pixels. An angle beyond is drawn at this one.
+// The picture, in pixels from the pivot. A larger angle is drawn at the max.
 const LEVER = 24, ARM = 78, FOOT = 66, MAX_DEG = 80;
 
 const drawn = (name, attributes, ...children) => {
@@ -14,7 +14,7 @@ const drawn = (name, attributes, ...children) => {
   made.append(...children);
   return made;
 };
-/** Degrees to the right of upright, within what the picture has room for. */
+/** Degrees to the right of upright, as far as the picture has room. */
 const turned = (angle_deg) => `rotate(${Number.isFinite(angle_deg) ? Math.max(-MAX_DEG, Math.min(MAX_DEG, angle_deg)).toFixed(2) : 0})`;
 
 export class JointCard {
@@ -39,7 +39,7 @@ export class JointCard {
     if (!joint) return;
     const { lever_m, other } = joint;
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
-    // Each muscle may pull at a lever of its own.
+    // Each muscle may pull at its own lever.
     const { lever } = lever_m > 0 ? joint : joint_of(this.store, right, now_s) ?? joint;
     const degrees = (message, column) => lever.angle_rad(this.store.at(right, message, now_s)?.[column]) * DEGREES;
     const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");
@@ -64,7 +64,7 @@ export class JointCard {
     });
   }
 
-  /** From where it is fixed to the end of the lever that it draws down. */
+  /** Draws the muscle from its fixed end to the end of the lever that it pulls down. */
   #draw(muscle, side, angle_deg) {
     const angle = (Number.isFinite(angle_deg) ? Math.max(-MAX_DEG, Math.min(MAX_DEG, angle_deg)) : 0) / DEGREES;
     const ends = { x1: side * LEVER, y1: FOOT, x2: side * LEVER * Math.cos(angle), y2: side * LEVER * Math.sin(angle) };

@@ -20,12 +20,12 @@ export class Journal {
     while (this.list.children.length > KEPT) this.list.lastChild.remove();
   }
 
-  /** Set by the user, who sees why. */
+  /** A mark set by the user, who knows why. */
   mark(time_s) {
     this.add(`mark ${++this.marks}`, "", time_s);
   }
 
-  /** Changes of state, mode and fault in a batch that has just come. */
+  /** Journals changes of state, mode and fault in a new batch. */
   read(rows) {
     const status = rows?.Status;
     for (let i = 0; i < (status?.time_s.length ?? 0); ++i) {

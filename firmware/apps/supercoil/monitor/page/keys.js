@@ -1,8 +1,8 @@
-// Keys of the view. The space bar is STOP's (stop.js) and nothing else's.
+// Keys of the view. The space bar belongs to STOP (stop.js) alone.
 
 const TYPES = "input[type=number], input[type=text], select, textarea";
 
-/** actions: key → function. Keys are not taken from whoever types, nor from the browser's own combinations. */
+/** actions: key → function. Ignores keys while the user types, and the browser's own combinations. */
 export function listen_to_keys(actions) {
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches?.(TYPES)) return;
@@ -15,7 +15,7 @@ export function listen_to_keys(actions) {
   });
 }
 
-/** Wheel over a plot: with Ctrl zooms, with Shift pans; without, the page scrolls as ever. */
+/** Wheel over a plot: with Ctrl zooms, with Shift pans; otherwise the page scrolls as usual. */
 export function listen_to_wheel(place, view) {
   place.addEventListener("wheel", (event) => {
     const plot = event.target.closest?.(".u-over");

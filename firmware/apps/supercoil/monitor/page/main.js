@@ -1,4 +1,4 @@
-// Puts the page together: server → stream → store → what is seen.
+// Assembles the page: server → stream → store → views.
 
 import { csv, download } from "./csv.js";
 import { show } from "./dom.js";
@@ -74,7 +74,7 @@ function begin(about) {
     const { from_s, to_s } = view.range;
     download(await csv(store, nodes, view.range), `supercoil-node-${nodes.join("-")}-${from_s.toFixed(0)}-to-${to_s.toFixed(0)}-s.csv`);
   };
-  // A log is seen as a whole at first.
+  // A log is first shown as a whole.
   if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
   const setup = about.setup ? new Setup(by_id("setup"), by_id("open-setup"), store) : null;
   connect_tools({ view, replay, export_csv, fault_page, tabs, plots, setup });
@@ -83,10 +83,10 @@ function begin(about) {
   feed.fill();
 }
 
-/** Plots when there is something new, texts ten times a second. */
+/** Redraws plots when there is new data, texts ten times a second. */
 function draw_forever({ store, view, replay, run, tabs, status, stop }) {
-  let stale = true; // something new came
-  let asked = true; // somebody waits for it
+  let stale = true; // new data came
+  let asked = true; // the user waits for it
   let plots_ms = 0;
   let texts_ms = 0;
   const ask = () => (asked = true);
@@ -97,7 +97,7 @@ function draw_forever({ store, view, replay, run, tabs, status, stop }) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
   const frame = (now_ms) => {
     requestAnimationFrame(frame);
-    // An hour that scrolls by less than a pixel is not drawn for it.
+    // Skip drawing an hour that scrolls by less than a pixel.
     const enough_ms = Math.max(DRAW_EVERY_MS(), Math.min(1000, view.span_s));
     if (!store.empty && (asked || (stale && view.live && now_ms - plots_ms >= enough_ms))) {
       asked = stale = false;

@@ -1,11 +1,11 @@
-// Manual control of one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
+// Manual control of one muscle: sends commands, and reports that this page is alive while its command may heat.
 
 import { alive, command, play } from "./server.js";
 import { clock_now } from "./format.js";
 import { refusal_words } from "./refusals.js";
 
 const ALIVE_EVERY_MS = 300;
-// The muscle's own state follows an obeyed command within a heartbeat or two.
+// After an obeyed command the muscle's own state follows within a heartbeat or two.
 const SETTLES_MS = 1000;
 const HEATS = new Set(["position", "power", "identify", "calibrate"]);
 const COOLS = new Set(["rest", "disarm"]);
@@ -16,19 +16,19 @@ export class ManualControl extends EventTarget {
     Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0, following: null });
   }
 
-  /** By hand; what is played ends. Resolves to {obeyed, text}. */
+  /** A command by hand; it ends what is played. Resolves to {obeyed, text}. */
   async send(opcode, value = 0) {
     this.dispatchEvent(new Event("taken"));
-    await this.following; // a set point that is under way must not overtake this one
+    await this.following; // a set point in flight must not overtake this command
     return this.#command(opcode, value, true);
   }
 
-  /** One set point of many. Likewise. */
+  /** One set point of many. Resolves likewise. */
   follow(position_m) {
     return this.#follow(() => this.#command("position", position_m, this.holds !== "position"), { obeyed: false, text: "the muscle was let go" });
   }
 
-  /** Knots of a trajectory, and its start, after a position that is held. Resolves to what the board told, or to {problem}. */
+  /** Knots of a trajectory, and its start, after a position that is held. Resolves to the board's answer, or to {problem}. */
   play(knots, start) {
     return this.#follow(async () => {
       try {
@@ -41,7 +41,7 @@ export class ManualControl extends EventTarget {
     }, { problem: "the muscle was let go" });
   }
 
-  /** After what is under way, unless the muscle is let go meanwhile. */
+  /** Acts after the request in flight, unless the muscle is let go meanwhile. */
   #follow(act, otherwise) {
     const [before, release_count] = [this.following, this.release_count];
     this.following = (async () => {
@@ -59,7 +59,7 @@ export class ManualControl extends EventTarget {
     } catch (problem) {
       return { obeyed: false, text: problem.message };
     }
-    // What was let go before the answer came is not held after it.
+    // A muscle that was let go before the answer came is not held after it.
     if (HEATS.has(opcode) && release_count === this.release_count) this.#hold(opcode, begins);
     if (COOLS.has(opcode)) this.release_hold();
     return { obeyed: true, text: "obeyed" };
@@ -73,7 +73,7 @@ export class ManualControl extends EventTarget {
     this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
   }
 
-  /** This page commands nothing any more that heats. */
+  /** This page no longer commands anything that heats. */
   release_hold(notice = "", alarming = true) {
     ++this.release_count;
     clearInterval(this.timer);
@@ -83,7 +83,7 @@ export class ManualControl extends EventTarget {
     this.#say(notice, alarming);
   }
 
-  /** The board's own word (state, fault): a mode that has ended, or was made to end, is not held any longer. */
+  /** The board's own state and fault: a mode that has ended, or was ended, is no longer held. */
   observe({ state, fault }) {
     const settled = performance.now() - this.since_ms >= SETTLES_MS;
     if (!this.holds || !settled || state === "active" || state === "silent") return;

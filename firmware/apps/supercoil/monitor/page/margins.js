@@ -1,16 +1,16 @@
-// How near each detector is to tripping: a bar each.
+// How near each detector is to tripping, as bars.
 
 import { element, place, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
-// As docs/faults has them; "" is a count or a flag.
+// Units as in docs/faults; "" is a count or a flag.
 export const UNITS = {
   sensor_out_of_range: "m", sensor_frozen: "s", sensor_jump: "m", sensors_disagree: "K", heater_open: "A", heater_short: "A",
   heater_stuck_on: "A", heater_not_responding: "m", over_temperature: "°C", over_travel: "m", energy_budget_exceeded: "J",
   resistance_drift: "Ω", muscle_loose: "m", under_voltage: "V", over_voltage: "V", power_limit_exceeded: "W", telemetry_dead: "s",
   command_timeout: "s", bus_off: "s", bus_error_passive: "s", controller_invalid: "s", duty_wrong: "steps",
 };
-// A supply of 12 V uses 0.91 of its limits and is well.
+// A supply of 12 V uses 0.91 of its limits and is fine.
 const NEAR = 0.95;
 
 export class Margins {

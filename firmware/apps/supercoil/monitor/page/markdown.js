@@ -1,11 +1,11 @@
-// Markdown as docs/faults uses it, to elements: headings, paragraphs, lists, tables, code, strong, links. Made of text
-// nodes only: what the server sends can be no script.
+// Renders Markdown as docs/faults uses it: headings, paragraphs, lists, tables, code, strong, links. Uses only text
+// nodes, so that nothing from the server can become a script.
 
 import { element } from "./dom.js";
 
 const INLINE = /`([^`]+)`|\*\*([^*]+)\*\*|\*([^*]+)\*|\[([^\]]+)\]\(([^)]+)\)/g;
 
-/** link: makes the element of a link from text and target. */
+/** link: makes a link's element from text and target. */
 function inline(text, link) {
   const parts = [];
   let end = 0;
@@ -40,7 +40,7 @@ function list(lines, kind, link) {
 
 const KINDS = [["heading", /^#{1,4} /], ["pre", /^```/], ["table", /^\|/], ["ul", /^[-*] /], ["ol", /^\d+\. /]];
 
-/** Cuts a text where another kind of paragraph begins: [kind, lines]. */
+/** Splits a text where another kind of paragraph begins: [kind, lines]. */
 function blocks(text) {
   const found = [];
   let kind = null; // null: the next line begins a block
@@ -49,7 +49,7 @@ function blocks(text) {
     if (fenced || (line.trim() === "" && kind !== "pre")) kind = null;
     if (line.trim() === "" && kind !== "pre") continue;
     const begins = kind === "pre" ? "pre" : KINDS.find(([, pattern]) => pattern.test(line))?.[0];
-    // An indented line goes on with a list, a plain one with a paragraph.
+    // An indented line continues a list, a plain one a paragraph.
     const here = begins ?? (kind === "ul" || kind === "ol" ? kind : "p");
     if (here !== kind || here === "heading") found.push([here, []]);
     found.at(-1)[1].push(line);

@@ -1,4 +1,4 @@
-// Tabs of the nodes, and one in which all stand side by side.
+// Tabs of the nodes, and one that shows all side by side.
 
 import { element, show } from "./dom.js";
 
@@ -52,7 +52,7 @@ export class NodeTabs {
     return [...this.views.values()].filter((view) => !view.element.hidden);
   }
 
-  /** States of the nodes that are not looked at are seen on their tabs. */
+  /** Shows the states of hidden nodes on their tabs. */
   update() {
     for (const [node, view] of this.views) {
       const tab = this.tabs.get(node);

@@ -1,4 +1,4 @@
-// All that is seen of one node.
+// The view of one node.
 
 import { ControlPanel } from "./control_panel.js";
 import { element } from "./dom.js";
@@ -18,7 +18,7 @@ import { StateCard } from "./state_card.js";
 import { Tuning } from "./tuning.js";
 import { WaveformCard } from "./waveform_card.js";
 
-// Beside other nodes there is room for these.
+// The plots that have room beside other nodes.
 const COMPACT_PLOTS = new Set(["Position", "Power", "Temperature"]);
 
 export class NodeView {
@@ -46,7 +46,7 @@ export class NodeView {
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, identified, gains, this.tuning.element), margins)));
   }
 
-  /** Those that are chosen now. */
+  /** Lays out the plots that are chosen now. */
   lay_out_plots() {
     for (const plot of this.plots) plot.end();
     this.plots = chosen_plots(this.protocol).map((spec) => new Plot(spec, this.node, this.store, this.view,
@@ -55,7 +55,7 @@ export class NodeView {
     this.place_of_plots.replaceChildren(...this.plots.map((plot) => plot.element));
   }
 
-  /** Where the cursor is, or at the newest that is seen. */
+  /** Sets a mark at the cursor, or at the newest visible time. */
   mark() {
     const pointed = this.plots.map((plot) => plot.pointed_s).find((time_s) => time_s !== null);
     this.journal.mark(pointed ?? this.view.range.to_s);
@@ -66,7 +66,7 @@ export class NodeView {
     for (const plot of this.plots) plot.draw();
   }
 
-  /** Everything that is text. */
+  /** Updates all text. */
   update() {
     const now_s = this.view.now_s();
     const limits = this.margins.limits.size;
@@ -75,7 +75,7 @@ export class NodeView {
     for (const card of this.cards) card.update(now_s);
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
-    // What was told stays, while a board that starts again has not told it yet.
+    // Known values stay until a restarting board has told them again.
     const joint = joint_of(this.store, this.node, now_s);
     if (joint) this.joint = { ...this.joint, ...joint };
     this.panel.update(this.status, this.margins.limits, this.joint, leader_of(this.store, this.node, now_s));

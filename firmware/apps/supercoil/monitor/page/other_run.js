@@ -1,8 +1,8 @@
-// Another run, drawn pale under the one that is shown: what was shown once, or a CSV that was exported earlier.
+// Another run, drawn pale under the current one: one that was shown earlier, or a CSV that was exported earlier.
 
 import { Store } from "./store.js";
 
-/** A batch for each node out of a CSV of csv.js; words, which no plot shows, are left out. Throws what is wrong with it. */
+/** A batch for each node from a CSV of csv.js; drops words, which no plot shows. Throws what is wrong with it. */
 export function batch_of_csv(text) {
   const [head, ...lines] = text.replace(/^\uFEFF/, "").trimEnd().split(/\r?\n/);
   const columns = head.split(",");
@@ -22,7 +22,7 @@ export function batch_of_csv(text) {
       const rows = (messages[message] ??= { time_s: [] });
       if (!touched.has(message)) rows.time_s.push(time_s);
       touched.add(message);
-      // Where there was no value before, there is none.
+      // Earlier rows without a value stay empty.
       (rows[signal] ??= [])[rows.time_s.length - 1] = Number(cells[c]);
     }
   });
@@ -50,7 +50,7 @@ export class OtherRun extends EventTarget {
     Object.assign(this, { protocol, store: null, later_s: 0, name: "" });
   }
 
-  /** It lies where it was at first. */
+  /** Takes a batch; at first it lies at its own time. */
   take(batch, name) {
     this.store = new Store(this.protocol, true);
     this.store.append(batch);
@@ -63,7 +63,7 @@ export class OtherRun extends EventTarget {
     this.#lie(0);
   }
 
-  /** Its begin at another time. */
+  /** Moves its beginning to another time. */
   begin_at(time_s) {
     if (this.store) this.#lie(time_s - this.store.oldest_s);
   }
@@ -73,7 +73,7 @@ export class OtherRun extends EventTarget {
     this.dispatchEvent(new Event("change"));
   }
 
-  /** Of a log of one node any node's rows do. */
+  /** For a log of a single node, any node's rows will do. */
   table(node, message) {
     if (!this.store) return null;
     const number = this.store.nodes.has(node) ? node : [...this.store.nodes.keys()][0];

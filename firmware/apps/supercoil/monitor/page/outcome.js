@@ -1,16 +1,16 @@
-// What was, in the time that is shown: limits that took power, a reference that was not feasible, an arming that never came, a swing that does not end.
+// What happened in the time shown: limits that took power, an infeasible reference, an arming that never came, a swing that does not end.
 
 import { fixed, significant, words } from "./format.js";
 import { refusal_words } from "./refusals.js";
 
-// A swing by itself is searched in the newest part only, while the reference stands still.
+// A self-sustained swing is searched for in the newest part only, while the reference stands still.
 const SWING_S = 60;
 const STILL_M = 1e-5;
 const LEAST_PERIODS = 4;
 const LEAST_SHARE = 0.0005; // else 0.0 %
-// Of the periods' spread over their mean: noise crosses at no rhythm.
+// Max ratio of the periods' spread to their mean: noise crosses without a rhythm.
 const RHYTHM = 0.2;
-// Of a loop that oscillates from limit to limit most cycles last alike, and a third of the reference's own at most.
+// In a loop that oscillates from limit to limit most cycles have similar lengths, at most a third of the reference's own period.
 const LEAST_CYCLES = 12;
 const ALIKE = 0.25;
 const OF_REFERENCE = 1 / 3;
@@ -27,7 +27,7 @@ function* samples(table, columns, from_s, to_s) {
 
 const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
 
-/** [time, name] of what limited the power; null while the channel was not active, or in none of the modes if some are named. */
+/** [time, name] of what limited the power; null while the channel was not active or, if modes are given, in none of them. */
 function* limits(store, node, { from_s, to_s }, modes = []) {
   const active = number_of(store, "Status", "state", "active"), wanted = modes.map((mode) => number_of(store, "Status", "mode", mode));
   const states = [...samples(store.table(node, "Status"), modes.length > 0 ? ["state", "mode"] : ["state"], from_s, to_s)];
@@ -57,7 +57,7 @@ export function limits_told(store, node, range) {
   return `At a limit in ${percent(sum, all)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
 }
 
-/** That the reference was none that the muscle can follow, by itself or as a joint's antagonist, as the simulator's summary counts it; or "". rule: infeasible of /api/about. */
+/** Reports a reference that the muscle, by itself or as a joint's antagonist, cannot follow, counted as in the simulator's summary; or "". rule: infeasible of /api/about. */
 export function infeasible_told(store, node, range, rule) {
   const too_much = new Set(rule.limits);
   let all = 0;
@@ -104,7 +104,7 @@ export function swing_of(points) {
   const rms_m = Math.sqrt(points.reduce((sum, [, error_m]) => sum + (error_m - mean_m) ** 2, 0) / points.length);
   const rises_s = [];
   let high = null;
-  // Between both thresholds nothing is decided: noise on a swing crosses once.
+  // Between the two thresholds nothing changes: noise on a swing crosses once.
   for (const [time_s, error_m] of points) {
     if (error_m - mean_m > rms_m / 2) {
       if (high === false) rises_s.push(time_s);
@@ -122,14 +122,14 @@ export function swing_of(points) {
 
 export function swing_told(store, node, { from_s, to_s }) {
   const all = [...samples(store.table(node, "Tracking"), ["error_m", "reference_m"], Math.max(from_s, to_s - SWING_S), to_s)];
-  // Backwards as far as the reference is what it is now; a gap ends it.
+  // Backwards while the reference has its present value; a gap ends it.
   let first = all.length;
   while (first > 0 && Math.abs(all[first - 1][2] - all.at(-1)[2]) < STILL_M && Number.isFinite(all[first - 1][1])) --first;
   const swing = swing_of(all.slice(first));
   return swing ? `It swings by itself: ± ${significant(1e6 * swing.amplitude_m)} µm, ${significant(swing.period_s)} s a period, while the reference stands still.` : "";
 }
 
-/** That the power goes from one limit to the other and back in a time of its own while the reference moves, as the simulator's summary finds it; or "". */
+/** Reports that the power goes from limit to limit and back with its own period while the reference moves, as the simulator's summary finds it; or "". */
 export function cycle_told(store, node, { from_s, to_s }) {
   const newest = [Math.max(from_s, to_s - SWING_S), to_s];
   const lasted_s = [];

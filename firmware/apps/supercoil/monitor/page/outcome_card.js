@@ -1,13 +1,13 @@
-// What was, in words, for the time that is shown.
+// What happened in the time shown, in words.
 
 import { element, show } from "./dom.js";
 import { cycle_told, infeasible_told, limits_told, never_armed_told, swing_told } from "./outcome.js";
 
-// It looks at all that is shown: of an hour less often, so that the plots do not wait for it.
+// It reads all that is shown: less often for an hour, so that the plots do not wait for it.
 const every_ms = (span_s) => Math.max(2000, 5 * span_s);
 
 export class OutcomeCard {
-  /** infeasible: by what a reference shows to have been none, as /api/about has it. */
+  /** infeasible: the rule for infeasible references, from /api/about. */
   constructor(node, store, view, infeasible) {
     Object.assign(this, { node, store, view, told_ms: -Infinity });
     this.lines = [limits_told, (...shown) => infeasible_told(...shown, infeasible), never_armed_told, swing_told, cycle_told].map((tell) => ({ tell, line: element("p") }));

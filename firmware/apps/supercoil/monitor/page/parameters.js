@@ -1,4 +1,4 @@
-// What the board has learned of the muscle, with its trust and, of an estimator that tells them, standard deviations.
+// What the board has learned of the muscle, with its trust and, if the estimator reports them, standard deviations.
 
 import { element, scrolling, show } from "./dom.js";
 import { NONE, fixed, significant } from "./format.js";
@@ -49,7 +49,7 @@ export class Parameters {
   }
 }
 
-/** Of θ, all together. */
+/** The error bound of all of θ. */
 function bound(row) {
   if (!(row?.error_bound >= 0)) return NONE;
   return row.error_bound >= 6.5 ? "> 650 %" : `± ${fixed(100 * row.error_bound, 0)} %`;

@@ -10,7 +10,7 @@ import { draw_events, draw_limit, draw_pale, draw_strip } from "./plot_marks.js"
 import { points_of } from "./plot_points.js";
 
 const HEIGHT_PX = 176;
-/** For whoever measures how soon the first plot is there. */
+/** Lets tests measure how soon the first plot appears. */
 function tell_first_plot() {
   if (performance.getEntriesByName("first-plot").length === 0) performance.mark("first-plot");
 }
@@ -43,7 +43,7 @@ export class Plot {
         `${line.name} `, this.legend[i]));
   }
 
-  /** It is not needed any more. */
+  /** Call it when the plot is no longer needed. */
   end() {
     for (const observer of this.observers) observer.disconnect();
     this.chart?.destroy();
@@ -142,7 +142,7 @@ export class Plot {
     draw_events(this.chart, this.events.filter(({ time_s }) => time_s >= from_s && time_s <= to_s));
   }
 
-  /** The values under the cursor, or the newest that are seen. */
+  /** Shows the values under the cursor, or the newest visible ones. */
   show_values() {
     const { spec } = this;
     const hovers = this.hover != null && this.chart;

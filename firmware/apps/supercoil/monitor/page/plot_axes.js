@@ -1,11 +1,11 @@
-// How a plot's axes look, and where they end.
+// The look and the range of a plot's axes.
 
 import { colour } from "./dom.js";
 import { bus_time, decimals_of, fixed } from "./format.js";
 
 const TIME_STEPS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
 
-/** Time and values, as uPlot takes them. */
+/** Axes of time and values, for uPlot. */
 export function axes() {
   const axis = { stroke: () => colour("ink-2"), grid: { stroke: () => colour("grid"), width: 1 }, font: "11px system-ui", ticks: { show: false } };
   return [
@@ -14,7 +14,7 @@ export function axes() {
   ];
 }
 
-/** Ends at round numbers: the axis stands still while the values tremble. limit: null where there is none. */
+/** Ends at round numbers: the axis stands still while the values fluctuate. limit: null if there is none. */
 export function round_span(low, high, { from_zero, show_limit, min_span }, limit) {
   if (from_zero) low = Math.min(0, low);
   if (limit !== null && (show_limit || high > 0.8 * limit)) high = Math.max(high, limit * 1.04);
@@ -24,6 +24,6 @@ export function round_span(low, high, { from_zero, show_limit, min_span }, limit
     low -= from_zero ? 0 : missing / 2;
   }
   const step = 10 ** Math.floor(Math.log10(high - low)) / 2;
-  // Noise about a round number is not given a step of its own.
+  // Noise around a round number does not get another step.
   return [Math.floor(low / step + 0.05) * step, Math.ceil((high + 0.03 * (high - low)) / step) * step];
 }

@@ -1,11 +1,11 @@
-// Where the user chooses what stands in which plot.
+// The dialog in which the user chooses the quantities of each plot.
 
 import { element } from "./dom.js";
 import { choose, choose_usual, chosen_plots, quantities_of } from "./plot_choice.js";
 import { PLOTS } from "./plots.js";
 
 export class PlotDialog {
-  /** on_change: called when something else was chosen. */
+  /** on_change: called when the choice changed. */
   constructor(dialog, protocol, on_change) {
     Object.assign(this, { dialog, protocol, on_change });
     this.body = dialog.querySelector("div");

@@ -1,9 +1,9 @@
-// What stands on a plot besides its lines: limits, the strip of what is limited, another run, events.
+// What a plot shows besides its lines: limits, the strip while limited, another run, events.
 
 import { colour } from "./dom.js";
 import { significant } from "./format.js";
 
-const LABEL_PX = 110; // nearer than this to the one before, an event has no room for its name
+const LABEL_PX = 110; // nearer than this to the previous one, an event has no room for its name
 
 /** An amber strip at the top where marked is 1, at the times of the chart's points. */
 export function draw_strip({ ctx, bbox, data, valToPos }, marked) {
@@ -23,7 +23,7 @@ export function draw_limit({ ctx, bbox, valToPos }, limit, unit) {
   ctx.textAlign = "right";
   ctx.textBaseline = "bottom";
   const text = `limit ${significant(limit)} ${unit}${above ? " ↑" : below ? " ↓" : ""}`;
-  // Beyond the plot it stands in the margin, where no line crosses it.
+  // A limit beyond the plot is labelled in the margin, where no line crosses it.
   const bottom = Math.min(Math.max(place, bbox.top), bbox.top + bbox.height);
   ctx.fillText(text, bbox.left + bbox.width, bottom - 3 * devicePixelRatio);
   if (above || below) return;

@@ -1,11 +1,11 @@
-// The points of a plot's lines, out of the tables of a store.
+// The points of a plot's lines, from a store's tables.
 
 import { decimate } from "./decimate.js";
 
-// Messages come ten times a second or more often; without one for so long something was lost.
+// Messages come ten times a second or more often; a gap this long means that something was lost.
 const GAP_S = 1;
 
-/** A pause of rows that is none of their rhythm. */
+/** A pause between rows that is longer than their rhythm. */
 const gap_s = (table) => Math.max(GAP_S, 4 * table.period_s);
 
 function columns_of(table, columns, { from_s, to_s }, buckets) {
@@ -13,7 +13,7 @@ function columns_of(table, columns, { from_s, to_s }, buckets) {
   return decimate(table, columns, from_s, to_s, buckets, gap_s(table));
 }
 
-/** For each line its values times factor, at bucket_times() of the range. table_of: the table of a message, or null. */
+/** For each line its values times factor, at bucket_times() of the range. table_of: a message's table, or null. */
 export function points_of(lines, factor, table_of, range, buckets) {
   const columns = new Map();
   for (const { message, column } of lines) columns.set(message, [...(columns.get(message) ?? []), column]);

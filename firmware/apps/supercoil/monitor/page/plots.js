@@ -1,4 +1,4 @@
-// What is plotted of a node, and how.
+// The plots of a node.
 
 const MM = 1e3;
 const UM = 1e6;

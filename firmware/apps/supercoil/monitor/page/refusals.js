@@ -1,4 +1,4 @@
-// Why a board refused, in the words of the server.
+// Why a board refused, in the server's words.
 
 import { words } from "./format.js";
 

@@ -1,4 +1,4 @@
-// Plays a log: a time that runs on by itself, faster or slower, or is moved by hand.
+// Plays a log: the time runs by itself, faster or slower, or is moved by hand.
 
 import { show } from "./dom.js";
 import { bus_time } from "./format.js";

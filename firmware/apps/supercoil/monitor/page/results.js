@@ -1,4 +1,4 @@
-// How identify and calibrate ended, in the words of the server.
+// How identify and calibrate ended, in the server's words.
 
 import { words } from "./format.js";
 
@@ -11,10 +11,10 @@ export function take_results(by_name, by_bit) {
   notes = by_bit ?? [];
 }
 
-// It has no bit left in the estimates; Status has it.
+// The estimates have no bit left for it; it is in Status.
 const FRICTION = "friction";
 
-/** "poor fit: the muscle did not …; θ2 is uncertain"; "" while none has ended. by: what interrupted it; bits: identify_notes. */
+/** "poor fit: the muscle did not …; θ2 is uncertain"; "" if none has ended. by: what interrupted it; bits: identify_notes. */
 export function result_words(result, by, bits, friction) {
   if (!(result in meanings) || result === "none" || result === "running") return "";
   const told = notes.filter(({ name }, bit) => name !== result && (name === FRICTION ? friction : (bits >> bit) & 1));

@@ -1,11 +1,11 @@
-// The row of buttons for another run under the one that is shown.
+// The row of buttons for another run drawn under the current one.
 
 import { element, show } from "./dom.js";
 import { bus_time } from "./format.js";
 import { batch_of_csv, batch_of_store } from "./other_run.js";
 
 export class RunBar {
-  /** nodes: a function that tells which are seen; run: an OtherRun. */
+  /** nodes: a function that returns the visible ones; run: an OtherRun. */
   constructor(place, run, store, view, nodes) {
     this.text = element("span", { role: "status" });
     const file = element("input", { type: "file", accept: ".csv,text/csv", hidden: true, onchange: () => this.#load(run, view, file) });

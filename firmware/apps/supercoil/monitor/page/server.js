@@ -1,8 +1,8 @@
-// Every request to supercoil monitor, but for the stream.
+// Every request to supercoil monitor, except the stream.
 
 const KEY = "supercoil-token";
 
-/** The token that the program printed; "" without. It leaves the address bar, so that no picture of the page has it. */
+/** The token that the program printed; "" without. It is removed from the address bar, so that no screenshot of the page shows it. */
 export const token = take_token();
 
 function take_token() {
@@ -14,7 +14,7 @@ function take_token() {
   return sessionStorage.getItem(KEY) ?? "";
 }
 
-// Of STOP; then there is another way to try.
+// For STOP; after that another way is tried.
 const STOP_WITHIN_MS = 500;
 
 async function ask(path, options = {}) {
@@ -28,7 +28,7 @@ async function ask(path, options = {}) {
 const post = (path, body, options) =>
   ask(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), ...options });
 
-/** Gives up after a time, also while the answer is being read. act: is given the options for fetch. */
+/** Gives up after a time limit, even while the answer is being read. act: gets the options for fetch. */
 async function within(limit_ms, act) {
   try {
     return await act({ signal: AbortSignal.timeout(limit_ms) });
@@ -47,12 +47,12 @@ export async function history_of(from_s, to_s) {
   return (await ask(`/api/history?${query}`)).json();
 }
 
-/** Resolves to the refusal's name, "none" when it was obeyed. */
+/** Resolves to the refusal's name; "none": it was obeyed. */
 export async function command(node, opcode, value = 0, options = {}) {
   return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
 
-/** Knots of a trajectory [{after_s, position_m, velocity_m_per_s}], and its start; neither: asks only. Resolves to {refusal, taken, playback, room, buffered_s}. */
+/** Sends knots [{after_s, position_m, velocity_m_per_s}] of a trajectory, and its start; neither: only asks. Resolves to {refusal, taken, playback, room, buffered_s}. */
 export const play = async (node, knots, start) => (await post("/api/trajectory", { node, knots, start })).json();
 
 /** All values of a node: {controllers: [{controller, kind: {in_use, …}, …}], estimators: [{estimator, …}], choices: {controllers: {kind: […], …}, estimators}}. */
@@ -61,31 +61,31 @@ export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json
 /** The kinds in use of a node: {controllers: ["mrac", …], estimators: […]}. */
 export const kinds_of = async (node) => (await ask(`/api/kinds/${node}`)).json();
 
-/** Has a node tell all that it goes by of its muscle: the stream has it too, as Muscle, but for the deviations that the server derives. */
+/** Makes a node report the muscle that it uses: the stream has it too, as Muscle, except for the deviations that the server derives. */
 export const ask_muscle = async (node) => (await ask(`/api/muscle/${node}`)).json();
 
-/** Changes values (texts by name), beginning with those of a set. Resolves to the refusal's name. */
+/** Changes values (texts by name), starting from those of a set. Resolves to the refusal's name. */
 export const tune = async (node, place, from, values) =>
   (await (await post("/api/tuning", { node, place, from, values })).json()).refusal;
 
-/** Where setup is: SetupSession's state. */
+/** The state of setup: SetupSession's. */
 export const setup_state = async () => (await ask("/api/setup")).json();
 
 /** asked: {do: "begin", step}, {do: "answer", text}, {do: "end"} or {do: "undo"}. Resolves to the state after it. */
 export const ask_setup = async (asked) => (await post("/api/setup", asked)).json();
 
-/** STOP's other way: an ordinary command, with a deadline. */
+/** STOP's fallback: an ordinary command with a deadline. */
 export const disarm_within = (limit_ms, node) => within(limit_ms, (options) => command(node, "disarm", 0, options));
 
-/** This page lives and wants the node to stay hot: {holding, reason}. */
+/** Reports that this page is alive and wants the node to stay hot: {holding, reason}. */
 export const alive = async (node) =>
   (await post("/api/alive", { node }).then((answer) => answer.json()));
 
-/** Disarms all nodes, by a port that nothing else can keep busy. Resolves to the nodes. */
+/** Disarms all nodes, through a port that nothing else can keep busy. Resolves to the nodes. */
 export function stop(port) {
   const address = `${location.protocol}//${location.hostname}:${port}/stop`;
   return within(STOP_WITHIN_MS, async (options) => {
-    // text/plain and no header of our own: the browser asks nothing beforehand.
+    // text/plain and no header of our own: the browser sends no preflight request.
     const answer = await fetch(address, { method: "POST", headers: { "Content-Type": "text/plain" }, body: token, cache: "no-store", ...options });
     const body = await answer.json().catch((problem) => ({ error: problem.message }));
     if (!answer.ok) throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);

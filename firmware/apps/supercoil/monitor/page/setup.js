@@ -1,5 +1,5 @@
-// Setup, step by step: what each does is said before it begins, what it found stays to be seen. The steps run in the
-// monitor; this shows where they are, asks, and answers.
+// Setup, step by step: says what each step does before it begins, and keeps its findings visible. The steps run in the
+// monitor; this shows their state, asks, and sends the answers.
 
 import { element, show } from "./dom.js";
 import { significant, words } from "./format.js";
@@ -11,7 +11,7 @@ const LOOK_EVERY_MS = 400;
 const text_of = (value) => (value === null ? "–" : typeof value === "number" ? significant(value) : String(value));
 
 export class Setup {
-  /** opener: the button that opens it. store: while the bus tells something, so that a hidden page is not put to sleep. */
+  /** opener: the button that opens it. store: while the bus sends data, a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
     Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0, refusal: null, time_left: new TimeLeft() });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
@@ -37,7 +37,7 @@ export class Setup {
     const { asked } = this;
     try {
       const state = await setup_state();
-      // What was true before something was asked for is not shown after it.
+      // A state from before a request is not shown after it.
       if (asked === this.asked) this.#take(state);
     } catch (problem) {
       this.#say(problem.message, true);
@@ -59,7 +59,7 @@ export class Setup {
     }
   }
 
-  /** Said where the eyes are: at the question. */
+  /** Shown where the user looks: at the question. */
   #refuse_answer(key, text) {
     this.refusal = { key, text };
     this.#draw();
@@ -73,7 +73,7 @@ export class Setup {
 
   #take(state) {
     this.state = state;
-    // All but the progress is drawn anew only when it changed: somebody may be typing.
+    // Everything but the progress is only redrawn when it changed: the user may be typing.
     const shown = JSON.stringify({ ...state, progress: null });
     if (shown !== this.shown) this.#draw();
     this.shown = shown;
@@ -99,13 +99,13 @@ export class Setup {
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
     }));
     const input = this.list.querySelector("form input");
-    // Lines may come while somebody types.
+    // Lines may arrive while the user types.
     if (input && input.id === before?.id) input.value = before.value;
     input?.focus();
     this.list.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
   }
 
-  /** A table of what a step found. */
+  /** A table of a step's findings. */
   #found({ name, found }) {
     if (found === null) return "";
     return element("details", {}, element("summary", {}, "done; what it found"),
@@ -126,7 +126,7 @@ export class Setup {
     if (question) parts.push(this.#question(question));
     if (error) parts.push(element("p", { class: "answer refused", role: "alert" }, error));
     else if (!runs && !kept) parts.push(element("p", { class: "answer refused", role: "alert" }, "The promise was not kept."));
-    // What is of the file has keys with dots.
+    // Keys with dots are the file's.
     else if (!runs && Object.keys(found ?? {}).some((key) => key.includes("."))) parts.push(element("p", { class: "answer" }, "The file was changed: start the board with it, then go on with the next step."));
     return parts;
   }

@@ -1,4 +1,4 @@
-// What a channel says of itself: state as a colour and a word, mode, progress, fault.
+// A channel's own status: state as a colour and a word, mode, progress, fault.
 
 import { element, show } from "./dom.js";
 import { duration, fixed, significant, words } from "./format.js";
@@ -14,17 +14,17 @@ const MEANS = {
   active: "heats",
   fault: "off, needs a reset",
 };
-// Skin that is touched for hours is burnt from here on (docs/safety.md).
+// From here on, contact for hours burns skin (docs/safety.md).
 const HOT_C = 43;
 
-/** How hot the muscle may be, by the hot end of its interval: off is not cold. */
+/** How hot the muscle may be, by its upper bound: off is not cold. */
 function how_hot(state, hottest_C) {
   if (!Number.isFinite(hottest_C)) return "temperature not known";
   const whole_C = fixed(Math.ceil(hottest_C), 0);
   return hottest_C < HOT_C ? `at most ${whole_C} °C` : `may ${state === "active" ? "" : "still "}be at ${whole_C} °C`;
 }
 
-/** 0.2.0 (2780ebf), as the board tells it; older ones do not. */
+/** 0.2.0 (2780ebf), as the board reports it; older boards do not. */
 function program_text(row) {
   if (!row) return "–";
   const commit = row.commit === 0 ? "" : ` (${row.commit.toString(16).padStart(7, "0")})`;
@@ -32,7 +32,7 @@ function program_text(row) {
 }
 
 export class StateCard {
-  /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
+  /** on_fault: called with a fault's name to open its page. version: of the protocol that this page understands. */
   constructor(node, store, on_fault, version, kind_of = () => undefined) {
     Object.assign(this, { node, store, version, fault_name: "none", kind_of });
     this.word = element("strong", { class: "word", role: "status" });
@@ -62,7 +62,7 @@ export class StateCard {
       element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.slack, this.fault, this.progress, this.result, this.facts);
   }
 
-  /** Returns the status in words, or null while there is none. */
+  /** Returns the status in words, or null if there is none. */
   update(now_s) {
     const row = this.store.at(this.node, "Status", now_s);
     const name = (signal) => this.store.word("Status", signal, row[signal]);
@@ -103,7 +103,7 @@ export class StateCard {
     return status;
   }
 
-  /** What interrupted it. The heartbeat that follows "running" tells; what a later one says may be of something else. */
+  /** What interrupted it. Only the heartbeat right after "running" tells; a later one may refer to something else. */
   #interrupted_by(result, { state, fault }) {
     const ended = this.result_before === "running";
     this.result_before = result;
@@ -118,7 +118,7 @@ export class StateCard {
     return row && now_s - row.time_s <= SILENT_S ? row.hottest_C : NaN;
   }
 
-  /** What the detector of this fault measured when it tripped, and its limit; sent once, right after the emergency. */
+  /** What the fault's detector measured when it tripped, and its limit; sent once, right after the emergency. */
   #margin(fault, now_s) {
     const emergency = this.store.at(this.node, "Emergency", now_s);
     const cause = this.store.at(this.node, "FirstCause", now_s);

@@ -1,4 +1,4 @@
-// One line that says whether what is seen is live, and if not, since when and why.
+// One line that says whether the data shown is live, and if not, since when and why.
 
 import { show } from "./dom.js";
 import { bus_time, duration } from "./format.js";
@@ -10,7 +10,7 @@ export class StatusLine {
   constructor(place, stream, store, view, is_log) {
     Object.assign(this, { place, store, view, is_log, problem: null, heard_ms: null });
     [this.word, this.text] = [place.querySelector("b"), place.querySelector("span")];
-    // Frames that were on their way may come after the word that the source is lost.
+    // Frames in flight may arrive after the message that the source is lost.
     stream.addEventListener("batch", () => (this.heard_ms = performance.now()));
     stream.addEventListener("open", () => this.#clear());
     stream.addEventListener("found", () => this.#clear());

@@ -1,16 +1,16 @@
-// STOP: disarms every muscle. By the button, or by the space bar wherever the focus is.
+// STOP: disarms every muscle. By the button, or by the space bar, wherever the focus is.
 
 import { show } from "./dom.js";
 import { clock_now } from "./format.js";
 import { disarm_within, stop } from "./server.js";
 
-// Of the other way. A board that is there answers within half a second.
+// For the fallback. A board that is present answers within half a second.
 const DISARM_WITHIN_MS = 1500;
 
 const OFF = new Set(["disarmed", "fault"]);
 
 export class Stop {
-  /** nodes, newest_s: functions that tell the known nodes and the newest time that was heard; release_hold: ends all that this page keeps hot, without asking anybody. */
+  /** nodes, newest_s: functions that return the known nodes and the newest time received; release_hold: ends everything that this page keeps hot, without a request. */
   constructor(button, notice, about, nodes, newest_s, release_hold) {
     Object.assign(this, { button, notice, port: about.stop_port, nodes, newest_s, release_hold });
     button.hidden = about.kind === "log";
@@ -18,7 +18,7 @@ export class Stop {
     if (button.disabled) button.title = "this monitor is read-only: use the board's stop button";
     if (button.hidden || button.disabled) return;
     button.addEventListener("click", () => this.press());
-    // Before anything else sees the key: a focused button or input does not get it.
+    // In the capture phase, before anything else sees the key: a focused button or input does not get it.
     addEventListener("keydown", (event) => this.#key(event, () => event.repeat || this.press()), { capture: true });
     addEventListener("keyup", (event) => this.#key(event, () => {}), { capture: true });
     addEventListener("keypress", (event) => this.#key(event, () => {}), { capture: true });
@@ -31,7 +31,7 @@ export class Stop {
     act();
   }
 
-  /** statuses: of all nodes, as StateCard tells them, null where nothing was heard. What they show since is better than what failed. */
+  /** statuses: of all nodes, as StateCard returns them, null for silent nodes. Their newer state replaces a failed STOP. */
   observe(statuses) {
     if (this.notice.dataset.kind !== "failed" || this.notice.hidden || statuses.length === 0) return;
     if (!statuses.every((status) => status && OFF.has(status.state) && status.time_s > this.pressed_s)) return;
@@ -39,7 +39,7 @@ export class Stop {
   }
 
   async press() {
-    // First, as it needs no answer: what nobody renews any more expires on the board by itself.
+    // First, because it needs no answer: what is no longer renewed expires on the board by itself.
     this.release_hold();
     this.pressed_s = this.newest_s();
     this.button.classList.add("pressed");
@@ -53,7 +53,7 @@ export class Stop {
     }
   }
 
-  /** The other way there is, when the stop's own port does not answer. */
+  /** The fallback, when the STOP port does not answer. */
   async #by_commands(problem) {
     this.problem = problem.message;
     this.#say(`STOP did not get through (${problem.message}); disarming each node …`, "failed");

@@ -1,15 +1,15 @@
-// All that was received, by node and message.
+// All received data, by node and message.
 
 import { Table } from "./table.js";
 
 const HOUR_S = 3600;
-// What a Float32Array holds of a number.
+// The precision of a Float32Array.
 const SINGLE_DIGITS = 8;
-// A source that starts anew begins at an earlier time; frames of one source never differ by so much.
+// A source that restarts begins at an earlier time; frames of one source never differ by this much.
 const RESTART_S = 1;
 
 export class Store extends EventTarget {
-  /** protocol: messages with their signals, as /api/about has it. A log is kept whole, a live bus for an hour. */
+  /** protocol: messages with their signals, as in /api/about. A log is kept whole, a live bus for an hour. */
   constructor(protocol, is_log) {
     super();
     this.protocol = protocol;
@@ -25,7 +25,7 @@ export class Store extends EventTarget {
     this.heard_ms = NaN;
   }
 
-  /** Since when nothing has come, on this page's own clock: 0 in a log. */
+  /** Time since the last data, on this page's own clock: 0 in a log. */
   get silent_s() {
     return this.keep_s === Infinity ? 0 : (performance.now() - this.heard_ms) / 1e3;
   }
@@ -50,7 +50,7 @@ export class Store extends EventTarget {
     this.dispatchEvent(new CustomEvent("batch", { detail: batch }));
   }
 
-  /** Older rows; returns whether there were any. */
+  /** Adds older rows; returns whether there were any. */
   prepend(batch) {
     const before_s = this.oldest_s;
     this.#each(batch, (table, rows) => table.prepend(rows));
@@ -81,7 +81,7 @@ export class Store extends EventTarget {
     return messages.get(message);
   }
 
-  /** The table of a node's message, or null while none came. */
+  /** The table of a node's message, or null if none came. */
   table(node, message) {
     return message === "bus" ? this.bus : (this.nodes.get(node)?.get(message) ?? null);
   }
@@ -91,7 +91,7 @@ export class Store extends EventTarget {
     return this.table(node, message)?.at(time_s) ?? null;
   }
 
-  /** The newest row for each value of a signal that says which one comes round in this frame. */
+  /** The newest row for each value of a signal that selects the content of the frame. */
   round(node, message, signal, time_s) {
     const names = this.protocol[message]?.[signal]?.values ?? {};
     const wanted = Object.keys(names).length;
@@ -104,7 +104,7 @@ export class Store extends EventTarget {
     return newest;
   }
 
-  /** The name of an enumeration's number. */
+  /** The name of an enumeration's value. */
   word(message, signal, value) {
     return this.protocol[message]?.[signal]?.values?.[value] ?? String(value);
   }

@@ -1,15 +1,15 @@
-// What the server sends by itself, as events: "batch" (detail: the batch), "open", "lost" (detail: why), "found", "closed".
+// What the server pushes, as events: "batch" (detail: the batch), "open", "lost" (detail: why), "found", "closed".
 
 import { token } from "./server.js";
 
 export class Stream extends EventTarget {
   open() {
     const url = new URL("/api/stream", location.href);
-    // What was missed meanwhile is asked for in the history.
+    // The history is asked for whatever was missed.
     url.searchParams.set("resume", "no");
     if (token) url.searchParams.set("token", token);
     if ("SharedWorker" in window) {
-      // Pages with another token may see something else, and have a worker of their own.
+      // Pages with another token may see other data, and have their own worker.
       const { port } = new SharedWorker("/stream_worker.js", { name: token });
       port.onmessage = ({ data }) => this.#take(data);
       port.postMessage({ url: url.href });

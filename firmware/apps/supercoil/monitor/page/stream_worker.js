@@ -19,7 +19,7 @@ function open(url) {
   source.addEventListener("found", () => tell({ kind: "found" }));
   source.onerror = () => {
     tell({ kind: "closed" });
-    // A refused stream (too many of them) is not opened again by itself.
+    // The browser does not reopen a refused stream (too many of them).
     if (source.readyState === EventSource.CLOSED) setTimeout(open, 1000, url);
   };
 }

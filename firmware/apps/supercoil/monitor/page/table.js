@@ -1,8 +1,8 @@
 // The received rows of one message of one node: columns of numbers, ordered by time, an hour of them.
 //
-// Rows lie in chunks, so that memory grows as data comes, a full hour moves on without copying, and older rows can be put
-// in front. Of every BLOCK rows the least and greatest value are kept: a plot of an hour reads these in place of a third
-// of a million rows.
+// Rows are stored in chunks, so that memory grows as data comes, a full hour moves on without copying, and older rows can be
+// put in front. For every BLOCK rows the min and max value are kept: a plot of an hour reads these instead of a third of a
+// million rows.
 
 export const BLOCK = 64;
 const CHUNK_ROWS = 64 * BLOCK;
@@ -63,14 +63,14 @@ class Chunk {
   }
 }
 
-// NaN is "not available" and never a least or a greatest.
+// NaN is "not available" and never a min or a max.
 const lesser = (value, least) => (Number.isNaN(value) || least < value ? least : value);
 const greater = (value, greatest) => (Number.isNaN(value) || greatest > value ? greatest : value);
 
 export class Table {
   /**
-   * keep_s: rows older than this before the newest are dropped, chunk by chunk. Numbers: the typed array that holds what the
-   * columns are.
+   * keep_s: rows older than this before the newest are dropped, chunk by chunk. Numbers: the typed array for the
+   * columns.
    */
   constructor(columns, keep_s, Numbers = Float32Array) {
     this.columns = columns;
@@ -91,7 +91,7 @@ export class Table {
     return this.empty ? NaN : this.chunks.at(-1).last_s;
   }
 
-  /** Usual time from row to row, by the newest of them: a pause among these does not count. */
+  /** Usual time between rows, from the newest rows: a pause among them does not count. */
   get period_s() {
     if (this.empty) return 0;
     const newest = [...this.chunks.at(-1).time_s.subarray(0, this.chunks.at(-1).count).slice(-PERIOD_ROWS)];
@@ -99,7 +99,7 @@ export class Table {
     return periods_s[Math.floor((periods_s.length - 1) / 2)] ?? 0;
   }
 
-  /** Appends what is newer than all that is there; the rest is known already. */
+  /** Appends the rows that are newer than all present ones; the others are known already. */
   append(batch) {
     const rows = batch.time_s.length;
     let row = 0;
@@ -111,7 +111,7 @@ export class Table {
     while (this.chunks.length > 1 && this.chunks[0].last_s < this.last_s - this.keep_s) this.chunks.shift();
   }
 
-  /** Puts what is older than all that is there in front. */
+  /** Puts the rows that are older than all present ones in front. */
   prepend(batch) {
     let rows = batch.time_s.length;
     if (!this.empty) while (rows > 0 && batch.time_s[rows - 1] >= this.first_s) --rows;

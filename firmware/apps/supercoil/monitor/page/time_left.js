@@ -1,15 +1,15 @@
-// How long something still takes, by how fast it went so far.
+// Estimates the remaining time from the progress so far.
 
 import { duration } from "./format.js";
 
-// Before this has been seen of it, nobody knows how long the rest takes.
+// Until this much has been seen, the remaining time is unknown.
 const ENOUGH_S = 2;
 const ENOUGH_DONE = 0.03;
 
 export class TimeLeft {
   #seen = null;
 
-  /** what: another one begins anew. done: 0 to 1. ", 14 s left", or nothing while it cannot be told. */
+  /** what: a new one starts again. done: 0 to 1. ", 14 s left", or nothing while it is unknown. */
   text(what, time_s, done) {
     if (this.#seen?.what !== what || done < this.#seen.done) this.#seen = { what, time_s, done };
     const passed_s = time_s - this.#seen.time_s;

@@ -15,7 +15,7 @@ export function connect_tools({ view, replay, export_csv, fault_page, tabs, plot
   for (const radio of spans) radio.addEventListener("change", () => view.span(Number(radio.value)));
   view.addEventListener("change", () => {
     show(pause, view.live ? "❚❚ pause" : replay ? "▶ follow" : "▶ live");
-    pause.hidden = replay && view.live; // the replay has a button of its own
+    pause.hidden = replay && view.live; // the replay has its own button
     for (const radio of spans) radio.checked = Number(radio.value) === view.span_s;
   });
   by_id("choose-plots").addEventListener("click", () => plots.toggle());
@@ -23,7 +23,7 @@ export function connect_tools({ view, replay, export_csv, fault_page, tabs, plot
   const show_help = () => (help.open ? help.close() : help.show());
   by_id("keys").addEventListener("click", show_help);
   help.querySelector("button").addEventListener("click", () => help.close());
-  // Side by side there is no panel to see what is commanded.
+  // Side by side there is no panel that would show the command.
   const nudge = (sign) => tabs.visible.length === 1 && !replay && tabs.visible[0].panel.nudge(sign);
   listen_to_keys({
     k: () => nudge(1), j: () => nudge(-1), m: () => tabs.visible.forEach((node) => node.mark()),

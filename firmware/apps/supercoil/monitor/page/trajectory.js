@@ -1,21 +1,21 @@
-// Motions as a board takes them ahead of time: knots, each with its time, position and velocity.
+// Motions that the board buffers ahead of time: knots, each with its time, position and velocity.
 
 import { LENGTH } from "./joint.js";
 import { waveform } from "./waveform.js";
 
 const STEP_S = 0.04;
-const FAST_STEP_S = 0.02; // where 25 knots a second were fewer than 10 a period
+const FAST_STEP_S = 0.02; // if 25 knots a second would be fewer than 10 a period
 const LEAST_PERIOD_S = 0.2;
-const MOST_STEP_S = 4.094; // that a knot can tell
+const MOST_STEP_S = 4.094; // that a knot can carry
 
-/** Why a shape cannot be a trajectory, or "". values: of the shape, without a file's rows. */
+/** Why a shape cannot be a trajectory, or "". values: the shape's, without a file's rows. */
 export function jumps(shape, values) {
   if (shape === "steps") return "it jumps";
   const least_s = Math.min(values.period, shape === "chirp" ? values.last_period : Infinity);
   return least_s < LEAST_PERIOD_S ? `a period of less than ${LEAST_PERIOD_S} s has too few knots` : "";
 }
 
-/** From 0 to 1, beginning and ending at rest, without a jump of the acceleration. */
+/** From 0 to 1, starting and ending at rest, without a jump in acceleration. */
 function ease(part) {
   const p = Math.min(1, Math.max(0, part));
   return p ** 3 * (10 - 15 * p + 6 * p ** 2);
@@ -23,7 +23,7 @@ function ease(part) {
 
 const in_ms = (time_s) => Math.round(1e3 * time_s) / 1e3;
 
-/** {at, end_s, knots()}: a swing that grows within its first period, and a chirp's fades within its last one. */
+/** {at, end_s, knots()}: a swing that grows within its first period; a chirp also fades within its last one. */
 export function swinging(shape, values, measure = LENGTH) {
   const wave = waveform(shape, values, measure);
   const middle_m = measure.to_m(values.offset);
@@ -46,7 +46,7 @@ function* swing_knots(at, step_s, end_s) {
   yield { time_s: end_s, position_m: at(end_s), velocity_m_per_s: 0 };
 }
 
-/** The same of a file's rows [s, m], which it passes smoothly; {why} where they are too far apart. */
+/** The same for a file's rows [s, m], which it passes smoothly; {why} if they are too far apart. */
 export function through(rows, at) {
   const kept = [];
   for (const [time_s, position_m] of rows) {
@@ -60,7 +60,7 @@ export function through(rows, at) {
   return { at, end_s: kept.at(-1).time_s, knots: () => kept.values() };
 }
 
-/** Of the parabola through three knots, at the one in the middle. */
+/** From the parabola through three knots, at the middle one. */
 function velocity(before, knot, after) {
   const [since_s, until_s] = [knot.time_s - before.time_s, after.time_s - knot.time_s];
   const [reached, left] = [(knot.position_m - before.position_m) / since_s, (after.position_m - knot.position_m) / until_s];

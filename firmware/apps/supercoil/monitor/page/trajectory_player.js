@@ -1,4 +1,4 @@
-// Plays a motion by its knots, which the board takes ahead of time, until it ends, is stopped, or the muscle is let go.
+// Plays a motion by its knots, sent to the board ahead of time, until it ends, is stopped, or the muscle is let go.
 
 import { refusal_words } from "./refusals.js";
 
@@ -10,7 +10,7 @@ const NEAR = 0.01; // of the travel
 
 const sleep = (duration_ms) => new Promise((resolve) => setTimeout(resolve, duration_ms));
 
-/** Tells "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
+/** Fires "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
 export class TrajectoryPlayer extends EventTarget {
   /** position(): where the muscle is, in m. */
   constructor(manual, position) {
@@ -25,12 +25,12 @@ export class TrajectoryPlayer extends EventTarget {
     return this.run !== null;
   }
 
-  /** motion: of trajectory.js. max_m: the channel's travel. */
+  /** motion: from trajectory.js. max_m: the channel's travel. */
   async start(motion, max_m) {
     this.stop("another one begins");
     const knots = motion.knots();
     const next = [knots.next().value];
-    // room: as the board told it; taken_s: time of the last knot that it has.
+    // room: as reported by the board; taken_s: time of the last knot that it has.
     const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, told_ms: 0, started: false };
     this.run = run;
     this.#draw(run);
@@ -40,14 +40,14 @@ export class TrajectoryPlayer extends EventTarget {
     else this.hold(why);
   }
 
-  /** Ends it; what else is commanded makes the board forget its knots. */
+  /** Ends the motion; any other command makes the board forget its knots. */
   stop(why) {
     if (!this.playing) return;
     this.run = null;
     this.dispatchEvent(new CustomEvent("stop", { detail: why }));
   }
 
-  /** Ends it where it is now. */
+  /** Ends the motion where it is now. */
   hold(why) {
     if (!this.playing) return;
     const { run } = this;
@@ -57,7 +57,7 @@ export class TrajectoryPlayer extends EventTarget {
     this.manual.follow(here_m);
   }
 
-  /** Whom nobody sees is not played: a hidden page is too slow to refill. */
+  /** A hidden page does not play: it is too slow to refill the board's knots. */
   #see() {
     if (!document.hidden || !this.playing) return;
     this.stop("the page was hidden; the muscle rests");
@@ -68,7 +68,7 @@ export class TrajectoryPlayer extends EventTarget {
     this.dispatchEvent(new CustomEvent("progress", { detail: text }));
   }
 
-  /** Why it did not come to its first point, or null. */
+  /** Goes to the first point. Returns why it did not arrive, or null. */
   async #arrive(run, near_m) {
     this.#tell("goes to its first point");
     const { obeyed, text } = await this.manual.follow(run.first_m);
@@ -82,13 +82,13 @@ export class TrajectoryPlayer extends EventTarget {
     return null;
   }
 
-  /** Nothing is to be held after this. */
+  /** Ends the run without holding anything afterwards. */
   #end(run, why) {
     run.ended = true;
     return why;
   }
 
-  /** Why it ended. */
+  /** Returns why it ended. */
   async #play(run) {
     while (run === this.run) {
       const batch = run.next.slice(0, Math.min(KNOTS_AT_ONCE, run.room));
@@ -104,7 +104,7 @@ export class TrajectoryPlayer extends EventTarget {
     return "";
   }
 
-  /** Those that are to be sent next. */
+  /** Draws the knots to send next. */
   #draw(run) {
     while (run.next.length < KNOTS_AT_ONCE) {
       const { done, value } = run.knots.next();
@@ -113,7 +113,7 @@ export class TrajectoryPlayer extends EventTarget {
     }
   }
 
-  /** Why it cannot go on, or "". */
+  /** Returns why it cannot go on, or "". */
   #take(run, { problem, refusal, taken, playback, room, buffered_s }, starts) {
     if (problem) return this.#end(run, problem);
     if (taken > 0) run.taken_s = run.next[taken - 1].time_s;

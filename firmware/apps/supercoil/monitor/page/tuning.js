@@ -1,4 +1,4 @@
-// The controllers and estimators of a node with all their values: read when they are opened, changed by hand, stored.
+// The controllers and estimators of a node with all their values: read when opened, changed by hand, stored.
 
 import { element, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";
@@ -6,14 +6,14 @@ import { refusal_words } from "./refusals.js";
 import { command, kinds_of, tune, tuning_of } from "./server.js";
 
 const STORE = 2; // of the opcode store: keeps the tuning in use
-const CLEAR = 3; // forgets what is kept
+const CLEAR = 3; // forgets what is stored
 const FIRST_ESTIMATOR = 8; // of the places, where controllers begin at 0
 const SETS = ["in_use", "configured", "stored"];
 
 const text_of = (value) => (value === null || value === undefined ? "–" : typeof value === "number" ? significant(value) : String(value));
 
 export class Tuning {
-  /** may: {command, why}; log: is told (text, kind) of what was done. */
+  /** may: {command, why}; log(text, kind): called for each action. */
   constructor(node, may, log) {
     Object.assign(this, { node, may, log, all: [], kinds: null, known_at: "", shown: 0, inputs: new Map() });
     this.tabs = element("div", { class: "buttons", role: "group", "aria-label": "controllers and estimators" });
@@ -32,12 +32,12 @@ export class Tuning {
       this.answer);
   }
 
-  /** The law at a place, by its name; undefined while it is not known. */
+  /** The law at a place, by name; undefined while it is not known. */
   kind_of(place) {
     return this.kinds?.controllers[place];
   }
 
-  /** Kinds are asked for again when what is at work may have changed: others tune as well. */
+  /** Asks for the kinds again when the active ones may have changed: others tune as well. */
   follow(status) {
     const now = status && status.state !== "silent" ? `${status.state} ${status.mode} ${status.controller}` : "";
     if (now === this.known_at) return;
@@ -81,7 +81,7 @@ export class Tuning {
       ...choices.map((choice) => element("option", { selected: choice === String(in_use) }, choice)));
   }
 
-  /** What was written, by name. */
+  /** The values that the user changed, by name. */
   #changed() {
     return Object.fromEntries([...this.inputs].filter(([, { input, was }]) => input.value !== was).map(([name, { input }]) => [name, input.value.trim()]));
   }

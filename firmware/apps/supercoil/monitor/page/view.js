@@ -1,9 +1,9 @@
-// Which time is looked at: the newest (live), or a part of the past that stands still (paused).
+// The time shown: the newest (live), or a fixed part of the past (paused).
 
 const SHORTEST_S = 0.5;
 
 export class View extends EventTarget {
-  /** now_s: a function that tells the newest time there is to see; oldest_s: likewise. */
+  /** now_s: a function that returns the newest time available; oldest_s: likewise. */
   constructor(now_s, oldest_s) {
     super();
     this.now_s = now_s;
@@ -43,14 +43,14 @@ export class View extends EventTarget {
     this.#set(to_s - from_s, to_s);
   }
 
-  /** factor below 1: nearer. about: what stays where it is, 0 to 1 from left to right; live stays live. */
+  /** factor below 1: zooms in. about: what stays in place, 0 to 1 from left to right; live stays live. */
   zoom(factor, about = 1) {
     const { from_s, to_s } = this.range;
     const span_s = this.span_s * factor;
     this.#set(span_s, this.live ? null : from_s + about * (to_s - from_s) + (1 - about) * span_s);
   }
 
-  /** part of the span, negative: to the past. */
+  /** part of the span; negative: towards the past. */
   pan(part) {
     const end_s = this.range.to_s + part * this.span_s;
     this.#set(this.span_s, end_s >= this.now_s() ? null : Math.max(end_s, this.oldest_s()));

@@ -4,12 +4,12 @@ import { fixed } from "./format.js";
 
 const EVERY_MS = 50;
 
-/** Tells "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
+/** Fires "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
 export class WavePlayer extends EventTarget {
   constructor(manual) {
     super();
     Object.assign(this, { manual, wave: null, time_s: 0, asking: false });
-    // STOP, a fault, another mode: whatever lets go of the muscle ends the waveform at once.
+    // STOP, a fault, another mode: anything that lets go of the muscle ends the waveform at once.
     manual.addEventListener("release", () => this.stop("the muscle was let go"));
     manual.addEventListener("taken", () => this.stop("commanded by hand"));
   }
@@ -18,7 +18,7 @@ export class WavePlayer extends EventTarget {
     return this.wave !== null;
   }
 
-  /** wave: {at, end_s} of waveform.js. */
+  /** wave: {at, end_s} from waveform.js. */
   start(wave) {
     this.stop("another one begins");
     Object.assign(this, { wave, time_s: 0, begin_ms: performance.now() });
@@ -38,7 +38,7 @@ export class WavePlayer extends EventTarget {
     this.dispatchEvent(new CustomEvent("stop", { detail: why }));
   }
 
-  /** A set point waits for the answer to the one before it: of a slow line it gets fewer, not late ones. */
+  /** A set point waits for the previous answer: a slow line gets fewer set points, not late ones. */
   async #tick() {
     if (this.asking) return;
     const { wave } = this;

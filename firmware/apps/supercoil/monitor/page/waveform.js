@@ -1,8 +1,8 @@
-// Set points as functions of time: waveforms to be played to a muscle.
+// Set points as functions of time: waveforms to play on a muscle.
 
 import { LENGTH } from "./joint.js";
 
-/** What a shape asks for, by name: label, unit ("": that of the positions), value at first. */
+/** The inputs of a shape, by name: label, unit ("": that of the positions), initial value. */
 const OFFSET = { offset: ["offset", "", 8] };
 const SWING = { ...OFFSET, amplitude: ["amplitude", "", 2], period: ["period", "s", 10] };
 export const SHAPES = {
@@ -12,7 +12,7 @@ export const SHAPES = {
   file: {},
 };
 
-/** Phase in periods of a swing whose frequency rises evenly from 1/period to 1/last_period. */
+/** Phase in periods of a swing whose frequency rises linearly from 1/period to 1/last_period. */
 const chirped = ({ period, last_period, duration }) => (time_s) =>
   time_s / period + ((1 / last_period - 1 / period) * time_s ** 2) / (2 * duration);
 
@@ -23,7 +23,7 @@ function swing({ offset, amplitude }, phase, shape, { to_m }) {
 const sine = (phase) => Math.sin(2 * Math.PI * phase);
 const square = (phase) => (phase % 1 < 0.5 ? 1 : -1);
 
-/** {at: position in m by time in s, end_s}; values: numbers by name, as SHAPES asks for them, positions as measure has them. */
+/** {at: position in m by time in s, end_s}; values: numbers by name, as in SHAPES, positions in the unit of measure. */
 export function waveform(shape, values, measure = LENGTH) {
   if (shape === "chirp") return { at: swing(values, chirped(values), sine, measure), end_s: values.duration };
   return { at: swing(values, (time_s) => time_s / values.period, shape === "sine" ? sine : square, measure), end_s: Infinity };
@@ -47,7 +47,7 @@ export function refuse_values(shape, values, max_m, { unit, of_m, min_m } = LENG
 
 const COLUMNS = ["time_s", "position_m"];
 
-/** A file's rows, and as a waveform, straight between them. Throws an Error that names line and value. */
+/** A file's rows, and the same as a waveform, straight between them. Throws an Error that names line and value. */
 export function waveform_of_file(text, max_m, measure = LENGTH) {
   const min_m = measure.min_m(max_m);
   const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
@@ -70,7 +70,7 @@ export function waveform_of_file(text, max_m, measure = LENGTH) {
 }
 
 function between(rows) {
-  let place = 1; // of the row at or after the time; times only grow
+  let place = 1; // of the row at or after the time; times never decrease
   return (time_s) => {
     const at_s = rows[0][0] + time_s;
     while (place < rows.length - 1 && rows[place][0] < at_s) ++place;

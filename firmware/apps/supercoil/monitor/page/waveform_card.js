@@ -1,4 +1,4 @@
-// A waveform to be played to a muscle: its shape, its numbers or its file, start and stop.
+// A waveform to play on a muscle: its shape, its numbers or its file, start and stop.
 
 import { element, show } from "./dom.js";
 import { LENGTH } from "./joint.js";
@@ -8,7 +8,7 @@ import { WavePlayer } from "./wave_player.js";
 import { SHAPES, refuse_values, waveform, waveform_of_file } from "./waveform.js";
 
 export class WaveformCard {
-  /** may: {command, why}; log: is told (text, kind) of what was done; position(): where the muscle is, in m. */
+  /** may: {command, why}; log(text, kind): called for each action; position(): where the muscle is, in m. */
   constructor(manual, may, log, position) {
     const [set_points, trajectory] = [new WavePlayer(manual), new TrajectoryPlayer(manual, position)];
     Object.assign(this, { log, max_m: NaN, measure: LENGTH, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
@@ -17,7 +17,7 @@ export class WaveformCard {
     const radios = Object.keys(SHAPES).map((shape) => element("label", {},
       element("input", { type: "radio", name: id("shape"), value: shape, checked: shape === this.shape, disabled, onchange: () => this.#choose(shape) }),
       element("span", {}, shape)));
-    // Of all shapes; those of the chosen one are seen.
+    // Inputs of all shapes; only those of the chosen shape are visible.
     for (const [name, [label, unit, value]] of Object.entries(Object.assign({}, ...Object.values(SHAPES)))) {
       const input = element("input", { type: "number", id: id(name), step: "any", inputmode: "decimal", value, disabled });
       const unit_shown = element("span", { class: "unit" }, unit || LENGTH.unit);
@@ -71,12 +71,12 @@ export class WaveformCard {
     }
   }
 
-  /** why: it is played as set points; "" or undefined: as a trajectory. */
+  /** why: the reason for playing it as set points; "" or undefined: as a trajectory. */
   #say_way(why) {
     show(this.way, why ? `As set points, 20 a second: ${why}.` : "As a trajectory: the board takes the way ahead of time.");
   }
 
-  /** What is to be played, as set points and as a trajectory, or why not; throws what is wrong with it. */
+  /** What to play, as set points and as a trajectory, or why not; throws what is wrong with it. */
   async #wave() {
     if (!(this.max_m > 0)) throw new Error("the board has not told yet how far its muscle may travel");
     if (this.shape === "file") {
@@ -98,14 +98,14 @@ export class WaveformCard {
     this.answer.classList.toggle("refused", refused);
   }
 
-  /** limits: of the detectors, by fault; measure: in which positions are typed. */
+  /** limits: of the detectors, by fault; measure: the unit in which positions are typed. */
   update(limits, measure) {
     this.max_m = limits.get("over_travel");
     const same = measure.unit === this.measure.unit;
     this.measure = measure;
     if (same) return;
     for (const { typed_unit } of this.fields.values()) if (typed_unit) show(typed_unit, measure.unit);
-    // About the middle of where it may go, and little of it.
+    // A small swing around the middle of the range.
     if (measure.both_ways) [this.fields.get("offset").input.value, this.fields.get("amplitude").input.value] = [0, 5];
   }
 }

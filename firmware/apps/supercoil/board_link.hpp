@@ -149,7 +149,7 @@ class CanBoardLink final : public BoardLink {
   std::map<std::uint8_t, Told> told_;
 };
 
-/// Arms a channel and waits until its heater was measured: before, commands to heat are refused.
+/// Arms a channel and waits until its heater is measured: until then heating is refused.
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 

@@ -191,7 +191,7 @@ bool has_result(const CommandOptions& options) {
   return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
 }
 
-/// Sent only once, they would end with the fault command_timeout, so they are held.
+/// Sent once, identify and calibrate would end with the fault command_timeout: they are held.
 double held_s(const CommandOptions& options) {
   const bool until_it_ends = options.words.size() == 2 && has_result(options);
   return options.hold_s == 0.0 && until_it_ends ? INFINITY : options.hold_s;
@@ -278,8 +278,8 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
-/// Takes the joint for a position in degrees. Returns an exit status: the channel must be in a
-/// joint.
+/// For a position in degrees: reads the joint, which its channel must be in. Returns an exit
+/// status.
 int take_joint(BoardLink& board, CommandOptions& options) {
   if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);

@@ -21,9 +21,9 @@ class NewestRows {
   }
   /// The board's time at the newest tick.
   double newest_s() const { return newest_s_; }
-  /// A line for each channel, with the words that state_words.hpp names: "1 active position none
-  /// 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none - 0 mrac". The result is a ModeResult, the notes
-  /// are IdentifyNotes. loop: gives the controllers' kinds.
+  /// A line for each channel, with the words that state_words.hpp names:
+  /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none - 0 mrac". The result is a
+  /// ModeResult, the notes are IdentifyNotes. loop: gives the controllers' kinds.
   std::string describe(const Loop& loop) const;
   /// A line for each channel, "1 armed none probing": channel, state, fault, and whether its heater
   /// is being measured ("-" if not).

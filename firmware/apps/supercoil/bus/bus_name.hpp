@@ -22,7 +22,7 @@ Result<SocketcandAddress> parse_socketcand(const std::string& name);
 bool names_socketcand(const std::string& name);
 
 /// listen: wanted identifiers; empty: all. Others may arrive too. The error names the bus, and
-/// lists what is available instead.
+/// says what is available instead.
 Result<std::unique_ptr<hal::CanBus>> open_bus(const std::string& name,
                                               const std::vector<std::uint16_t>& listen = {});
 

@@ -16,7 +16,7 @@ namespace supercoil::doctor {
 /// Successive conversions of one converter.
 class Readings {
  public:
-  /// took: how long the conversion took.
+  /// took: how long the read took.
   void add(const hal::Sample& sample, hal::Duration took);
 
   std::int64_t good() const { return good_; }

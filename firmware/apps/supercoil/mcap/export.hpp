@@ -1,4 +1,4 @@
-// Exports what `supercoil log` reads as MCAP: JSON values by name; null: not available.
+// MCAP export of what `supercoil log` reads: JSON values by name; null: not available.
 #pragma once
 
 #include <cstddef>

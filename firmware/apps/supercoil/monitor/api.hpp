@@ -41,7 +41,7 @@ class ManualControls {
   std::map<std::uint8_t, std::unique_ptr<ManualControl>> controls_;
 };
 
-/// Handlers of one server. Nothing is copied; all arguments outlive the server.
+/// Handlers of one server. They refer to this object: it and its arguments outlive the server.
 class Api {
  public:
   struct About {

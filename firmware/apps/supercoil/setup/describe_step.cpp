@@ -92,7 +92,7 @@ Result<Said> completed(const Script& script, const SetupOptions& options,
   return Said{script.nameplate, answers};
 }
 
-/// Sets the joint's range_deg instead of the travel where it bounds the travel; writes nothing if
+/// Sets the joint's range_deg instead of the travel if range_deg is the bound; writes nothing if
 /// range_deg is at least as tight as the answer.
 void fit_travel(const std::string& text, int channel, std::vector<Entry>& entries, Operator& who) {
   const auto travel = std::ranges::find(entries, travel_key, &Entry::path);

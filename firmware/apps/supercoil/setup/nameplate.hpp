@@ -1,4 +1,4 @@
-// A supplier's data of a muscle, instead of measurements on a bench.
+// A supplier's data on a muscle, instead of measurements on a bench.
 #pragma once
 
 #include <array>

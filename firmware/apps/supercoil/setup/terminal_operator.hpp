@@ -22,7 +22,7 @@ class TerminalOperator final : public Operator {
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
   bool interrupted() const override;
-  /// Starts a new line for the next message.
+  /// Clears the progress line, so that the next message starts on an empty one.
   void end_progress() { progress_.reset(); }
   /// Questions that the script answers are no longer asked.
   void take(ScriptedAnswers answers) { script_ = std::move(answers); }

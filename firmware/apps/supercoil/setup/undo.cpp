@@ -36,7 +36,7 @@ Result<Write> own_write(const SetupOptions& options, const SetupRecord& record) 
                  other + " --undo takes that back first");
 }
 
-/// What the completed steps from this one on left there. The channel is numbered as in commands.
+/// What the completed steps from this one on left on the board, with the channel as in commands.
 std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecord& record,
                                    const std::string& first) {
   int channel = options.channel;

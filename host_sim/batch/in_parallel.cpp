@@ -34,8 +34,7 @@ class Work {
     news_.notify_one();
   }
 
-  /// What has ended since it was last asked; waits a while for something. Empty at the end when all
-  /// `jobs` threads are done.
+  /// The handovers since the last call; waits a while if there are none.
   std::vector<Handover> wait(unsigned jobs) {
     using namespace std::chrono_literals;
     std::unique_lock lock(mutex_);
@@ -79,7 +78,7 @@ void in_parallel(std::size_t count, unsigned jobs, const Task& task,
                  const std::function<bool()>& stop) {
   Work work(count, task);
   std::vector<std::jthread> threads;
-  // Also when a handover throws: threads are joined before the work is gone.
+  // Also when a handover throws: the threads end before `work` is destroyed.
   struct Stop {
     std::atomic<bool>* stop;
     ~Stop() { *stop = true; }

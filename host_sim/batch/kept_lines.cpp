@@ -47,7 +47,7 @@ Result<bool> read_lines(const std::filesystem::path& path, const std::string& he
                    begin.substr(0, std::min(begin.find('\n'), std::size_t{80})) + "\"; must be \"" +
                    head.substr(0, head.find('\n')) + "\". Choose another --out, or delete it");
   }
-  // Line by line: a file may be larger than the memory.
+  // Line by line: a file may be larger than memory.
   auto number = 1 + std::ranges::count(head, '\n');
   for (std::string line; std::getline(in, line); ++number) {
     if (in.eof()) return true;

@@ -1,4 +1,4 @@
-// A muscle that goes on moving for minutes: two Maxwell branches beside its spring.
+// Creep, which moves a muscle for minutes: two Maxwell branches in parallel with its spring.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ class Creep {
     step_ratio_ = {-std::expm1(-step_s / effects.creep_fast_s),
                    -std::expm1(-step_s / effects.creep_slow_s)};
   }
-  /// Of both springs.
+  /// Sum of both springs.
   double stiffness_N_per_m() const { return 2.0 * stiffness_N_per_m_; }
-  /// By which the branches pull towards where they are, at the beginning of a step.
+  /// Force towards the branches' own positions, at the beginning of a step.
   double pull_N() const { return stiffness_N_per_m_ * (at_m_[0] + at_m_[1]); }
-  /// By which that changes in a step that leaves the position where it is.
+  /// Change of that force over a step in which the position stays the same.
   double pull_change_N(double position_m) const {
     return stiffness_N_per_m_ *
            (step_ratio_[0] * (position_m - at_m_[0]) + step_ratio_[1] * (position_m - at_m_[1]));
   }
-  /// The dampers give way over a step, whose mean position this is.
+  /// The dampers yield over a step; position_m: its mean position.
   void step(double position_m) {
     at_m_[0] += step_ratio_[0] * (position_m - at_m_[0]);
     at_m_[1] += step_ratio_[1] * (position_m - at_m_[1]);

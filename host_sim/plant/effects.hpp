@@ -1,4 +1,4 @@
-// What real muscles do beside the paper's equations.
+// Effects in real muscles that the paper's equations leave out.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace supercoil::host_sim {
 
 /// Each effect is off by default. Equations and sources: docs/muscles.md. Temperatures are rises
-/// above the air as it was at the start. Ratios without a unit are of what the name says.
+/// above the air at the start. A ratio without a unit is relative to the quantity that it names.
 struct PlantEffects {
   // Heat transfer that rises with temperature: shares of free convection and of radiation at
   // heat_transfer_at_K, where the muscle's heat_transfer_W_per_K holds.
@@ -18,7 +18,7 @@ struct PlantEffects {
   double heat_transfer_at_K = 60.0;
   double draught_ratio = 1.0;  ///< a factor on the heat transfer
   double air_C = 20.0;         ///< the air at the start; counts for radiation only
-  double air_change_K = 0.0;   ///< of the air since then
+  double air_change_K = 0.0;   ///< since the start
 
   // Force per kelvin at force_ratio_at_K over that of the cold muscle.
   double force_ratio = 1.0;
@@ -27,7 +27,7 @@ struct PlantEffects {
   // Hysteresis of force over temperature: width of the full loop over hysteresis_range_K.
   double hysteresis_ratio = 0.0;
   double hysteresis_range_K = 40.0;
-  double hysteresis_weight = 0.5;  ///< of the plays in the force
+  double hysteresis_weight = 0.5;  ///< share of the plays in the force
 
   // Stiffness that is lost between two temperatures; the hanging mass then stretches the muscle.
   double softening_ratio = 0.0;
@@ -40,7 +40,7 @@ struct PlantEffects {
   double creep_fast_s = 5.0;
   double creep_slow_s = 60.0;
 
-  // The first heating makes the muscle longer for good, by so much once it was so hot.
+  // The first heating makes the muscle permanently longer by lonely_stroke_m at lonely_stroke_at_K.
   double lonely_stroke_m = 0.0;
   double lonely_stroke_at_K = 60.0;
 
@@ -51,22 +51,22 @@ struct PlantEffects {
   double friction_stribeck_m_per_s = 1e-3;
   double friction_damping_ratio = 0.2;  ///< bristles' damping over √(their stiffness · mass)
 
-  // Force that is lost over cycles of heating; worn_cycles were before the start.
+  // Force lost over heating cycles; worn_cycles passed before the start.
   double ageing_ratio = 0.0;
   double ageing_cycles = 10000.0;
   double ageing_cycle_K = 70.0;
   double worn_cycles = 0.0;
 
-  // Water in the thread, of its mass, adds force, and leaves the hot muscle.
+  // Water in the thread, as a ratio of its mass, adds force, and leaves the hot muscle.
   double water_ratio = 0.0;         ///< in the cold muscle
   double water_force_ratio = 10.0;  ///< added force per water ratio
-  double drying_K = 80.0;           ///< nothing stays in a muscle that is so hot
+  double drying_K = 80.0;           ///< rise at which no water stays
   double drying_s = 300.0;
 
   double end_stop_m = -10.0;  ///< the load cannot sink below it
   double ceiling_m = 10.0;    ///< the load cannot rise above it
 
-  int substeps = 4;  ///< of the mechanics, in each step of heat
+  int substeps = 4;  ///< of the mechanics, in each thermal step
 
   friend bool operator==(const PlantEffects&, const PlantEffects&) = default;
 
@@ -74,7 +74,7 @@ struct PlantEffects {
   bool any() const;
 };
 
-/// A number of PlantEffects: its key, and what it may be (ends included).
+/// A numeric member of PlantEffects: its key and its allowed range (ends included).
 struct EffectRange {
   const char* name;
   double PlantEffects::*member;
@@ -117,7 +117,7 @@ inline constexpr std::array<EffectRange, 33> effect_ranges{{
     {"ceiling_m", &PlantEffects::ceiling_m, 0.0, 10.0},
 }};
 
-/// The first number that is out of its range, or does not go with another one.
+/// The first number that is out of its range or contradicts another one.
 std::optional<control::Violation> check(const PlantEffects& effects);
 
 }  // namespace supercoil::host_sim

@@ -9,8 +9,8 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// A part of a step in which a bristle may relax by this much of itself: the fourth-order rule is
-/// stable below 2.8.
+/// A step is divided into parts in which a bristle relaxes by at most this fraction: the
+/// fourth-order rule is stable below 2.8.
 constexpr double max_relaxation = 0.5;
 constexpr int max_parts = 200;
 
@@ -95,7 +95,7 @@ Motion GuideFriction::step(const Motion& from, const Drive& drive, const Mechani
                            k4.velocity_m_per_s);
     s.bristle_m += h / 6.0 * (k1.bristle_m + 2.0 * (k2.bristle_m + k3.bristle_m) + k4.bristle_m);
   }
-  // It became too fast on the way.
+  // The load became too fast within the step.
   const double end_relaxation = h * std::abs(s.velocity_m_per_s) * stiffness_N_per_m_ / coulomb_N_;
   if (!(end_relaxation <= 2.0)) return coarse_step(from, drive, mechanics);
   const double max_m = static_N_ / stiffness_N_per_m_;

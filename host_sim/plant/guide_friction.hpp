@@ -1,4 +1,4 @@
-// A guide that rubs.
+// Friction in the load's guide.
 #pragma once
 
 #include "plant/effects.hpp"
@@ -12,9 +12,9 @@ class GuideFriction {
  public:
   void set(const control::PhysicalParameters& parameters, const PlantEffects& effects);
   bool on() const { return coulomb_N_ > 0.0; }
-  /// Of the mass that moves from now on, where it changes.
+  /// Damping of the moving mass from now on, for a load whose damping changes.
   void set_viscous(double damping_Ns_per_m) { viscous_Ns_per_m_ = damping_Ns_per_m; }
-  /// The mass moves against spring, damper and friction. mechanics: its motion without friction.
+  /// Moves the mass against spring, damper and friction. mechanics: its motion without friction.
   Motion step(const Motion& from, const Drive& drive, const Mechanics& mechanics);
   double friction_N(double velocity_m_per_s) const {
     return stiffness_N_per_m_ * bristle_m_ +
@@ -29,7 +29,7 @@ class GuideFriction {
     double bristle_m;
   };
   double bristle_speed(double bristle_m, double velocity_m_per_s) const;
-  /// For what moves too fast for its bristles to be followed: they give way at one speed.
+  /// For motion too fast to follow the bristles: friction stays constant over the step.
   Motion coarse_step(const Motion& from, const Drive& drive, const Mechanics& mechanics);
   State slope(const State& state, double stiffness_N_per_m, double force_N) const;
 

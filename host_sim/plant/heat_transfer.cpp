@@ -20,7 +20,7 @@ void HeatTransfer::set(const control::PhysicalParameters& parameters, const Plan
   absolute_air_K_ = start_K + air_K_;
   last_W_per_K_ = conductance_W_per_K(before_rise_K_);
   before_W_per_K_ = last_W_per_K_;
-  // Where nothing that concerns heat changed, nothing changes.
+  // If the settings did not change the heat transfer, its slope is kept.
   if (last_W_per_K_ == old_W_per_K) before_W_per_K_ -= slope_W_per_K;
 }
 

@@ -1,4 +1,4 @@
-// A muscle's temperature where the heat transfer depends on it.
+// A muscle's temperature when its heat transfer depends on temperature.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,9 @@ class HeatTransfer {
            radiation_ * radiation(absolute_air_K_ + above_air_K, absolute_air_K_);
   }
 
-  /// The rise after a step under constant power. The heat transfer is that of the middle of the
-  /// step, a straight line through the two steps before it: it changes slowly, and what takes long
-  /// to compute is then not waited for. What is not stored is lost, but for rounding.
+  /// The rise after a step at constant power. The heat transfer at the middle of the step is
+  /// extrapolated linearly from the two steps before: it changes slowly, and the step need not wait
+  /// for its costly computation. Heat that is not stored is lost to the air, to within rounding.
   double step(double power_W) {
     const double middle_W_per_K =
         std::max(0.0, last_W_per_K_ + 1.5 * (last_W_per_K_ - before_W_per_K_));
@@ -40,7 +40,7 @@ class HeatTransfer {
     return rise_K_;
   }
   double rise_K() const { return rise_K_; }
-  /// What the last step lost to the air.
+  /// Heat lost to the air in the last step.
   double loss_J() const { return loss_J_; }
 
  private:

@@ -7,7 +7,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// What hung from a muscle alone pulls here.
+/// In a joint, the pretension replaces the hanging mass.
 PlantEffects pulled(PlantEffects effects, double pretension_N) {
   effects.hanging_mass_kg = pretension_N / gravity_m_per_s2;
   return effects;
@@ -72,7 +72,7 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   for (std::size_t i = 0; i < drives.size(); ++i) {
     Drive& d = drives[i];
     d = bodies_[i].step(power_W[i], -pretension_N(i), direction_[i] * before_m + slack_m_[i]);
-    // From now on at the joint's contraction, without the slack.
+    // From here on relative to the joint's contraction, without the slack.
     d.force_N -= d.stiffness_N_per_m * slack_m_[i];
     d.force_end_N -= d.stiffness_end_N_per_m * slack_m_[i];
   }
@@ -114,7 +114,7 @@ void JointPlant::move(Drives drives, double load_N) {
   }
   Motion motion = motion_;
   for (int n = 0; n < settings_.substeps; ++n) {
-    // A spring alone holds the cold muscle's pretension.
+    // Without an antagonist, the spring can hold the cold muscle's pretension.
     const double beside_N = -load_N - (pretensioned ? settings_.pretension_N : 0.0);
     const double then_m = motion.position_m + mechanics_[0].step_s() * motion.velocity_m_per_s;
     Drive sum{spring_N_per_m, spring_N_per_m, beside_N - weight_N(motion.position_m),
@@ -139,7 +139,7 @@ void JointPlant::move(Drives drives, double load_N) {
       sum.force_end_N += then.ratio * (direction_[i] * d.force_N - to_N_per_m * then.beside_m);
     }
     if (!settings_.lever.is_constant()) {
-      // The step takes the stiffness of its middle: both ends' own forces are to be met.
+      // The step uses the stiffness at its middle; this keeps the total force at both ends.
       const double middle = 0.5 * (sum.stiffness_N_per_m + sum.stiffness_end_N_per_m);
       sum.force_N += (middle - sum.stiffness_N_per_m) * motion.position_m;
       sum.force_end_N += (middle - sum.stiffness_end_N_per_m) * then_m;

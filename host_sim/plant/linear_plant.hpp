@@ -7,13 +7,13 @@
 namespace supercoil::host_sim {
 
 /// Eqs. (1) and (2), linear. Power and load are constant over a tick, so that the discretisation is
-/// exact for any step: substeps only refine what is watched inside a tick.
+/// exact for any step: substeps only refine what is observed within a tick.
 class LinearPlant {
  public:
   /// Valid parameters; step_s > 0, the tick; substeps >= 1.
   LinearPlant(const control::PhysicalParameters& parameters, double step_s, int substeps = 1);
 
-  /// One tick. load_N pulls the muscle longer.
+  /// One tick. load_N stretches the muscle.
   void step(double power_W, double load_N = 0.0);
 
   /// New parameters from now on; the state stays (temperature, position and velocity are physical).
@@ -23,7 +23,7 @@ class LinearPlant {
   double temperature_rise_K() const { return state_[0]; }
   double position_m() const { return state_[1]; }
   double velocity_m_per_s() const { return state_[2]; }
-  /// The hottest that the muscle was at any substep.
+  /// The highest rise so far at any substep.
   double peak_temperature_rise_K() const { return peak_temperature_rise_K_; }
 
  private:

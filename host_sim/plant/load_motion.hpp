@@ -1,4 +1,4 @@
-// What muscles move: a mass between end stops, with a guide that rubs.
+// The load that muscles move: a mass between end stops, in a guide with friction.
 #pragma once
 
 #include "plant/guide_friction.hpp"
@@ -11,10 +11,10 @@ class LoadMotion {
   /// parameters: mass and damping of all that moves. step_s: of move().
   void set(const control::PhysicalParameters& parameters, const PlantEffects& effects,
            double max_stiffness_N_per_m, double step_s);
-  /// It is somewhere already.
+  /// Sets the motion to begin with.
   void start_from(const Motion& motion) { motion_ = motion; }
 
-  /// Spring and force are straight lines over the step, in which the mechanics take `substeps`.
+  /// Takes `substeps` steps of the mechanics; spring and force are linear in time over them.
   void move(const Drive& drive);
 
   double position_m() const { return motion_.position_m; }

@@ -6,7 +6,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Where three terms of the series in K leave 1e-10 of a step, and eleven in time less.
+/// Up to here, three terms of the series in K leave 1e-10 of a step, and eleven in time leave less.
 constexpr double max_damping = 0.2;
 constexpr double max_stiffness = 0.02;
 
@@ -63,7 +63,7 @@ Mechanics::Integrals Mechanics::closed_integrals(double k) const {
     return {(once_of(slow) - once_of(fast)) * scale,
             (twice_of(slow) - twice_of(fast)) * scale * step_s_};
   }
-  // Both roots together, or a pair: here K is large enough to be divided by.
+  // Roots close together, or a complex pair: here K is large enough to divide by.
   const double turn = root * step_s_;
   const double odd =
       turn < 1e-4 ? step_s_ : (discriminant > 0.0 ? std::sinh(turn) : std::sin(turn)) / root;

@@ -12,7 +12,7 @@ struct Motion {
   double velocity_m_per_s = 0.0;
 };
 
-/// What moves the mass over a step: spring and force are straight lines in time.
+/// Spring and force that act on the mass over a step, both linear in time.
 struct Drive {
   double stiffness_N_per_m;
   double stiffness_end_N_per_m;

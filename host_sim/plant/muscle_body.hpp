@@ -14,23 +14,23 @@ namespace supercoil::host_sim {
 /// Position is zero for the new, cold muscle that carries its load, and grows as it contracts.
 class MuscleBody {
  public:
-  /// From now on; whatever the muscle remembers stays. step_s: short against its heating.
+  /// Replaces the settings; the muscle's state is kept. step_s: short against its heating.
   void set(const control::PhysicalParameters& parameters, const PlantEffects& effects,
            double step_s);
-  /// A muscle that is somewhere already, with a past of which nothing is left but its peak.
+  /// Starts in a given state. Of the muscle's past, only the peak rise is known.
   void start_from(double rise_K, double peak_rise_K, double position_m);
 
-  /// One step of its heat. What moves the mass over it, from this position on. load_N pulls the
-  /// muscle longer.
+  /// One thermal step, from this position. Returns what moves the mass over it. load_N stretches
+  /// the muscle.
   Drive step(double power_W, double load_N, double position_m);
-  /// The mass was here in the middle of that step.
+  /// Reports the mass's mean position over that step.
   void moved(double mean_position_m) { creep_.step(mean_position_m); }
 
   double rise_K() const { return heat_.rise_K(); }
   double peak_rise_K() const { return peak_K_; }
-  /// What the last step lost to the air, in J.
+  /// Heat lost to the air in the last step.
   double heat_loss_J() const { return heat_.loss_J(); }
-  /// That it can have, when cold.
+  /// The stiffness when cold.
   double max_stiffness_N_per_m() const {
     return softening_.cold_N_per_m() + creep_.stiffness_N_per_m();
   }

@@ -1,4 +1,4 @@
-// The simulated muscle: exactly the paper's as long as no effect is on.
+// The simulated muscle: exactly the paper's while no effect is on.
 #pragma once
 
 #include <variant>
@@ -14,7 +14,7 @@ class Plant {
   /// Valid parameters and effects; step_s > 0, the tick.
   Plant(const control::PhysicalParameters& parameters, const PlantEffects& effects, double step_s);
 
-  /// One tick. load_N pulls the muscle longer.
+  /// One tick. load_N stretches the muscle.
   void step(double power_W, double load_N = 0.0) {
     if (auto* linear = std::get_if<LinearPlant>(&plant_)) {
       linear->step(power_W, load_N);
@@ -23,17 +23,17 @@ class Plant {
     }
   }
 
-  /// From now on; the muscle's state stays. A linear muscle that gets an effect has no past but its
-  /// peak temperature.
+  /// Replaces the settings; the muscle's state is kept. When a linear muscle gets an effect, only
+  /// its peak temperature is known of its past.
   void set(const control::PhysicalParameters& parameters, const PlantEffects& effects);
 
   bool linear() const { return std::holds_alternative<LinearPlant>(plant_); }
   const control::PhysicalParameters& parameters() const;
-  /// Above the air as it was at the start.
+  /// Above the air at the start.
   double temperature_rise_K() const;
   double position_m() const;
   double velocity_m_per_s() const;
-  /// The hottest that the muscle was.
+  /// The highest rise so far.
   double peak_temperature_rise_K() const;
 
  private:

@@ -1,4 +1,4 @@
-// Hysteresis that does not depend on speed: plays side by side.
+// Rate-independent hysteresis: plays in parallel.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class PlayHysteresis {
       plays_[j].set_radius(static_cast<double>(j + 1) / plays * width_K / (1.2 * weight_));
   }
 
-  /// The rise that acts.
+  /// The effective rise.
   double step(double rise_K) {
     if (!on_) {
       rest_at(rise_K);

@@ -1,4 +1,4 @@
-// Muscles that are known, as they are. Sources of their numbers: docs/muscles.md.
+// Known muscles with their real effects. Sources of the numbers: docs/muscles.md.
 #pragma once
 
 #include "supercoil/control/scalar/arithmetic.hpp"

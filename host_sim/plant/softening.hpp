@@ -24,8 +24,8 @@ class Softening {
     const double u = std::min(std::max((rise_K - from_K_) * per_K_, 0.0), 1.0);
     return cold_N_per_m_ - lost_N_per_m_ * (u * u * (3.0 - 2.0 * u));
   }
-  /// By which the hanging mass has stretched the cold muscle: what is lost of the stiffness no
-  /// longer holds it.
+  /// How far the hanging mass has stretched the cold muscle; the lost stiffness no longer holds
+  /// this stretch.
   double stretch_m() const { return stretch_m_; }
 
  private:

@@ -1,4 +1,4 @@
-// What a muscle's past does to it: length from the first heating, age, water.
+// Effects of a muscle's past: length from the first heating, age, water.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class LonelyStroke {
   double per_K_ = 0.0;
 };
 
-/// Force falls in proportion to the path of the temperature; up and down by ageing_cycle_K is a
+/// Force falls in proportion to the path of the temperature; up and down by ageing_cycle_K is one
 /// cycle.
 class Ageing {
  public:
@@ -41,8 +41,8 @@ class Ageing {
   double path_K_ = 0.0;
 };
 
-/// Water goes with a time constant to what stays at the temperature: all in the cold muscle, none
-/// at drying_K. Force grows with it.
+/// The water content approaches, with a time constant, what the muscle holds at its temperature:
+/// all when cold, none at drying_K. Force grows with it.
 class Moisture {
  public:
   void set(const PlantEffects& effects, double step_s) {

@@ -7,7 +7,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Halves go up. For values from 0 to 2^30; std::lround would be a call, three times a tick.
+/// Rounds halves up; for values from 0 to 2^30. std::lround would be a call, three times a tick.
 std::int32_t nearest(double value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole + (value - whole >= 0.5 ? 1 : 0);
@@ -16,7 +16,7 @@ std::int32_t nearest(double value) {
 }  // namespace
 
 std::int32_t SimulatedConverter::convert(double value) {
-  // Pulled to a rail below everything that the sensor gives.
+  // Pulled to a rail below the sensor's range.
   if (faults_.loose) return static_cast<std::int32_t>(-0.2 * full_scale_);
   if (faults_.frozen && last_.status == hal::Status::ok) return last_.counts;
   double reading = faults_.gain * value + faults_.offset;
@@ -46,8 +46,8 @@ hal::Sample SimulatedConverter::latest() {
       on_the_way_.pop_front();
     }
   }
-  // Member by member, as it was written: a copy in one piece would wait until that has left the
-  // store buffer, which took 2 % of a tick's time.
+  // Member by member, as it was written: a copy in one piece would wait for the store buffer, which
+  // took 2 % of a tick's time.
   return {last_.counts, last_.taken, last_.status};
 }
 

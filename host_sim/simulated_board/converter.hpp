@@ -14,13 +14,13 @@
 namespace supercoil::host_sim {
 
 struct ConverterSettings {
-  double low = 0.0;  ///< what counts 0 and full scale mean; readings are clipped to them
+  double low = 0.0;  ///< value at 0 counts; readings are clipped to low and high
   double high = 1.0;
-  int bits = 16;           ///< 0: as good as not quantised
-  double noise_rms = 0.0;  ///< white, of every conversion
-  double period_s = 0.0;   ///< between conversions; 0: it converts when it is asked (direct)
-  double latency_s = 0.0;  ///< from a conversion to when it can be read
-  double count = 0.0;      ///< size of a count; 0: by its bits
+  int bits = 16;           ///< 0: practically not quantised
+  double noise_rms = 0.0;  ///< white, in every conversion
+  double period_s = 0.0;   ///< between conversions; 0: it converts when it is read (direct)
+  double latency_s = 0.0;  ///< from a conversion until it can be read
+  double count = 0.0;      ///< size of a count; 0: follows from bits
 
   std::int64_t full_scale() const {
     if (count > 0.0) return std::max<std::int64_t>(1, std::llround((high - low) / count));
@@ -33,7 +33,7 @@ struct ConverterSettings {
 struct ConverterFaults {
   bool silent = false;  ///< no new conversions: the last one grows old
   bool frozen = false;  ///< new conversions of the old value, without its noise
-  bool loose = false;   ///< the wire is off: far outside of the range
+  bool loose = false;   ///< the wire is off: reads far out of range
   double offset = 0.0;  ///< added to the truth
   hal::Status status = hal::Status::ok;
   double gain = 1.0;  ///< reading over truth
@@ -49,9 +49,9 @@ class SimulatedConverter final : public hal::AdcChannel {
 
   hal::Sample latest() override;
 
-  /// The board's time moved on to `now`, at which the truth is `value`.
+  /// Advances the time to `now`, when the true value is `value`.
   void offer(double value, hal::Time now);
-  /// The noise goes on from where it was.
+  /// The noise sequence continues.
   void set(const ConverterSettings& settings) {
     settings_ = settings;
     full_scale_ = static_cast<double>(settings.full_scale());

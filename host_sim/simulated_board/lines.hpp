@@ -13,7 +13,7 @@
 
 namespace supercoil::host_sim {
 
-/// A duty that acts some time after it was set.
+/// A PWM output whose duty acts some time after it was set.
 class SimulatedPwm final : public hal::PwmOutput {
  public:
   SimulatedPwm(int steps, hal::Duration delay, const hal::Time& now)
@@ -33,7 +33,7 @@ class SimulatedPwm final : public hal::PwmOutput {
   int read_back() const override { return reads_wrong ? set_ + 1 : set_; }
   int steps() const override { return steps_; }
 
-  /// What the switch gets at `now`.
+  /// The duty at the switch at `now`.
   double duty(hal::Time now) {
     while (!on_the_way_.empty() && on_the_way_.front().first <= now) {
       act(on_the_way_.front().second);
@@ -42,7 +42,7 @@ class SimulatedPwm final : public hal::PwmOutput {
     return duty_;
   }
 
-  hal::Status refuses = hal::Status::ok;  ///< what a set answers instead of being obeyed
+  hal::Status refuses = hal::Status::ok;  ///< returned by set() instead of obeying, unless ok
   bool reads_wrong = false;
 
  private:
@@ -52,7 +52,7 @@ class SimulatedPwm final : public hal::PwmOutput {
   hal::Duration delay_;
   const hal::Time* now_;
   int set_ = 0;
-  double duty_ = 0.0;  ///< that acts
+  double duty_ = 0.0;  ///< in effect
   boost::circular_buffer<std::pair<hal::Time, int>> on_the_way_{4096};
 };
 
@@ -90,7 +90,7 @@ class SimulatedWatchdog final : public hal::Watchdog {
   std::int64_t fed = 0;
 };
 
-/// Closes the supply's switch while its input shows edges, and opens it by itself when they stop.
+/// Closes the supply switch while its input shows edges, and opens it by itself when they stop.
 class ChargePump {
  public:
   explicit ChargePump(hal::Duration decay) : decay_(decay) {}

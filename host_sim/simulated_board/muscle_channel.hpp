@@ -24,10 +24,10 @@ struct MuscleChannelSettings {
   ConverterSettings position{0.0, 0.040, 16, 10e-6};
   ConverterSettings current{-0.1, 6.0, 0, 0.0};
   std::optional<ThermometerReading> thermometer;
-  double rise_from_C = 25.0;  ///< the air's temperature that the muscle's rise counts from
+  double rise_from_C = 25.0;  ///< air temperature that the muscle's rise is relative to
 };
 
-/// Faults that can be injected, besides its converters'.
+/// Faults that can be injected, in addition to the converters'.
 struct MuscleFaults {
   bool wire_open = false;
   double short_Ohm = 0.0;  ///< across the muscle; 0: none
@@ -35,12 +35,12 @@ struct MuscleFaults {
   bool enable_stuck_on = false;
   bool slack = false;              ///< heat no longer moves the sensor's end
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
-  bool torn = false;               ///< it pulls no more; a joint's muscle only
-  double slack_m = 0.0;            ///< of its cable, likewise; see JointMuscle
+  bool torn = false;               ///< it no longer pulls; only in a joint
+  double slack_m = 0.0;            ///< of its cable, only in a joint; see JointMuscle
 };
 
-/// What moves the muscles of several channels at once, as each of them sees it. muscle: its place
-/// among them, from 0.
+/// The common motion of several channels' muscles, as each of them sees it. muscle: its place among
+/// them, from 0.
 class SharedMotion {
  public:
   SharedMotion(const SharedMotion&) = delete;
@@ -63,16 +63,16 @@ class MuscleChannel {
   MuscleChannel(const MuscleChannelSettings& settings, hal::Duration step, const hal::Time& now,
                 std::uint64_t seed);
 
-  /// One step of the board, which begins at `from`: what heats the muscle over it. supply_V is 0
-  /// while its switch is open.
+  /// First half of a board step that begins at `from`: the heating power. supply_V is 0 while the
+  /// supply switch is open.
   void heat(hal::Time from, double supply_V);
-  /// And how the muscle has moved and what the sensors see at the step's end. What is in a joint or
-  /// a bundle has been moved by it.
+  /// Second half: the muscle's motion, and the sensors at the step's end. A joint or a bundle has
+  /// already moved its own muscles.
   void move(hal::Time to);
-  /// Everything that may change under way; converters and PWM stay as they are.
+  /// Changes all settings that may change during a run; converters and PWM keep theirs.
   void set(const MuscleChannelSettings& settings);
-  /// From now on the muscle moves with others, by what outlives the channel's steps. muscle: its
-  /// place among them.
+  /// From now on the muscle moves as one of `shared`, which must outlive the channel's steps.
+  /// muscle: its place there.
   void join(const SharedMotion& shared, std::size_t muscle) {
     shared_ = &shared;
     muscle_ = muscle;
@@ -80,12 +80,12 @@ class MuscleChannel {
 
   /// The thermometer's reading; NaN without one.
   double thermometer_C() const { return thermometer_.reading_C(); }
-  /// The air's temperature that the plant's rise counts from.
+  /// Air temperature that the plant's rise is relative to.
   double rise_from_C() const { return settings_.rise_from_C; }
-  /// Of a muscle that moves alone.
+  /// For a muscle that moves alone.
   const Plant& plant() const { return plant_; }
   const MuscleChannelSettings& settings() const { return settings_; }
-  /// Of the muscle, alone or with others.
+  /// The muscle's, whether it moves alone or with others.
   double position_m() const;
   double temperature_rise_K() const;
   double peak_temperature_rise_K() const;
@@ -99,13 +99,13 @@ class MuscleChannel {
   MuscleFaults faults;
 
  private:
-  /// What the position sensor sees: of a joint the angle, at the lever of 0.
+  /// What the position sensor sees: in a joint, the angle times the lever at angle 0.
   double reading_m() const;
 
   MuscleChannelSettings settings_;
   hal::Duration step_;
   Plant plant_;
-  const SharedMotion* shared_ = nullptr;  ///< of which it is muscle_; null: it moves alone
+  const SharedMotion* shared_ = nullptr;  ///< contains this as muscle_; null: it moves alone
   std::size_t muscle_ = 0;
   Thermometer thermometer_;
   double sense_gain_;

@@ -63,7 +63,7 @@ board::Devices SimulatedBoard::devices() {
     devices.channels.push_back(
         {&channel->pwm, &channel->enable, &channel->position, &channel->current});
   }
-  // The antagonist's channel reads the joint's one sensor, with the other sign.
+  // The antagonist's channel reads the joint's one sensor, with the opposite sign.
   for (const auto& joint : joints_) {
     const SimulatedJointSettings& its = joint->settings();
     if (its.antagonist)

@@ -17,7 +17,7 @@ struct SimulatedBoardSettings {
   int substeps = 1;
   double supply_V = 12.0;
   ConverterSettings supply{0.0, 30.0, 0, 0.0};
-  std::optional<ConverterSettings> air;  ///< in °C; absent: the board has no sensor
+  std::optional<ConverterSettings> air;  ///< in °C; absent: no sensor
   double charge_pump_decay_s = 0.02;
   std::uint64_t seed = 1;
   std::vector<MuscleChannelSettings> channels{1};
@@ -25,8 +25,8 @@ struct SimulatedBoardSettings {
   std::vector<std::vector<std::size_t>> bundles;  ///< channels; none is in two of either
 };
 
-/// Is its own clock: waiting lets the muscles move on, and nothing else takes time unless it is
-/// told to. The firmware may stop at any point: the board can go on without it.
+/// The board is its own clock: waiting lets the muscles move on, and only lose_in_tick() takes time
+/// otherwise. The firmware may stop at any point; the board can go on without it.
 class SimulatedBoard final : public hal::Clock {
  public:
   explicit SimulatedBoard(const SimulatedBoardSettings& settings);
@@ -34,15 +34,15 @@ class SimulatedBoard final : public hal::Clock {
   hal::Time now() const override { return now_ + lost_; }
   hal::Time wait_until(hal::Time wake) override;
 
-  /// What the firmware's loop is given. The board must outlive it.
+  /// The devices for the firmware's loop. The board must outlive it.
   board::Devices devices();
 
-  /// Lets time pass without any firmware.
+  /// Lets time pass without the firmware.
   void advance_to(hal::Time time);
 
-  /// The next wake-up comes so much too late.
+  /// The next wake-up comes this much late.
   void oversleep(double late_s) { late_ = hal::duration_from(late_s); }
-  /// The next tick takes this much time by now().
+  /// The next tick takes this much time, as now() shows it.
   void lose_in_tick(double time_s) { to_lose_ = hal::duration_from(time_s); }
 
   MuscleChannel& channel(std::size_t i) { return *channels_[i]; }
@@ -57,7 +57,7 @@ class SimulatedBoard final : public hal::Clock {
   hal::Time true_time() const { return now_; }
 
   SimulatedConverter supply;
-  std::optional<SimulatedConverter> air;  ///< where the board has a sensor
+  std::optional<SimulatedConverter> air;  ///< absent: no sensor
   SimulatedOutput heartbeat;
   SimulatedOutput light;
   SimulatedInput stop_circuit;
@@ -72,13 +72,13 @@ class SimulatedBoard final : public hal::Clock {
   double air_C_ = 25.0;
   hal::Time now_{};
   hal::Duration to_lose_{};
-  hal::Duration lost_{};  ///< of this tick; for the muscles it passes on the way to the next
+  hal::Duration lost_{};  ///< in this tick; the muscles see it pass before the next
   hal::Duration late_{};
   bool closed_ = false;
   std::vector<std::unique_ptr<MuscleChannel>> channels_;
   std::vector<std::unique_ptr<SimulatedJoint>> joints_;
   std::vector<std::unique_ptr<SimulatedBundle>> bundles_;
-  std::vector<std::vector<std::size_t>> bundled_;  ///< channels of each
+  std::vector<std::vector<std::size_t>> bundled_;  ///< channels of each bundle
 };
 
 }  // namespace supercoil::host_sim

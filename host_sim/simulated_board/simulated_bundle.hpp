@@ -9,11 +9,11 @@
 
 namespace supercoil::host_sim {
 
-/// The first channel's position sensor is the bundle's; the others read it as well, and its load_N
-/// is the bundle's load.
+/// The first channel's position sensor and load_N are the bundle's; the other channels read the
+/// same sensor.
 class SimulatedBundle final : public SharedMotion {
  public:
-  /// The channels outlive it.
+  /// The channels must outlive it.
   SimulatedBundle(std::vector<MuscleChannel*> channels, hal::Duration step);
 
   double position_m(std::size_t) const override { return plant_.position_m(); }
@@ -24,9 +24,9 @@ class SimulatedBundle final : public SharedMotion {
     return plant_.peak_temperature_rise_K(muscle);
   }
 
-  /// One step of the board, for which all channels are heated already.
+  /// One step of the board, after all channels have been heated.
   void advance();
-  /// The channels' muscles have changed.
+  /// Takes over the channels' changed muscles.
   void update() { plant_.set(muscles()); }
 
  private:

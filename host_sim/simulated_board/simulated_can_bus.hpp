@@ -1,4 +1,4 @@
-// A board's place on a CAN bus, on which are other boards, or only a test or a log.
+// A board's connection to a CAN bus with other boards, or with only a test or a log.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,21 @@ namespace supercoil::host_sim {
 
 /// What boards on one bus share.
 struct CanWire {
-  hal::Time free_from{};  ///< by a time that they have in common
+  hal::Time free_from{};  ///< in the boards' common time
 };
 
-/// Frames take as long as on a real bus at its worst, and as many wait as in the kernel's queue: a
-/// frame is sent, and heard, when its time has come. Boards take their turns in the order in which
-/// they ask, and not by identifiers.
+/// Frames take the longest time that they can take on a real bus, and the queue is as long as the
+/// kernel's: a frame is sent, and heard, when its time has come. Boards get the bus in the order in
+/// which they ask, not by identifiers.
 class SimulatedCanBus final : public hal::CanBus {
  public:
-  /// clock: read for the time of frames; outlives the bus.
+  /// clock: stamps the frames; must outlive the bus.
   SimulatedCanBus(const hal::Clock& clock, double bit_rate) : clock_(&clock), bit_rate_(bit_rate) {}
   SimulatedCanBus(const SimulatedCanBus&) = delete;
   SimulatedCanBus& operator=(const SimulatedCanBus&) = delete;
 
-  /// Before the first frame. start: by the board's clock, when the common time is 0. The wire
-  /// outlives the bus.
+  /// Call before the first frame. start: the board's clock at the common time 0. The wire must
+  /// outlive the bus.
   void share(CanWire& wire, hal::Time start) {
     wire_ = &wire;
     start_ = start;
@@ -59,8 +59,8 @@ class SimulatedCanBus final : public hal::CanBus {
   }
   hal::CanState state() const override { return link; }
 
-  /// A frame from another node on the bus, that comes now unless it tells when; lost when as many
-  /// wait as in the kernel's buffer.
+  /// A frame from another node. It comes now unless it has a time; it is lost when as many wait as
+  /// in the kernel's buffer.
   void deliver(const hal::CanFrame& frame) {
     if (inbox_.size() >= inbox) return;
     inbox_.push_back(frame);
@@ -82,7 +82,7 @@ class SimulatedCanBus final : public hal::CanBus {
   CanWire own_;
   CanWire* wire_ = &own_;
   hal::Time start_{};
-  std::deque<hal::Time> ends_;  ///< of frames that are on their way
+  std::deque<hal::Time> ends_;  ///< of frames in transit
   std::deque<hal::CanFrame> inbox_;
 };
 

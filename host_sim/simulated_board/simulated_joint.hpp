@@ -22,8 +22,8 @@ struct SimulatedJointSettings {
 /// The agonist's position sensor is the joint's; the antagonist's channel reads it as well.
 class SimulatedJoint final : public SharedMotion {
  public:
-  /// The board's channels are those of the settings, and outlive it. antagonist: null where the
-  /// settings have none.
+  /// The channels are those of the settings and must outlive it. antagonist: null if the settings
+  /// have none.
   SimulatedJoint(const SimulatedJointSettings& settings, MuscleChannel& agonist,
                  MuscleChannel* antagonist, hal::Duration step);
 
@@ -37,10 +37,10 @@ class SimulatedJoint final : public SharedMotion {
     return plant_.peak_temperature_rise_K(muscle);
   }
 
-  /// One step of the board, for which both channels are heated already.
+  /// One step of the board, after both channels have been heated.
   void advance();
-  /// Everything that may change under way, also of the channels' muscles; which channels they are
-  /// stays as it is.
+  /// Changes all settings that may change during a run, including the channels' muscles, but not
+  /// which channels they are.
   void set(const SimulatedJointSettings& settings);
 
   const JointPlant& plant() const { return plant_; }
@@ -56,7 +56,7 @@ class SimulatedJoint final : public SharedMotion {
   SimulatedJointSettings settings_;
   MuscleChannel* agonist_;
   MuscleChannel* antagonist_;
-  std::array<Hold, 2> joined_{};  ///< as the plant has it
+  std::array<Hold, 2> joined_{};  ///< as last set in the plant
   JointPlant plant_;
 };
 

@@ -19,7 +19,7 @@ struct ThermometerReading {
   friend bool operator==(const ThermometerReading&, const ThermometerReading&) = default;
 };
 
-/// Follows the muscle's temperature late, and is read from time to time.
+/// Follows the muscle's temperature with a lag, and is read periodically.
 class Thermometer {
  public:
   /// Begins at the air's temperature.
@@ -32,12 +32,12 @@ class Thermometer {
     if (!settings_) reading_C_ = NAN;
   }
 
-  /// Time passes, at whose end this is the muscle's temperature.
+  /// One step, at whose end the muscle has this temperature.
   void step(double muscle_C, double step_s) {
     if (!settings_) return;
     const double part = settings_->lag_s > 0.0 ? -std::expm1(-step_s / settings_->lag_s) : 1.0;
     at_C_ += part * (muscle_C - at_C_);
-    // Half a step: sums of steps need not be whole.
+    // Half a step of tolerance: sums of steps need not be whole.
     const bool due = next_s_ <= 0.5 * step_s;
     next_s_ -= step_s;
     if (!due) return;

@@ -14,7 +14,7 @@ namespace supercoil::host_sim {
 namespace {
 
 constexpr std::size_t max_waiting = 1U << 20U;
-/// Clients expect < ok > alone in what they read next.
+/// Clients expect < ok > alone in their next read.
 constexpr auto pause_after_ok = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -89,7 +89,7 @@ void SocketcandClient::answer(std::string_view element) {
 }
 
 void SocketcandClient::obey(std::string_view element) {
-  resume();  // who says something has read the < ok >
+  resume();  // a client that sends something has read the < ok >
   std::string_view rest = element;
   const std::string_view word = next_word(rest);
   if (word == "echo") return answer(element);

@@ -23,9 +23,9 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
 
   void start();
   bool is_open() const { return socket_.is_open(); }
-  /// Takes what came next, at most a buffer of it.
+  /// Reads at most one buffer.
   void read();
-  /// The text of a frame of the bus, for a client that wants these.
+  /// Sends a bus frame, as text, to a client in raw mode.
   void hear(std::string_view frame);
   void close();
 
@@ -34,7 +34,7 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
   void obey(std::string_view element);
   void answer(std::string_view element);
   void send(std::string_view text);
-  /// Holds frames back, for some time or until the client says something.
+  /// Holds frames back for a while, or until the client sends something.
   void pause();
   void resume();
 
@@ -45,7 +45,7 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
   std::array<char, 1024> buffer_{};
   std::string waiting_;
   std::string in_flight_;
-  std::string held_;  ///< frames of a pause
+  std::string held_;  ///< frames held back
   bool opened_ = false;
   bool raw_ = false;
   bool paused_ = false;

@@ -19,11 +19,11 @@ namespace supercoil::host_sim {
 class SocketcandClient;
 
 /// Speaks the socketcand protocol (open, rawmode, send, frame, echo) on loopback only. Everything
-/// happens in poll(), which never waits. A client that does not read is cut off before it takes
-/// more than a mebibyte.
+/// happens in poll(), which never waits. A client that does not read is closed before more than a
+/// mebibyte waits for it.
 class SocketcandServer {
  public:
-  /// What to do with a client's frame.
+  /// Called with each frame that a client sends.
   using Deliver = std::function<void(const hal::CanFrame&)>;
 
   /// port: 0 takes a free one. interface: the one that clients may open. The error names the port.
@@ -37,19 +37,19 @@ class SocketcandServer {
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
   std::size_t clients() const { return clients_.size(); }
-  /// Takes what came and sends what waits; of each client a buffer at most, so that none can hold
-  /// up the board.
+  /// Reads and sends what is pending: at most one buffer per client, so that no client can hold up
+  /// the board.
   void poll();
-  /// A frame for all clients. at: since 1970.
+  /// Sends a frame to all clients. at: since 1970.
   void send(const hal::CanFrame& frame, hal::Time at) { send(frame, at, nullptr); }
 
  private:
   friend class SocketcandClient;
 
   void accept();
-  /// Without free descriptors every try fails at once: more of them within a poll would not end.
+  /// Without free descriptors every try fails at once: retrying within one poll would never end.
   void accept_later();
-  /// A client's frame: for the board, and for all other clients.
+  /// Passes a client's frame to the board and to all other clients.
   void take(const hal::CanFrame& frame, const SocketcandClient& from);
   void send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but);
 
@@ -60,8 +60,8 @@ class SocketcandServer {
   boost::asio::steady_timer retry_;
   std::string interface_;
   Deliver deliver_;
-  /// The board's clock, by which clients' frames are told as well: on a machine that is too slow it
-  /// lags behind the machine's, and a bus has one clock.
+  /// The board's clock, which also stamps clients' frames: a bus has one clock, and the board's
+  /// lags behind the machine's if the machine is too slow.
   hal::Time newest_{};
   std::vector<std::shared_ptr<SocketcandClient>> clients_;
 };

@@ -17,7 +17,7 @@ ConverterSettings converter_of(const PositionSensorSettings& s) {
           .count = s.count_m};
 }
 
-/// Of a count: less noise than this does not show in every reading.
+/// In counts: less noise than this does not show in every reading.
 constexpr double shown_noise = 0.3;
 
 /// Three ticks or conversions, and never less than a slow machine's hiccup.
@@ -25,7 +25,7 @@ double max_age_s(const Scenario& scenario, const ConverterSettings& converter) {
   return std::max({0.01, 3.0 * scenario.step_s(), 2.5 * converter.period_s});
 }
 
-/// As the antagonist sees it, whose lever is so many times the agonist's.
+/// The sensor as the antagonist sees it. lever_ratio: the antagonist's lever over the agonist's.
 PositionSensorSettings mirrored(PositionSensorSettings sensor, double lever_ratio) {
   const double min_m = sensor.min_m;
   sensor.min_m = -lever_ratio * sensor.range_m;
@@ -81,7 +81,7 @@ ChannelSupervision supervision_of(const Scenario& scenario, const PositionSensor
   s.max_position_m = 1.1 * range_m - 0.1 * min_m;
   s.max_travel_m = Conditions::travel_ratio * range_m;
   s.position_noise_rms_m = max_noise_m(scenario);
-  // A sensor without noise that does not show its steps either looks frozen at rest.
+  // At rest, a sensor without noise, or with too little to show in its counts, looks frozen.
   const double count_m = converter_of(sensor).per_count();
   if (sensor.noise_rms_m < s.position_noise_rms_m || s.position_noise_rms_m < shown_noise * count_m)
     s.frozen_s = INFINITY;
@@ -106,7 +106,7 @@ board::ThermalSettings thermal_of(const Conditions& c, const control::PhysicalPa
   return t;
 }
 
-/// A board of its own over simulated converters, whose counts are theirs.
+/// The user's own board over simulated converters, with their scaling.
 BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated) {
   board.supply.scaling = scaling_of(simulated.supply);
   if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
@@ -116,7 +116,7 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
     for (const std::size_t channel : bundle.channels)
       board.channels[channel].position.scaling = position;
   }
-  // A joint's antagonist sees it from the other side.
+  // A joint's antagonist sees the same position mirrored.
   if (!board.joints.empty()) {
     board.channels[1].position.scaling = mirrored(position, board.joints[0].antagonist_lever_ratio);
   }
@@ -127,7 +127,7 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
   return board;
 }
 
-/// In °C; beside its error, as good as any.
+/// In °C; ideal apart from its error.
 const ConverterSettings air_sensor{.low = -100.0, .high = 200.0};
 
 double whole_ticks_s(const Scenario& scenario, double time_s) {
@@ -157,7 +157,7 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
   return m;
 }
 
-/// Of the whole joint's stiffness, that of each muscle.
+/// Each muscle's ratio of the whole joint's stiffness.
 std::array<double, 2> stiffness_ratios_of(const SimulatedBoardSettings& simulated) {
   const JointPlantSettings& joint = simulated.joints[0].plant;
   const double q = joint.antagonist_lever_ratio;
@@ -176,7 +176,7 @@ void set_known(ChannelSettings& channel, const KnownBefore& known) {
   channel.calibration = known.calibration;
 }
 
-/// The other channel of a joint: the same position with the other sign, and a muscle of its own.
+/// The other channel of a joint: the same position with the opposite sign, and its own muscle.
 ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
                               const MuscleChannelSettings& simulated) {
   const Conditions& c = scenario.start;
@@ -196,7 +196,7 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   return channel;
 }
 
-/// Another channel of a bundle: the same position, and a heater of its own.
+/// Another channel of a bundle: the same position, and its own heater.
 ChannelSettings companion_of(const Scenario& scenario, ChannelSettings channel, std::size_t place,
                              const MuscleChannelSettings& simulated) {
   const PlantSettings& plant = scenario.start.companions[place - 1];
@@ -209,7 +209,7 @@ ChannelSettings companion_of(const Scenario& scenario, ChannelSettings channel, 
   return channel;
 }
 
-/// Of all that the operator will command.
+/// The highest that the operator will command.
 double max_co_contraction_W(const Scenario& scenario) {
   double max_W = scenario.start.antagonist()->co_contraction_W;
   for (const Event& event : scenario.events)
@@ -330,7 +330,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   } else if (c.joint) {
     channel.joint = turned_by_one(c.joint->plant);
   }
-  // How far the muscles contract where the sensor reads that.
+  // From the sensor's reading to how far the muscles contract there.
   for (ChannelSettings& each : board.channels) {
     double& travel_m = each.supervision.max_travel_m;
     travel_m = each.joint.position_of_reading_m(travel_m);

@@ -10,18 +10,18 @@ namespace supercoil::host_sim {
 SimulatedBoardSettings simulated_board_of(const Scenario& scenario);
 MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& conditions);
 
-/// Of conditions with a joint: its antagonist's channel, and what the two of them turn.
+/// For a joint of two muscles: its antagonist's channel.
 MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& conditions);
-/// Of a bundle: place from 1, the muscle beside the first one.
+/// For a bundle: the channel of another muscle. place: from 1, the muscle after the first.
 MuscleChannelSettings companion_channel_of(const Scenario& scenario, const Conditions& conditions,
                                            std::size_t place);
 SimulatedJointSettings simulated_joint_of(const Conditions& conditions);
 
-/// One channel, an agonist's and its antagonist's, or a bundle's. Its controllers and estimators
-/// are those of the start and of each event that names one, in that order.
+/// Has one channel, a joint's two, or a bundle's. Its controllers and estimators are those of the
+/// start and of each event that names one, in that order.
 BoardSettings firmware_of(const Scenario& scenario);
-/// The same with what the simulation knows of the first channel's muscle: to tell beforehand what
-/// it will do.
+/// The same, with what the simulation knows of the first channel's muscle: for the forecast of a
+/// run.
 BoardSettings forecast_board_of(const Scenario& scenario);
 
 }  // namespace supercoil::host_sim

@@ -55,7 +55,7 @@ std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
   }
 }
 
-/// When, by how much, and what that does.
+/// When it is infeasible, by how much, and what follows.
 std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) {
   const std::string lasts = f.first_ends
                                 ? " for " + in_digits(f.first_lasts_s) + " s until it has caught up"
@@ -72,13 +72,13 @@ std::string end_text(const ReferenceFeasibility& f) {
          " s, as it lacks power for too long (docs/faults/controller_invalid.md)";
 }
 
-/// It knows nothing of what else pulls at the muscle, which then gets no more power.
+/// Shaping does not know of a load that pulls at the muscle, which then gets no more power.
 bool shaping_would_do(const Conditions& c, LimitedBy limited_by) {
   if (c.controller.shape_reference) return false;
   return !is_of_heat(limited_by) || c.plant.load_N <= 0.0;
 }
 
-/// What would be feasible in place of sines.
+/// Which motion would be feasible instead of the sines.
 std::string motion_text(const ReferenceFeasibility& f) {
   if (f.feasible_motion_ratio == 1.0) return "";
   std::string text =

@@ -35,7 +35,7 @@ void FirstMotionRun::judge(double time_s, const Snapshot& snapshot) {
   const double since_s = time_s - begin_s_;
   ended_ = ended_ || since_s >= motion_.end_s();
   if (ended_ || since_s < motion_.settled_s()) return;
-  // A muscle that is not made to follow has no error, and a motion without one was none.
+  // NaN, also as the rms, unless the muscle follows a position throughout.
   const double error_m =
       snapshot.mode == Mode::position ? snapshot.position_m - snapshot.model_m : NAN;
   square_sum_ += error_m * error_m;

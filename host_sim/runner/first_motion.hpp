@@ -1,4 +1,4 @@
-// The first motion of `supercoil setup`, as a scenario's operator makes it.
+// The first motion of `supercoil setup`, as a scenario's operator commands it.
 #pragma once
 
 #include <cmath>
@@ -13,18 +13,18 @@ namespace supercoil::host_sim {
 /// Planned from what the board knows of its muscle, and judged over its last period.
 class FirstMotionRun {
  public:
-  /// board: of this loop. place: of the controller in use.
+  /// board: of this loop. place: of the controller in use, in the channel's list.
   FirstMotionRun(const Loop& loop, const BoardSettings& board, std::size_t place, double begin_s);
 
-  /// Where the muscle is to be; NaN: the motion is over.
+  /// The reference; NaN: the motion is over.
   double reference_m(double time_s) const;
-  /// After each tick of it.
+  /// Call after each tick of the motion.
   void judge(double time_s, const Snapshot& snapshot);
 
   /// NaN: the controller's law promises none.
   double promised_rms_m() const { return promised_rms_m_; }
-  /// Position less reference model, as the board's sensor shows it. NaN: the motion never came to
-  /// its end.
+  /// Position minus reference model, as the board's sensor shows it. NaN: the motion was not
+  /// completed.
   double rms_m() const;
 
  private:

@@ -1,4 +1,4 @@
-// How long a reference was none that the muscle could follow, found in a run.
+// For how long a run's reference was infeasible.
 #pragma once
 
 #include <algorithm>
@@ -13,17 +13,17 @@
 
 namespace supercoil::host_sim {
 
-/// A muscle that were surely colder, or had proven more, would get more.
+/// Limits of heat: a muscle known to be colder, or proven further, would get more power.
 constexpr bool is_of_heat(LimitedBy limit) {
   return limit == LimitedBy::temperature || limit == LimitedBy::unproven;
 }
 
-/// Counts the ticks that follow a position, and of these the ones that are at such a limit for
-/// infeasible_lasts_s or longer on end.
+/// Counts the ticks at which a position is followed, and those of them at such a limit for
+/// infeasible_lasts_s or longer without a break.
 class InfeasibleTime {
  public:
   void add(LimitedBy limit, double time_s) { add(limit, is_infeasible(limit), time_s); }
-  /// asked: the reference asks for too much, at a limit or not. It begins and ends with that.
+  /// asked: the reference asks for too much, at a limit or not; the infeasible time lasts as long.
   void add(LimitedBy limit, bool asked, double time_s) {
     ++following_;
     if (!asked) return interrupt();
@@ -43,19 +43,19 @@ class InfeasibleTime {
     leave_limit();
   }
 
-  /// For how long is no matter: a step that cannot be made is none in a long run either.
+  /// However short: a step that cannot be made in a short run cannot be made in a long one either.
   bool found() const { return !std::isnan(first_s_); }
-  /// Of the ticks that followed a position; NaN: none did.
+  /// Infeasible ticks over all that followed a position; NaN: none did.
   double ratio() const {
     const auto all = std::accumulate(counted_.begin(), counted_.end(), std::int64_t{0});
     return static_cast<double>(all) / static_cast<double>(following_);
   }
-  /// When that began first; NaN: never.
+  /// When the reference first became infeasible; NaN: never.
   double first_s() const { return first_s_; }
-  /// From then to the last of these ticks on end.
+  /// From then to the last infeasible tick without a break.
   double first_lasts_s() const { return first_until_s_ - first_s_; }
   bool first_ended() const { return since_s_ != first_s_; }
-  /// At which limit for most of it.
+  /// The limit that held for most of the infeasible time.
   LimitedBy mostly_by() const {
     return static_cast<LimitedBy>(std::ranges::max_element(counted_) - counted_.begin());
   }
@@ -72,9 +72,9 @@ class InfeasibleTime {
 
   std::int64_t following_ = 0;
   Ticks counted_{};
-  Ticks open_{};                   ///< at a limit, and not for long enough yet
-  double since_s_ = NAN;           ///< the reference asks for too much
-  double at_limit_since_s_ = NAN;  ///< and the muscle is at a limit
+  Ticks open_{};                   ///< at a limit, but not yet for long enough
+  double since_s_ = NAN;           ///< since when the reference asks for too much
+  double at_limit_since_s_ = NAN;  ///< since when the muscle is also at a limit
   double first_s_ = NAN;
   double first_until_s_ = NAN;
 };

@@ -11,11 +11,11 @@
 
 namespace supercoil::host_sim {
 
-/// A loop that oscillates takes its power from one limit to the other and back, again and again in
-/// the same time. Noise that reaches both does so at any time, and a reference in its own.
+/// An oscillating loop takes its power from one limit to the other and back with a constant period.
+/// Noise reaches both limits at irregular times, and a reference does so with its own period.
 class LimitCycle {
  public:
-  /// A tick at this limit, and nothing asked for that.
+  /// A tick at this limit that the reference did not ask for.
   void add(LimitedBy limit, double time_s) {
     const bool at_an_end = limit == LimitedBy::minimum || limit == LimitedBy::maximum;
     if (!at_an_end || limit == last_) return;
@@ -29,8 +29,8 @@ class LimitCycle {
     last_ = LimitedBy::nothing;
     risen_s_ = NAN;
   }
-  /// Of the newest cycles, where most of them last alike and a third of longest_s at most; NaN:
-  /// there are none such.
+  /// Of the newest cycles, if most of them have about the same period, below a third of longest_s;
+  /// otherwise NaN.
   double period_s(double longest_s) const {
     std::array<double, 256> sorted = lasted_s_;
     const std::span all(sorted.data(), std::min<std::size_t>(count_, sorted.size()));
@@ -47,7 +47,7 @@ class LimitCycle {
  private:
   static constexpr std::size_t least_cycles = 12;
   static constexpr double alike_ratio = 0.25;
-  /// Of noise a seventh does in the built-in scenarios, of a loop of too much gain four fifths.
+  /// In the built-in scenarios: a seventh are alike with noise, four fifths with too much gain.
   static constexpr double most_ratio = 0.5;
 
   LimitedBy last_ = LimitedBy::nothing;

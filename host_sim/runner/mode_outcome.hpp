@@ -11,8 +11,8 @@ namespace supercoil::host_sim {
 /// there was none.
 std::string describe_mode(const Snapshot& snapshot);
 
-/// The same of one that the scenario asks for and that found nothing, or has not ended; empty:
-/// none.
+/// The same for an identify or calibrate of the scenario that found nothing or has not ended;
+/// empty: none.
 std::string mode_failed_because(const Scenario& scenario, const Simulation& simulation);
 
 }  // namespace supercoil::host_sim

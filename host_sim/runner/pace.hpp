@@ -12,8 +12,8 @@ class Pace {
   explicit Pace(double step_s)
       : step_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(step_s))) {}
 
-  /// Until the next tick is due. What a busy machine took from the simulation is made up for,
-  /// unless it is more than a second: then the simulation is that much behind from now on.
+  /// Waits until the next tick is due. The simulation catches up with delays by a busy machine of
+  /// up to a second; after a longer one it stays that far behind.
   void wait() {
     next_ += step_;
     const auto now = Clock::now();
@@ -23,7 +23,7 @@ class Pace {
     }
     std::this_thread::sleep_until(next_);
   }
-  /// How often it was a second behind.
+  /// How often it was more than a second behind.
   std::int64_t slips() const { return slips_; }
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 

@@ -10,7 +10,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// What only an identified muscle has to prove.
+/// Only an identified muscle has to give a proof.
 double provable_W(const ChannelSettings& channel, const BoardSettings& board) {
   const bool proves = channel.supervision.proof_of_response && channel.muscle_identified;
   if (!proves) return INFINITY;
@@ -21,7 +21,7 @@ control::ThermalBounds thermal_bounds(const ChannelSettings& channel) {
   return board::known_thermal_bounds(channel.thermal, channel.heat).bounds;
 }
 
-/// As RiseIntervalObserver's where no heat transfer is known better at some rises.
+/// As in RiseIntervalObserver, if no heat transfer is known more closely at some rises.
 control::BasicIntervalEnd<double> board_hot_end(control::ThermalBounds bounds, double step_s) {
   const double lowest_W_per_K = bounds.min_transfer_W_per_K;
   bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
@@ -29,7 +29,7 @@ control::BasicIntervalEnd<double> board_hot_end(control::ThermalBounds bounds, d
   return control::hot_end(lowest_W_per_K, bounds, step_s);
 }
 
-/// What is left of the heat that it may have had at boot.
+/// What is left of the rise that the muscle may have had at boot.
 double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
                     const control::ThermalBounds& bounds) {
   const double armable_s = feasibility(channel, board).armable_s;
@@ -48,7 +48,7 @@ PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
       hottest_K_(first_rise_K(board.channels[0], board, thermal_bounds(board.channels[0]))) {}
 
 PowerLeft::Most PowerLeft::at(double hottest_C) const {
-  // Apart: a pair that is copied at each bound is waited for.
+  // Two variables: copying a pair at each bound would stall.
   double power_W = limiter_.max_W();
   LimitedBy by = LimitedBy::maximum;
   const auto bound = [&](double bound_W, LimitedBy limit) {

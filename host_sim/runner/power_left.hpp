@@ -1,4 +1,4 @@
-// The power that a board's limiter leaves to a muscle over time, as it must believe it to be hot.
+// The power that a board's limiter leaves to a muscle over time, given how hot it may be.
 #pragma once
 
 #include "supercoil/control/thermal/interval_observer.hpp"
@@ -7,7 +7,7 @@
 
 namespace supercoil::host_sim {
 
-/// Of a board's first channel, from when a scenario begins.
+/// For a board's first channel, from the beginning of a scenario.
 class PowerLeft {
  public:
   struct Most {
@@ -15,20 +15,20 @@ class PowerLeft {
     LimitedBy by = LimitedBy::nothing;
   };
 
-  /// supply_V: that it has.
+  /// supply_V: the board's supply.
   PowerLeft(const BoardSettings& board, double supply_V, double step_s);
 
   Most now() const { return at(warmest_C_ + hottest_K_); }
-  /// Of a cold muscle.
+  /// For a cold muscle.
   Most cold() const { return at(warmest_C_); }
-  /// That power is given for a step.
+  /// Applies this power for a step.
   void step(double power_W) { hottest_K_ = hot_.moved(hottest_K_, max_power_ratio_ * power_W); }
 
  private:
   Most at(double hottest_C) const;
 
   Limiter limiter_;
-  double provable_W_;  ///< infinite: nothing is to be proven yet
+  double provable_W_;  ///< infinite: nothing has to be proven
   double warmest_C_;
   double max_power_ratio_;
   control::BasicIntervalEnd<double> hot_;  ///< of the board's interval

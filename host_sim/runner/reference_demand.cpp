@@ -50,7 +50,7 @@ ReferenceDemand::Excess ReferenceDemand::step(double reference_m) {
   const double needed_W = (motion_.left_W(of_motion_W) + load_W_) / given_ratio_;
   motion_.step(reference_m);
   const double wanted_W = needed_W + lag_.made_up_by_W();
-  // Of a NaN the least; std::fmin would be a call.
+  // min_W for NaN; std::fmin would be a call.
   const double given_W = std::min(max_W, std::max(range_.min_W, wanted_W));
   left_.step(given_W);
   lag_.step(needed_W - given_W);
@@ -66,7 +66,7 @@ ReferenceDemand::Excess ReferenceDemand::step(double reference_m) {
   if (least_W < range_.min_W - tolerated_W) {
     excess.by = LimitedBy::cooling;
   } else if (most_W > max_W + tolerated_W) {
-    // Heat is no reason where a cold muscle could not either.
+    // Heat is not the reason if a cold muscle could not follow either.
     excess.by = asked_W > cold_.power_W + tolerated_W ? cold_.by : most.by;
   }
   return excess;

@@ -1,4 +1,4 @@
-// What a reference asks of a muscle over time, whatever a loop makes of it.
+// What a reference asks of a muscle over time, whatever the loop does.
 #pragma once
 
 #include "runner/power_left.hpp"
@@ -7,23 +7,23 @@
 
 namespace supercoil::host_sim {
 
-/// Of a linear muscle that follows its reference model: it has caught up when its heat is what the
+/// For a linear muscle that follows its reference model. It has caught up when its heat is what the
 /// motion needs.
 class ReferenceDemand {
  public:
-  /// load_N: that pulls the muscle longer. left: as a scenario begins. tolerated_ratio: of the
-  /// greatest power, beyond a limit, while it is not behind.
+  /// load_N stretches the muscle. left: at the beginning of a scenario. tolerated_ratio: tolerated
+  /// excess over the maximum power, while the muscle is not behind.
   ReferenceDemand(const Conditions& c, const control::PhysicalParameters& muscle, double load_N,
                   const PowerLeft& left, double step_s, double tolerated_ratio = rounding_ratio);
 
   /// The motion begins here, at rest.
   void start_at(double position_m) { motion_.start_at(position_m); }
-  /// Other conditions from now on; motion and heat stay.
+  /// Replaces the conditions; motion and heat are kept.
   void change(const Conditions& c, const control::PhysicalParameters& muscle, double load_N);
 
   struct Excess {
-    LimitedBy by = LimitedBy::nothing;  ///< which limit it asks to go beyond
-    double power_W = 0.0;               ///< by how much; below 0: it stays within
+    LimitedBy by = LimitedBy::nothing;  ///< the limit that it exceeds
+    double power_W = 0.0;               ///< by how much; below 0: within the limit
     bool unmet = false;                 ///< the muscle, or its shaped motion, lacks power
   };
   /// Over the step that begins now.
@@ -34,12 +34,12 @@ class ReferenceDemand {
 
  private:
   static constexpr double rounding_ratio = 1e-9;
-  static constexpr double unmet_ratio = 1e-3;  ///< of the greatest power: noise hides less
+  static constexpr double unmet_ratio = 1e-3;  ///< of the maximum power: noise hides less
 
   double step_s_;
   control::PowerRange range_;
   double tolerated_W_;
-  double given_ratio_;  ///< what arrives of the power
+  double given_ratio_;  ///< power that arrives over power given
   double gain_m_per_W_;
   double load_W_;
   WantedMotion motion_;

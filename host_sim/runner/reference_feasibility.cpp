@@ -23,7 +23,7 @@ namespace {
 
 constexpr double max_step_s = 5e-3;
 constexpr double steps_per_period = 100.0;
-/// Of a reference that is longer, the rest is not looked at: a tenth of a second is enough to wait.
+/// The rest of a longer reference is ignored: a tenth of a second is enough to wait.
 constexpr std::int64_t max_steps = 2'000'000;
 constexpr double max_slowing = 100.0;
 
@@ -38,7 +38,7 @@ double step_s(const Reference& reference) {
   return std::fmin(max_step_s, 2.0 * std::numbers::pi / (steps_per_period * fastest));
 }
 
-/// Of a model at this frequency.
+/// Frequency response of a model.
 std::complex<double> response(const control::ReferenceModelSettings& model,
                               double angular_frequency_rad_per_s) {
   const std::complex<double> s{0.0, angular_frequency_rad_per_s};
@@ -66,7 +66,7 @@ double off_reference_rms_m(const control::ReferenceModelSettings& model,
   return std::sqrt(square_m2);
 }
 
-/// What the muscle needs for a motion of the model by 1 m in the reference, at this frequency.
+/// Power amplitude for 1 m of reference amplitude through the model, at this frequency.
 double power_W_per_m(const Conditions& c, double angular_frequency_rad_per_s) {
   const std::complex<double> s{0.0, angular_frequency_rad_per_s};
   const control::Theta theta = control::theta_from(c.muscle);
@@ -76,8 +76,7 @@ double power_W_per_m(const Conditions& c, double angular_frequency_rad_per_s) {
   return std::abs(model * muscle);
 }
 
-/// Of sines that have gone on for long, about what their middle needs. Several may be at their
-/// peaks at once.
+/// Power amplitude of settled sines, about what their middle needs. Several sines may peak at once.
 double power_amplitude_W(const Conditions& c, double slowing = 1.0) {
   double amplitude_W = 0.0;
   for (const auto& [amplitude_m, angular_frequency_rad_per_s] : c.reference.terms) {
@@ -86,7 +85,7 @@ double power_amplitude_W(const Conditions& c, double slowing = 1.0) {
   return amplitude_W;
 }
 
-/// How far the power may go to both sides of what the middle needs; below 0: not even that.
+/// How far the power may swing about what the middle needs; below 0: not even that.
 double room_W(const Conditions& c, double max_W) {
   const double middle_m = c.reference.offset + c.plant.load_N / c.muscle.stiffness_N_per_m;
   const double middle_W = middle_m / c.muscle.dc_gain_m_per_W();
@@ -107,14 +106,14 @@ double feasible_slowing(const Conditions& c, double max_W) {
   return slow;
 }
 
-/// Tells of sines what would be feasible in place of them.
+/// For sines: finds the motion that would be feasible instead.
 void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibility& f) {
   f.feasible_motion_ratio = room_W(c, max_W) / power_amplitude_W(c);
   double amplitude_m = 0.0;
   for (const Sinusoid& term : c.reference.terms)
     amplitude_m += std::abs(term.amplitude);
   const double held_ratio = (f.held_m - c.reference.offset) / amplitude_m;
-  // However slow, it stays there for long.
+  // However slow the motion is, the muscle stays there for long.
   const bool too_far = is_of_heat(f.limited_by) && held_ratio < 1.0;
   if (too_far) f.feasible_motion_ratio = std::fmin(f.feasible_motion_ratio, held_ratio);
   f.feasible_motion_ratio = std::clamp(f.feasible_motion_ratio, 0.0, 1.0);
@@ -122,14 +121,14 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
     f.feasible_slowing = too_far ? INFINITY : feasible_slowing(c, max_W);
 }
 
-/// Tells when first and for how long, by how much, how far it leads, and what it ends in.
+/// Finds when, for how long and by how much it asks too much, how far it leads, and how it ends.
 void find_infeasible(const Conditions& c, double duration_s, double step, const PowerLeft& left,
                      double saturated_s, ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
   ReferenceDemand demand(c, c.muscle, c.plant.load_N, left, step);
   InfeasibleTime found;
   std::array<double, limit_names.size()> excess_W{};
-  double met_s = 0.0;  ///< since then it lacks power
+  double met_s = 0.0;  ///< from then on it lacks power
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
     const auto [by, by_W, unmet] = demand.step(c.reference.at(time_s));

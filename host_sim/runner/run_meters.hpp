@@ -8,12 +8,12 @@
 
 namespace supercoil::host_sim {
 
-/// Root mean square and largest value of what it is given.
+/// Root mean square and largest value of the errors added.
 class ErrorMeter {
  public:
   void add(double error) {
     square_sum_ += error * error;
-    max_ = std::max(max_, std::abs(error));  // a NaN is none
+    max_ = std::max(max_, std::abs(error));  // ignores NaN
     ++count_;
   }
   double square_sum() const { return square_sum_; }
@@ -31,13 +31,13 @@ class ErrorMeter {
 class MotionMeter {
  public:
   void add(double position_m) {
-    // By differences from the first, which lose no digits.
+    // Differences from the first position lose no digits.
     if (count_++ == 0) first_m_ = position_m;
     const double from_first_m = position_m - first_m_;
     sum_m_ += from_first_m;
     square_sum_m2_ += from_first_m * from_first_m;
   }
-  /// Rms about its mean; of one that hardly moves, part of how far it is held.
+  /// Rms about the mean; for a motion that hardly moves, a fraction of how far it is held.
   double size_m() const {
     const auto count = static_cast<double>(count_);
     const double mean_m = sum_m_ / count;
@@ -54,8 +54,8 @@ class MotionMeter {
   std::int64_t count_ = 0;
 };
 
-/// How far a controller's power swings by noise: quicker than any motion, and always. So it is the
-/// median of each second's rms, which a step does not move.
+/// How far a controller's power swings with noise, which is faster than any motion and always
+/// there: the median of each second's rms, which a step does not change.
 class PowerNoiseMeter {
  public:
   void add(double time_s, double power_W) {
@@ -70,7 +70,7 @@ class PowerNoiseMeter {
     from_s_ = time_s;
   }
   void interrupt() { last_s_ = NAN; }
-  /// NaN: too little was followed.
+  /// NaN: a position was followed for too short a time.
   double rms_W() const {
     constexpr std::size_t least_windows = 5;
     if (windows_W_.size() < least_windows) return NAN;

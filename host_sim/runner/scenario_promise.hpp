@@ -9,8 +9,8 @@
 
 namespace supercoil::host_sim {
 
-/// Of a muscle alone or against a spring, at the start: the error on its sine, or on the first
-/// motion of `supercoil setup` where the reference is none, or none that the muscle can follow.
+/// For a muscle alone or against a spring, at the start: the error on its sine, or, if the
+/// reference is no sine or not feasible, on the first motion of `supercoil setup`.
 struct ScenarioPromise {
   Promise parts;
   bool of_own_controller = true;  ///< else the recommended one's
@@ -20,10 +20,10 @@ struct ScenarioPromise {
 /// Empty: it follows no position, or can hold no travel.
 std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario);
 
-/// In words; empty: there is none of the reference itself.
+/// In words; empty: the reference itself has no promise.
 std::string describe_scenario_promise(const Scenario& scenario);
 
-/// The rms error from which on a run did not follow: far above what was promised, and a large part
+/// The rms error above which a run did not follow: far above what was promised, and a large part
 /// of the motion (docs/simulation.md). motion_m: Motion::size_m().
 double unfollowed_m(const std::optional<ScenarioPromise>& promise, double motion_m);
 

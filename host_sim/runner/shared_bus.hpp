@@ -8,7 +8,7 @@
 
 namespace supercoil::host_sim {
 
-/// Each board hears the frames of all others. The boards are stepped together, and outlive it.
+/// Each board hears the frames of all others. The boards must be stepped together and outlive it.
 class SharedBus {
  public:
   /// A frame, and when its last bit was on the wire, from the scenario's time 0 on.
@@ -18,7 +18,7 @@ class SharedBus {
   SharedBus(const SharedBus&) = delete;
   SharedBus& operator=(const SharedBus&) = delete;
 
-  /// A frame that is no board's.
+  /// Delivers a frame that does not come from one of the boards.
   void deliver(const hal::CanFrame& frame);
 
  private:

@@ -11,15 +11,15 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Seconds for which a slow muscle may have to be known to cool before it can be armed.
+/// Seconds that a slow muscle may have to cool, by the firmware's bounds, before it can be armed.
 constexpr int max_waits = 3600;
-/// Marks command()'s; those of the scenario have none.
+/// Marks command()'s commands; the scenario's have no mark.
 constexpr std::uint32_t commanded = 1;
 /// Ticks between two looks into the recorder's ring, which holds 2 s.
 constexpr std::uint32_t rows_every = 32;
 
-/// That moves what the board commands: a joint's spring and a bundle's others are in what the board
-/// believes.
+/// The muscle that moves what the board commands. The believed one includes a joint's spring and a
+/// bundle's other muscles.
 const control::PhysicalParameters& true_muscle(const Conditions& c) {
   return c.joint || !c.companions.empty() ? c.muscle : c.plant.parameters;
 }
@@ -56,7 +56,7 @@ void Simulation::boot() {
 void Simulation::boot_for(double time_s) {
   const std::int64_t ticks = std::llround(time_s * scenario_->rate_Hz);
   for (std::int64_t i = 0; i < ticks; ++i) {
-    // Asked for at the first tick after the self-test.
+    // Requested at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
     const bool wants = arms(conditions_->action);
@@ -123,7 +123,7 @@ void Simulation::change_joint(const Conditions& before) {
   if (antagonist != nullptr) board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
   board_.joint(0).set(simulated_joint_of(*conditions_));
   if (antagonist == nullptr) return;
-  // A board of its own has a range of its own for each, which no event changes.
+  // The user's own board has a range for each channel, which no event changes.
   if (!scenario_->board)
     loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
   const double wanted_W = antagonist->co_contraction_W;
@@ -193,7 +193,7 @@ double Simulation::reference_at(double time_s) {
   return first_motion_->reference_m(time_s);
 }
 
-/// Before a first motion, until a mode has ended by itself, and after it.
+/// Before a first motion, where a mode is renewed until it ends by itself, and after it.
 void Simulation::ask_for_rest() {
   const bool mode =
       last_action_ == OperatorAction::identify || last_action_ == OperatorAction::calibrate;
@@ -216,7 +216,7 @@ void Simulation::ask(double reference) {
       break;
     case OperatorAction::identify:
     case OperatorAction::calibrate: {
-      // Once: the mode ends by itself, and is then not asked for again.
+      // Only once: the mode ends by itself and is not requested again.
       const bool asked = last_action_ == conditions_->action;
       const Verb verb =
           conditions_->action == OperatorAction::identify ? Verb::identify : Verb::calibrate;
@@ -270,19 +270,19 @@ LimitedBy Simulation::reference_limited_by() {
     demand_.reset();
     return LimitedBy::nothing;
   }
-  // What two muscles that pull against each other can do is known by their limits only.
+  // For two muscles that pull against each other, only their limits tell what they can do.
   if (c.antagonist() != nullptr)
     return is_infeasible(s.limited_by) ? s.limited_by : loop_.channel(1).snapshot().limited_by;
   if (!demand_) {
     const PowerLeft left(firmware_of(*scenario_), c.power.supply_V, step_s_);
-    // Noise puts the beginning of a model off by this much; a shaped one rides along its limit.
+    // Noise shifts the start of a model by this much; a shaped model moves along its limit.
     const double tolerated_ratio = c.controller.shape_reference ? 1e-9 : 0.02;
     demand_.emplace(c, true_muscle(c), c.plant.load_N, left, step_s_, tolerated_ratio);
     demand_->start_at(s.model_m);
   }
   const LimitedBy by = demand_->step(s.reference).by;
   if (by != LimitedBy::nothing) return by;
-  // The board knows more of heat, and has found out what it can prove.
+  // The board knows the heat better, and which power it could prove.
   return is_of_heat(s.limited_by) ? s.limited_by : LimitedBy::nothing;
 }
 
@@ -338,7 +338,7 @@ BundleRecord Simulation::bundle_record(const TickRecord& first) const {
   return r;
 }
 
-/// Of its muscle, above the air as it is.
+/// Rise of the channel's muscle above the present air.
 double Simulation::rise_K(std::size_t channel) const {
   const MuscleChannel& muscle = board_.channel(channel);
   return muscle.temperature_rise_K() + (muscle.rise_from_C() - conditions_->ambient.air_C);

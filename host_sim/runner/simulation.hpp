@@ -20,7 +20,7 @@
 
 namespace supercoil::host_sim {
 
-/// Of a joint's antagonist, as TickRecord's of the muscle.
+/// A joint's antagonist; fields as in TickRecord.
 struct AntagonistRecord {
   double applied_power_W = 0.0;
   double temperature_rise_K = 0.0;
@@ -29,7 +29,7 @@ struct AntagonistRecord {
   LimitedBy limited_by = LimitedBy::nothing;
 };
 
-/// Of all muscles of a bundle; rises as TickRecord's.
+/// All muscles of a bundle; rises as in TickRecord.
 struct BundleRecord {
   double min_temperature_rise_K = 0.0;
   double max_temperature_rise_K = 0.0;
@@ -37,33 +37,33 @@ struct BundleRecord {
   bool outside = false;    ///< one of them is not within its bounds
 };
 
-/// What there is to see of one tick: the firmware's snapshot, and the truth beside it. Powers act
-/// from this tick to the next.
+/// The observable state of one tick: the firmware's snapshot, and the true values. Powers act from
+/// this tick to the next.
 struct TickRecord {
   double time_s = 0.0;
   double reference = 0.0;  ///< metres, or watts in open loop
   double model_m = 0.0;    ///< where the reference model is
   double position_m = 0.0;
   double measured_m = 0.0;
-  double power_W = 0.0;          ///< as the controller wanted it
+  double power_W = 0.0;          ///< as demanded by the controller
   double applied_power_W = 0.0;  ///< after limits, PWM and delay
   double temperature_rise_K = 0.0;
   double thermometer_C = NAN;  ///< NaN: no thermometer
   double coldest_K = 0.0;      ///< above the air: the firmware's bounds for it
   double hottest_K = 0.0;
   bool limited = false;
-  double oscillation_period_s = 0.0;  ///< that the controller saw its loop have; 0: none
+  double oscillation_period_s = 0.0;  ///< of the loop, as the controller detected it; 0: none
   bool open_loop = false;             ///< no reference model is followed
   bool commands_power = false;        ///< the reference is a power
   State state = State::disarmed;
   Fault fault = Fault::none;  ///< the channel's first cause
-  /// Of that first cause: NaN where no detector measures it.
+  /// The margin of that first cause; NaN if no detector measures it.
   detectors::Margin fault_margin{.measured = NAN, .limit = NAN};
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
   LimitedBy limited_by = LimitedBy::nothing;
-  /// Beyond which limit the reference alone goes, whatever the loop does.
+  /// The limit that the reference alone exceeds, whatever the loop does.
   LimitedBy reference_limited_by = LimitedBy::nothing;
-  double clipped_power_W = 0.0;                ///< power_W, within the range of power
+  double clipped_power_W = 0.0;                ///< power_W, clipped to the power range
   std::optional<AntagonistRecord> antagonist;  ///< where there is a joint
   std::optional<BundleRecord> bundle;          ///< where there is one
 };
@@ -75,8 +75,8 @@ constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {
            rise_K <= hottest_K + temperature_rounding_K);
 }
 
-/// After boot, and again where arming had to wait. It probes the heater, which moves the muscle by
-/// some 40 µm; after so long it is at rest.
+/// Wait after boot, and again after a delayed arming: the heater's probe moves the muscle by some
+/// 40 µm, and after this time it is at rest.
 inline constexpr double boot_s = 15.0;
 
 /// Boots the firmware, lets it arm, and commands it as the scenario says. The same scenario gives
@@ -90,10 +90,10 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   bool done() const { return tick_ >= ticks_; }
-  /// One tick: events, what is asked for, and the firmware's tick. What is returned lasts until the
+  /// One tick: events, commands, and the firmware's tick. The returned record is valid until the
   /// next.
   const TickRecord& step();
-  /// One tick as well, with a command beside the scenario's, and what the board answers to it.
+  /// Also one tick, with one more command than the scenario's. Returns the board's answer.
   Answer command(Verb verb, double value, std::uint8_t channel = 0);
 
   std::int64_t tick() const { return tick_; }
@@ -103,19 +103,19 @@ class Simulation {
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
-  /// Of a scenario without a joint.
+  /// Only for a scenario without a joint.
   const Plant& plant() const { return board_.channel(0).plant(); }
   /// Null without a joint.
   const JointPlant* joint() const {
     return scenario_->start.joint ? &board_.joint(0).plant() : nullptr;
   }
-  /// The hottest that any of its muscles was.
+  /// The highest rise so far of any of its muscles.
   double peak_temperature_rise_K() const;
   Loop& loop() { return loop_; }
-  /// Keeps what happens from now on; must outlive the simulation's steps.
+  /// Records from now on; the recorder must outlive the simulation's steps.
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
   const Loop& loop() const { return loop_; }
-  /// Called with a channel, and with what it learned, in the tick in which it did.
+  /// Called with a channel and what it learned, in the tick in which it learned it.
   using OnLearned = std::function<void(std::size_t channel, const board::LearnedUpdate&)>;
   void on_learned(OnLearned store) { on_learned_ = std::move(store); }
   /// Puts the board on a CAN bus from now on; the listener hears every frame that it sends.
@@ -124,9 +124,8 @@ class Simulation {
   SimulatedCanBus* bus() { return bus_ ? &*bus_ : nullptr; }
   /// The board's clock at the scenario's time 0.
   hal::Time start() const { return start_; }
-  /// What identify or calibrate found last of a channel's muscle, 1: a joint's antagonist's or a
-  /// bundle's second; empty
-  /// when nothing was.
+  /// The last result of identify or calibrate on a channel, 1: a joint's antagonist or a bundle's
+  /// second muscle; empty: none.
   const std::optional<board::Learned>& learned(std::size_t channel = 0) const {
     return learned_[channel];
   }
@@ -144,7 +143,7 @@ class Simulation {
   AntagonistRecord antagonist_record() const;
   BundleRecord bundle_record(const TickRecord& first) const;
   double rise_K(std::size_t channel) const;
-  /// What is asked for at this tick, NaN: nothing. Begins a first motion when the muscle is armed.
+  /// The reference at this tick; NaN: none. Begins a first motion when the muscle is armed.
   double reference_at(double time_s);
   void ask(double reference);
   void ask_for_rest();
@@ -152,7 +151,7 @@ class Simulation {
   void housekeep();
   void pass_rows();
   void record(double time_s, double reference);
-  /// After a tick: beyond which limit the reference alone goes.
+  /// After a tick: the limit that the reference alone exceeds.
   LimitedBy reference_limited_by();
 
   const Scenario* scenario_;

@@ -21,8 +21,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of summary.json: grows when a key is renamed or means something else. Version 0.1.0 of the
-/// programs wrote 1, without saying so.
+/// Of summary.json: incremented when a key is renamed or its meaning changes. Version 0.1.0 of the
+/// programs wrote schema 1 without saying so.
 constexpr int schema_version = 5;
 
 std::string page_of(Fault fault) {
@@ -51,7 +51,7 @@ ordered_json learned_json(const board::Learned& learned) {
   return json;
 }
 
-/// How the last identify or calibrate ended, and what else identify has to say.
+/// How the last identify or calibrate ended, and identify's notes.
 ordered_json mode_result_json(const Snapshot& snapshot) {
   ordered_json notes = ordered_json::array();
   for (std::size_t i = 0; i < identify_note_names.size(); ++i) {
@@ -119,7 +119,7 @@ std::string Summary::never_armed_because(const Scenario& scenario,
 }
 
 std::string Summary::did_not_follow_because(const Scenario& scenario) const {
-  // A motion that has just begun is small, and its beginning the worst of it.
+  // A motion that has just begun is small, and its error is largest at the beginning.
   constexpr double least_s = 10.0;
   if (static_cast<double>(tracking_.count()) * scenario.step_s() < least_s) return {};
   const auto promise = scenario_promise(scenario);

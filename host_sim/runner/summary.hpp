@@ -18,13 +18,13 @@
 
 namespace supercoil::host_sim {
 
-/// From from_s on, until before to_s.
+/// From from_s to before to_s.
 struct Window {
   double from_s = 0.0;
   double to_s = INFINITY;
 };
 
-/// Of a muscle: at how many ticks each limit held.
+/// At how many ticks each limit held for a muscle.
 struct LimitCount {
   std::array<std::int64_t, limit_names.size()> ticks{};  ///< in the order of LimitedBy
 };
@@ -76,15 +76,15 @@ class Summary {
     motion_.add(record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
-  /// The same as the board's sensor shows it.
+  /// The tracking error as the board's sensor shows it.
   const ErrorMeter& shown() const { return shown_; }
-  /// Of the reference model, within the window as tracking().
+  /// The reference model's motion, within the same window as tracking().
   const MotionMeter& motion() const { return motion_; }
-  /// By which the controller's power swings within its range, rms, while the reference is feasible;
-  /// NaN: too little of that was followed, or the loop oscillated or diverged.
+  /// Rms swing of the controller's power within its range while the reference is feasible; NaN: a
+  /// position was followed for too short a time, or the loop oscillated or diverged.
   double power_noise_W() const { return oscillated() || diverged() ? NAN : power_noise_.rms_W(); }
-  /// Ticks at which the muscle, or another one of its joint or bundle, was not within the
-  /// firmware's bounds of its temperature.
+  /// Ticks at which the muscle, or another one of its joint or bundle, was outside the firmware's
+  /// bounds of its temperature.
   std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
   struct FaultAt {
     Fault fault;
@@ -97,39 +97,37 @@ class Summary {
   const std::vector<FaultAt>& faults() const { return faults_; }
   std::int64_t ticks() const { return ticks_; }
   const LimitCount& limits() const { return limits_; }
-  /// Of a joint's other muscle; without one there are none.
+  /// Limits of a joint's other muscle; all 0 without one.
   const LimitCount& antagonist_limits() const { return antagonist_limits_; }
-  /// At any tick.
+  /// Whether it was armed at any tick.
   bool armed() const { return armed_; }
-  /// What is still latched; none: it did not end in a fault.
+  /// The fault that is latched at the end; none: the run did not end in a fault.
   Fault ended_in() const {
     if (state_ != State::fault) return Fault::none;
     return fault_ != Fault::none ? fault_ : board_fault_;
   }
-  /// Ticks at which the controller's power was no number, and the time of the first.
+  /// Ticks at which the controller's power was not finite, and the time of the first.
   std::int64_t not_finite_ticks() const { return not_finite_ticks_; }
   double first_not_finite_s() const { return first_not_finite_s_; }
-  /// When a controller first saw its loop oscillate; NaN: never.
+  /// When a controller first detected that its loop oscillates; NaN: never.
   double oscillated_at_s() const { return oscillated_at_s_; }
   bool oscillated() const { return !std::isnan(oscillated_at_s_); }
   double oscillation_period_s() const { return oscillation_period_s_; }
-  /// The power was at a limit, but for those of heat, for as long as that takes, where the
-  /// reference asks for no more than the muscle can do; of the ticks that followed a position, NaN:
-  /// none did.
+  /// Ticks at a power limit, other than those of heat, that lasted long enough while the reference
+  /// was feasible, over all ticks that followed a position; NaN: none did.
   double unasked_limit_ratio() const { return unasked_limit_.ratio(); }
-  /// Of a limit cycle under a reference that moves, from one limit of the power to the other; NaN:
-  /// none was found.
+  /// Of a limit cycle between the power limits while the reference moves; NaN: none was found.
   double limit_cycle_period_s(const Scenario& scenario) const;
-  /// So often that it is no start, and no end of what the reference asked too much of.
+  /// Too often for a start, or for the end of an infeasible reference.
   bool diverged() const {
     const double ratio = unasked_limit_.ratio();
     return ratio > diverged_ratio && ratio > infeasible_.ratio();
   }
-  /// Noise is what that tells of: not where much of the reference was infeasible, after which laws
-  /// that adapt have learned wrong.
+  /// Whether power_noise_W() shows noise: not if much of the reference was infeasible, because
+  /// adaptive laws have then learned wrong.
   bool tells_noise() const { return !(infeasible_.ratio() > diverged_ratio); }
-  /// When the reference asked for more than the muscle can do, and was shaped or cut. Null: nothing
-  /// is known, as a loop that oscillates asks for too much by itself.
+  /// When the reference asked for more than the muscle can do, and was shaped or cut. Null:
+  /// unknown, because an oscillating loop asks for too much by itself.
   const InfeasibleTime* infeasible() const { return oscillated() ? nullptr : &infeasible_; }
 
   /// In words; empty: it was armed.
@@ -156,7 +154,7 @@ class Summary {
     if (asked) return power_noise_.interrupt();
     power_noise_.add(record.time_s, record.clipped_power_W);
   }
-  /// Most of the error was made where the reference asked for too much.
+  /// Whether most of the error arose where the reference asked for too much.
   bool behind_by_reference() const;
 
   void note_fault(const TickRecord& record) {
@@ -179,7 +177,7 @@ class Summary {
   ErrorMeter tracking_;
   ErrorMeter shown_;
   ErrorMeter off_reference_;
-  ErrorMeter infeasible_tracking_;  ///< of it, while the reference asks for too much
+  ErrorMeter infeasible_tracking_;  ///< of tracking, while the reference asks for too much
   MotionMeter motion_;
   PowerNoiseMeter power_noise_;
   std::int64_t ticks_ = 0;

@@ -27,7 +27,7 @@ OrRefused check_supply(const Conditions& c, const BoardSettings& board) {
   return refuse(why);
 }
 
-/// The commands that ask for other controllers know them by their place in the scenario.
+/// Commands select other controllers by their place in the scenario.
 OrRefused check_events(const Scenario& scenario) {
   for (const Event& event : scenario.events) {
     if (!event.new_controller && !event.new_estimator) continue;
@@ -40,7 +40,7 @@ OrRefused check_events(const Scenario& scenario) {
   return {};
 }
 
-/// The scenario's operator knows a file's position and power by what the firmware may do.
+/// Position and power of the file, as the firmware limits them, for the scenario's operator.
 void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWiring& wiring) {
   PositionSensorSettings& sensor = c.position_sensor;
   sensor.noise_rms_m = channel.supervision.position_noise_rms_m;
@@ -56,8 +56,8 @@ void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWir
   c.muscle = channel.muscle;
 }
 
-/// As put(), of the muscle that pulls against it. scenario_W: what the scenario begins with, which
-/// is the file's; what an event asks of both instead stays.
+/// Like put(), for the antagonist. scenario_W: co-contraction at the scenario's start, which the
+/// file's replaces; a different one from an event is kept.
 OrRefused put_antagonist(Conditions& c, const BoardSettings& board,
                          const config::ChannelWiring& wiring, double scenario_W) {
   AntagonistConditions& antagonist = *c.joint->antagonist;
@@ -93,7 +93,7 @@ std::string other_lever(const control::Lever& scenarios, const control::Lever& b
          text_of(boards) + ": positions are arcs at the lever";
 }
 
-/// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
+/// The file's joint that matches the scenario's [joint]; empty: neither has one.
 Result<std::optional<JointSettings>> find_joint(const Conditions& c, const BoardSettings& board,
                                                 std::size_t channel) {
   const JointSettings* found = board.joint_of(channel);
@@ -130,7 +130,7 @@ Result<std::optional<JointSettings>> find_joint(const Conditions& c, const Board
   return *found;
 }
 
-/// The bundle of the file that pulls what the scenario's [bundle] does; empty: neither has one.
+/// The file's bundle that matches the scenario's [bundle]; empty: neither has one.
 Result<std::optional<BundleSettings>> find_bundle(const Conditions& c, const BoardSettings& board,
                                                   std::size_t channel) {
   const BundleSettings* found = board.bundle_of(channel);
@@ -146,7 +146,7 @@ Result<std::optional<BundleSettings>> find_bundle(const Conditions& c, const Boa
   return failure(why.str());
 }
 
-/// The file's board with the channels that the scenario has: an agonist first, a bundle's leader.
+/// The file's board with the scenario's channels only: the agonist, or a bundle's leader, first.
 BoardSettings board_of_one(const BoardSettings& all, std::size_t channel,
                            std::optional<JointSettings> joint,
                            std::optional<BundleSettings> bundle) {

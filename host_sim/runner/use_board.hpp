@@ -1,4 +1,4 @@
-// A scenario's muscle, or its joint, on a board of the user's own.
+// A scenario's muscle, or its joint, on the user's own board.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace supercoil::host_sim {
 
-/// Lets the scenario run the firmware as this file configures one of its channels, or the joint in
-/// which that is, over devices that measure and switch as the file's do. The muscle, its air, the
-/// supply and what is asked for stay the scenario's. channel: from 0, of a joint either one; on the
-/// bus its antagonist's node follows the agonist's. The error says which of the two must change,
-/// and how.
+/// Lets the scenario run the firmware as this file configures one of its channels, or that
+/// channel's joint, over devices that measure and switch like the file's. Muscle, air, supply and
+/// commands stay the scenario's. channel: from 0; either one of a joint. On the bus, the
+/// antagonist's node follows the agonist's. The error says whether the file or the scenario must
+/// change, and how.
 Result<void> use_board(Scenario& scenario, const config::BoardConfig& config, std::size_t channel,
                        const LearnedMuscles& learned = {});
 

@@ -1,5 +1,5 @@
-// The motion that a reference asks of a muscle, and how far a muscle falls behind that has not the
-// power for it.
+// The motion that a reference asks of a muscle, and how far a muscle without enough power falls
+// behind it.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace supercoil::host_sim {
 
-/// A muscle that gets less power than its motion needs, or more: how much colder it is than it
+/// For a muscle that gets less power than its motion needs, or more: how much colder it is than it
 /// should be, and how far behind.
 class Lag {
  public:
@@ -24,12 +24,12 @@ class Lag {
         moved_kg_(muscle.moving_mass_kg +
                   step_s * (muscle.damping_Ns_per_m + step_s * muscle.stiffness_N_per_m)) {}
 
-  /// The power that makes up for it within a step.
+  /// The power that makes up for the lag within a step.
   double made_up_by_W() const { return kept_ratio_ * missing_K_ / K_per_W_; }
-  /// power_W: that it does not get of what its motion needs.
+  /// power_W: what the muscle lacks of the power that its motion needs.
   void step(double power_W) {
     missing_K_ = kept_ratio_ * missing_K_ + K_per_W_ * power_W;
-    // Implicit: what is stiff stays stable at any step.
+    // Implicit: stable at any step, even for a stiff muscle.
     const control::PhysicalParameters& m = muscle_;
     const double force_N =
         m.force_per_kelvin_N_per_K * missing_K_ - m.stiffness_N_per_m * behind_m_;
@@ -37,9 +37,9 @@ class Lag {
     behind_m_ += step_s_ * speed_m_per_s_;
   }
   double behind_m() const { return behind_m_; }
-  /// By which it is colder or hotter, as the power that holds that.
+  /// The temperature difference, as the power that would hold it.
   double off_W() const { return muscle_.heat_transfer_W_per_K * std::abs(missing_K_); }
-  /// Another muscle in its place.
+  /// Takes over the lag of a muscle with other parameters.
   void go_on_from(const Lag& before) {
     missing_K_ = before.missing_K_;
     speed_m_per_s_ = before.speed_m_per_s_;
@@ -51,13 +51,13 @@ class Lag {
   double step_s_;
   double kept_ratio_;  ///< of a difference in temperature, over a step
   double K_per_W_;     ///< after a step
-  double moved_kg_;    ///< mass, and what damping and stiffness are like in a step
+  double moved_kg_;    ///< mass, and the equivalent of damping and stiffness over a step
   double missing_K_ = 0.0;
   double speed_m_per_s_ = 0.0;
   double behind_m_ = 0.0;
 };
 
-/// The motion that is asked for, and the one that shaping makes of it by the power that is left.
+/// The motion that is asked for, and the one that shaping makes of it with the power available.
 class WantedMotion {
  public:
   WantedMotion(const Conditions& c, double step_s)
@@ -72,15 +72,15 @@ class WantedMotion {
     asked_.set({position_m, 0.0, 0.0});
     shaped_ = asked_;
   }
-  /// Other conditions in place of those.
+  /// Continues a motion under other conditions.
   void go_on_from(const WantedMotion& before) {
     asked_.set(before.asked_.motion());
     shaped_.set(before.made().motion());
   }
 
-  /// No more power than this is left from now on.
+  /// Limits the power from now on.
   void leave(double max_W) { range_.max_W = max_W; }
-  /// What the muscle needs for it from now to the next step.
+  /// The power that the muscle needs for it from now to the next step.
   double power_W(double reference_m) const {
     return inverse_.power_W(reference_m, made().motion());
   }
@@ -88,7 +88,7 @@ class WantedMotion {
     asked_.step(reference_m);
     if (shapes_) shaped_.step(inverse_.step(reference_m, shaped_.motion(), range_).reference_m);
   }
-  /// Of what it needs, the part that shaping leaves to the muscle.
+  /// The part of the needed power that shaping leaves to the muscle.
   double left_W(double power_W) const { return shapes_ ? range_.clip(power_W) : power_W; }
   double asked_m() const { return asked_.motion().position; }
   double shaped_m() const { return made().motion().position; }
@@ -99,7 +99,7 @@ class WantedMotion {
 
   control::ReferenceShaper inverse_;
   control::ReferenceModel<double> asked_;
-  control::ReferenceModel<double> shaped_;  ///< stands still where nothing shapes
+  control::ReferenceModel<double> shaped_;  ///< not stepped without shaping
   control::PowerRange range_;
   bool shapes_;
 };

@@ -16,11 +16,11 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// After so many runs each the rates are looked at, whatever the jobs: where a study ends is the
-/// same for all.
+/// Each contender's failure rate is checked after this many runs, whatever the jobs, so that a
+/// study always ends at the same run.
 constexpr std::int64_t look_every_runs = 100;
 
-/// What the study describes must be a scenario in the middle of all draws.
+/// At the median of all draws, the study must give a valid scenario.
 std::string check_medians(const campaign::Study& study, const campaign::Draws& draws) {
   std::string problems;
   for (std::size_t i = 0; i < study.contenders.size(); ++i) {
@@ -33,7 +33,7 @@ std::string check_medians(const campaign::Study& study, const campaign::Draws& d
   return problems;
 }
 
-/// Runs from `from` to before `to` of the shard, all contenders, which are not among the outcomes.
+/// The shard's runs from `from` to before `to`, of all contenders, that have no outcome yet.
 std::vector<campaign::Key> missing(const campaign::Study& study, const batch::Shard& shard,
                                    const campaign::Outcomes& outcomes, std::int64_t from,
                                    std::int64_t to) {

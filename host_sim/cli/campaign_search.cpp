@@ -22,7 +22,7 @@ std::string file_of(const campaign::Study& study, std::size_t contender) {
   return "search-" + study.contenders[contender].name + ".toml";
 }
 
-/// A row a goal of a contender, as search.md has them.
+/// One row per goal and contender, as in search.md.
 nlohmann::ordered_json rows_of(const campaign::Study& study,
                                const std::map<std::size_t, campaign::Worst>& found) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -68,7 +68,7 @@ std::string submit_script(const Jobs& jobs) {
 }  // namespace
 
 int submit_campaign(const campaign::Study& study, const CampaignOptions& options) {
-  // As read_study() takes it: a built-in name before a file.
+  // As in read_study(), a built-in name takes precedence over a file.
   const auto names = names_of(campaign::builtin_studies());
   const bool builtin = std::ranges::find(names, options.study) != names.end();
   const Jobs jobs{fs::read_symlink("/proc/self/exe"),
@@ -89,7 +89,7 @@ int submit_campaign(const campaign::Study& study, const CampaignOptions& options
     return exit_done;
   }
   std::fflush(stdout);
-  // The path goes in by the environment: no shell reads it.
+  // The path is passed in the environment: no shell interprets it.
   setenv("SUPERCOIL_SUBMIT", script.c_str(), 1);
   if (std::system(R"(sh "$SUPERCOIL_SUBMIT")") == 0) return exit_done;  // NOLINT(cert-env33-c)
   return fail(exit_failed, script.string() +

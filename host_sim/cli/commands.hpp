@@ -19,7 +19,7 @@ inline constexpr int exit_interrupted = 130;  ///< by a signal; nothing is kept
 int fail(int status, const std::string& message);
 
 struct RunOptions {
-  std::vector<std::string> scenarios;  ///< each of a board of its own, on one bus
+  std::vector<std::string> scenarios;  ///< one board each, on one bus
   std::string out;                     ///< empty: supercoil-out/NAME
   std::string window;                  ///< "FROM:TO" in seconds, either may be empty
   std::int64_t every = 1;
@@ -35,9 +35,9 @@ struct RunOptions {
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure
   std::string learned;       ///< folder; empty: nothing is remembered
-  /// Files of the firmware's configuration, one a scenario; empty: the scenario's own.
+  /// The firmware's configuration files, one per scenario; empty: the scenario's own configuration.
   std::vector<std::string> boards;
-  std::vector<int> channels;  ///< of these, from 1; those that lack are 1
+  std::vector<int> channels;  ///< of these, from 1; missing ones are 1
   int nodes = 1;              ///< boards on one bus, of a single scenario
 
   bool several_boards() const { return nodes > 1 || scenarios.size() > 1; }
@@ -55,25 +55,25 @@ int page_command(const PageOptions& options);
 struct ReproduceOptions {
   std::string out = "supercoil-out/reproduction";
   bool plots = true;
-  bool json = false;  ///< on standard output, in place of text; so below
+  bool json = false;  ///< on standard output, instead of text; likewise below
   bool quiet = false;
 };
 int reproduce_command(const ReproduceOptions& options);
 
 struct CompareOptions {
   compare::Selection selection;
-  std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
+  std::vector<std::string> merge;  ///< runs.csv files to merge; nothing is run then
   std::string out = "supercoil-out/compare";
   int jobs = 0;  ///< 0: as many as there are processors
   bool plot = true;
   bool json = false;
   bool quiet = false;
-  bool list = false;  ///< only says what there is to compare
+  bool list = false;  ///< only lists what there is to compare
 };
 int compare_command(const CompareOptions& options);
 
 struct EstimatorsOptions {
-  std::int64_t seeds = 20;  ///< 1 to this
+  std::int64_t seeds = 20;  ///< seeds 1 to this
   int jobs = 0;             ///< 0: as many as there are processors
   std::string out = "supercoil-out/estimators";
   bool plot = true;
@@ -86,16 +86,16 @@ struct CampaignOptions {
   std::string study;
   std::int64_t runs = 0;  ///< 0: as the study says
   batch::Shard shard;
-  std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
+  std::vector<std::string> merge;  ///< runs.csv files to merge; nothing is run then
   std::string out;                 ///< empty: supercoil-out/campaign-NAME
-  int slurm = 0;                   ///< parts of an array of jobs; 0: runs here
-  std::int64_t search = 0;         ///< runs of a search for the worst, a controller; 0: no search
-  bool submit = true;              ///< these are submitted, not only written
+  int slurm = 0;                   ///< parts of a job array; 0: runs here
+  std::int64_t search = 0;         ///< runs per controller to search for the worst; 0: no search
+  bool submit = true;              ///< submits the jobs, not only writes them
   int jobs = 0;                    ///< 0: as many as there are processors
   bool plot = true;
   bool json = false;
   bool quiet = false;
-  bool list = false;  ///< only says which studies there are
+  bool list = false;  ///< only lists the studies
 };
 int campaign_command(const CampaignOptions& given);
 

@@ -20,7 +20,7 @@ compare::Key key_of(const compare::Plan& plan, const compare::Run& run) {
   return {of.controller, of.disturbance, of.arithmetic, run.seed};
 }
 
-/// What of the plan is not among the results; an error where it is, made of something else.
+/// The plan's runs without a result; an error if a result was made with another definition.
 Result<std::vector<compare::Run>> missing(const compare::Plan& plan, const Results& results,
                                           const std::string& file) {
   std::vector<compare::Run> runs;

@@ -1,4 +1,4 @@
-// What a comparison leaves: its files and its table.
+// The results of a comparison: its files and its table.
 #pragma once
 
 #include "cli/commands.hpp"
@@ -14,7 +14,7 @@ int conclude_comparison(const compare::Results& results, OutputFolder& folder,
 /// The same from the runs.csv of several parts.
 int merge_comparisons(const CompareOptions& options);
 
-/// Says what there is to compare.
+/// Lists what there is to compare.
 int list_compared(bool json);
 
 }  // namespace supercoil::host_sim

@@ -19,7 +19,7 @@ namespace {
 using estimators::Key;
 using estimators::Outcomes;
 
-/// All runs, of a seed before the next seed.
+/// All runs; all of one seed before the next seed.
 std::vector<Key> runs_of(std::int64_t seeds) {
   std::vector<Key> runs;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {

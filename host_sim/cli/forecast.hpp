@@ -1,4 +1,4 @@
-// What a run will show, told before it: the same for `run` and `run --check`.
+// The forecast of a run: the same for `run` and `run --check`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,8 +7,8 @@
 
 namespace supercoil::host_sim {
 
-/// What the muscle that is believed can do and where it rests, what is recommended and promised,
-/// whether the reference can be followed, and what to change. On standard output.
+/// Prints what the muscle can do, as the board believes it to be, where it rests, what is
+/// recommended and promised, whether the reference can be followed, and what to change.
 void print_forecast(const Scenario& scenario);
 
 /// The same for programs.

@@ -1,4 +1,4 @@
-// A comparison whose runs are kept as they end, and go on after an interruption.
+// A comparison that keeps its runs as they end and can be resumed after an interruption.
 #pragma once
 
 #include <cstddef>
@@ -27,17 +27,17 @@ class KeptRuns {
   };
   KeptRuns(const std::string& what, const Count& count, OutputFolder& folder, bool quiet);
 
-  /// Writes the file as it is known; from here on it is whole, and grows by whole lines. Returns
-  /// the program's exit status if that failed.
+  /// Writes the runs that are known to the file; from here on it grows by whole lines. Returns the
+  /// program's exit status.
   int begin(const std::function<void(std::ostream&)>& content);
   int begin(const std::string& content);
   /// A run has ended.
   void add(const std::string& line);
-  /// Shows how far it is; true: give up.
+  /// Shows the progress; true: give up.
   bool stop();
-  /// What has ended is all that was wanted.
+  /// The runs that have ended are enough.
   void enough() { count_.todo = ended_; }
-  /// The program's exit status; a message where not all have ended.
+  /// Returns the program's exit status; prints a message if not all runs have ended.
   int end();
 
  private:

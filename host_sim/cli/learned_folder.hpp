@@ -1,4 +1,4 @@
-// What a simulated board learned, in a folder, as a board keeps it.
+// What a simulated board learned, in a folder, stored as on a board.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,18 @@ namespace supercoil::host_sim {
 /// One file for each channel of one board.
 class LearnedFolder {
  public:
-  /// path: empty: nothing is remembered. Touches nothing yet.
+  /// An empty path remembers nothing. Does not access the folder yet.
   explicit LearnedFolder(const std::string& path) : kept_(!path.empty()) {
     for (std::size_t i = 0; i < max_muscles; ++i)
       stores_.emplace_back(path, static_cast<int>(i + 1), files_);
   }
 
-  /// What is wrong with what was stored, beside that, is printed. The error says why nothing can be
-  /// read.
+  /// Prints problems with what was stored. The error says why nothing can be read.
   Result<LearnedMuscles> load();
-  /// As a board stores it, at once: a run that is killed has it. Empty: forgets the muscle. What
-  /// cannot be stored is printed.
+  /// Stores it like a board, at once: a killed run keeps it. Empty: forgets the muscle. Prints what
+  /// cannot be stored.
   void store(std::size_t channel, const board::LearnedUpdate& update);
-  /// Nothing of what was learned is lost.
+  /// Whether everything that was learned is stored.
   bool complete() const { return complete_; }
 
  private:

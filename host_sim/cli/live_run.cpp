@@ -29,7 +29,7 @@ Result<std::unique_ptr<SocketcandServer>> serve(Nodes& nodes, const std::string&
   auto server = SocketcandServer::listen(port, interface,
                                          [&](const hal::CanFrame& frame) { nodes.deliver(frame); });
   if (!server) return server;
-  // Frames are as far apart as on the board, whatever this machine's scheduler does.
+  // Frames are spaced as on the board, whatever this machine's scheduler does.
   nodes.join_bus([bus = server->get(), epoch = since_1970()](const hal::CanFrame& frame,
                                                              hal::Time since_start) {
     bus->send(frame, since_start + epoch);
@@ -39,10 +39,10 @@ Result<std::unique_ptr<SocketcandServer>> serve(Nodes& nodes, const std::string&
   return server;
 }
 
-/// Ticks from one look at the clock to the next.
+/// Ticks between two looks at the clock.
 constexpr std::int64_t ticks_a_look = 16;
 
-/// "12 s of 86400 s simulated": without a fraction, that the line does not flicker.
+/// "12 s of 86400 s simulated": without a fraction, so that the line does not flicker.
 std::string in_seconds(const Simulation& simulation, const Scenario& scenario) {
   return std::to_string(static_cast<std::int64_t>(simulation.time_s())) + " s of " +
          number_text(scenario.duration_s, 9) + " s simulated";
@@ -52,7 +52,7 @@ std::string in_seconds(const Simulation& simulation, const Scenario& scenario) {
 
 int live_run(const RunOptions& options, const std::vector<Scenario>& boards, const Window& window,
              OutputFolder& folder, LearnedFolder& learned) {
-  const Scenario& scenario = boards.front();  // of what all have in common
+  const Scenario& scenario = boards.front();  // for what all boards have in common
   const std::string name = name_of(boards);
   catch_interrupts();  // before the first line tells others that it runs
   const pid_t parent = getppid();

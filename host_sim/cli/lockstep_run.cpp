@@ -31,7 +31,7 @@ bool simulate(Nodes& nodes, Progress& progress) {
 
 int lockstep_run(const RunOptions& options, const std::vector<Scenario>& boards,
                  const Window& window, OutputFolder& folder, LearnedFolder& learned) {
-  const Scenario& scenario = boards.front();  // of what all have in common
+  const Scenario& scenario = boards.front();  // for what all boards have in common
   const std::string name = name_of(boards);
   Progress progress(name, options.quiet);
   auto nodes = Nodes::start(options, boards, window, folder);

@@ -226,7 +226,7 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
-/// Also where the options cannot be read.
+/// Works even if the options cannot be read.
 bool wants_json(int count, char** arguments) {
   return std::find(arguments, arguments + count, std::string_view("--json")) != arguments + count;
 }

@@ -23,7 +23,7 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
   if (options.trace) {
     trace_ = write_trace(folder.temporary(trace_file(options.trace_format)), options.trace_format,
                          options.every, &scenario_.start);
-    // It would stand beside this run's summary.
+    // An earlier run's trace would stay beside this run's summary.
     const bool csv = options.trace_format == TraceFormat::csv;
     folder.supersede(trace_file(csv ? TraceFormat::npy : TraceFormat::csv));
   }
@@ -69,7 +69,7 @@ int NodeRun::conclude(double wall_s, const LearnedFolder& learned) {
       host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
   if (!concluded) return fail(exit_failed, concluded.error().text());
   summary_json_ = std::move(*concluded);
-  if (!learned.complete()) return exit_failed;  // what is lost was told
+  if (!learned.complete()) return exit_failed;  // the loss was reported
   if (options_->real_time && !asks(scenario_)) return exit_done;
   return judge(summary_, scenario_, simulation_, *options_);
 }

@@ -1,4 +1,4 @@
-// A scenario on one board, and what is kept of it.
+// A scenario on one board, and its results.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ namespace supercoil::host_sim {
 
 class NodeRun {
  public:
-  /// Trace and plot are kept where the options want them, and not in real time. Options and folder
-  /// outlive it.
+  /// Keeps trace and plot if the options ask for them, but not in real time. Options and folder
+  /// must outlive it.
   NodeRun(const RunOptions& options, Scenario scenario, const Window& window, OutputFolder& folder);
   NodeRun(const NodeRun&) = delete;
   NodeRun& operator=(const NodeRun&) = delete;
@@ -27,9 +27,9 @@ class NodeRun {
   const TickRecord& step();
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
-  /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
+  /// Writes the remaining results and prints the figures. Returns the program's exit status.
   int conclude(double wall_s, const LearnedFolder& learned);
-  /// What summary.json holds; empty: it is not written.
+  /// The content of summary.json; empty: it is not written.
   const std::string& summary_json() const { return summary_json_; }
 
  private:

@@ -52,7 +52,7 @@ void Nodes::print_json() const {
   std::string text;
   for (const auto& node : nodes_) {
     std::string json = node->summary_json();
-    if (json.empty()) return;  // it has said why
+    if (json.empty()) return;  // it has reported why
     json.pop_back();
     text += (text.empty() ? "" : ",\n") + json;
   }

@@ -1,4 +1,4 @@
-// All boards of a run on one CAN bus, each with muscles of its own, in lockstep.
+// All boards of a run on one CAN bus, each with its own muscles, in lockstep.
 #pragma once
 
 #include <memory>
@@ -14,27 +14,27 @@ namespace supercoil::host_sim {
 
 class Nodes {
  public:
-  /// boards: as on_one_bus() has them. Results of a single one go to the folder itself, those of
-  /// several to one below it for each. The error says which folder cannot be written to. Options
-  /// and folder outlive it.
+  /// boards: from on_one_bus(). A single board's results go to the folder itself, those of several
+  /// boards to one subfolder each. The error says which folder cannot be written to. Options and
+  /// folder must outlive it.
   static Result<Nodes> start(const RunOptions& options, const std::vector<Scenario>& boards,
                              const Window& window, OutputFolder& folder);
 
-  /// What boards learn from now on; learned outlives the steps.
+  /// Stores what boards learn from now on; learned must outlive the steps.
   void store_in(LearnedFolder& learned);
   void join_bus(SharedBus::Listener listener);
-  /// After join_bus(): a frame of another program.
+  /// After join_bus(): delivers a frame of another program.
   void deliver(const hal::CanFrame& frame) { bus_->deliver(frame); }
 
   /// All are at the same tick.
   const Simulation& first() const { return nodes_.front()->simulation(); }
   void step();
-  /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
+  /// Writes the remaining results and prints the figures. Returns the program's exit status.
   int conclude(double wall_s, const LearnedFolder& learned);
 
  private:
   Nodes(const RunOptions& options, OutputFolder& folder) : options_(&options), folder_(&folder) {}
-  /// All summaries: of several nodes a list.
+  /// Prints all summaries; of several nodes as a list.
   void print_json() const;
 
   const RunOptions* options_;

@@ -22,7 +22,7 @@ std::string nodes_text(const Scenario& board) {
   return std::to_string(first) + (last == first + 1 ? " and " : " to ") + std::to_string(last);
 }
 
-/// Its seed with so many channels before it, so that no two boards have the same noise.
+/// Shifts the seed by the channels before this board, so that no two boards have the same noise.
 void shift_noise(Scenario& board, int channels_before) {
   board.seed += static_cast<std::uint64_t>(channels_before);
 }
@@ -45,7 +45,7 @@ tl::expected<std::vector<Scenario>, Errors> copies(const RunOptions& options,
   return boards;
 }
 
-/// In lockstep, on one wire.
+/// What boards in lockstep on one wire must agree on.
 tl::expected<void, Errors> check_alike(const std::string& file, const Scenario& board,
                                        const Scenario& first) {
   struct Value {

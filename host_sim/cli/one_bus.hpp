@@ -12,12 +12,12 @@
 
 namespace supercoil::host_sim {
 
-/// "sine, node 1", as the results of one among several are called.
+/// "sine, node 1": the name of one board's results among several.
 std::string name_on_bus(const Scenario& board);
 
-/// The options' scenarios as boards of one bus: copies of the only one (--nodes), or one for each
-/// scenario. Each has nodes and noise of its own. scenarios: as they were read, with the boards'
-/// files. The error names the option or the file that does not go with the others.
+/// The options' scenarios as boards of one bus: copies of a single one (--nodes), or one board per
+/// scenario. Each has its own nodes and noise. scenarios: as they were read, with the boards'
+/// files. The error names the option or the file that conflicts with the others.
 tl::expected<std::vector<Scenario>, Errors> on_one_bus(const RunOptions& options,
                                                        std::vector<Scenario> scenarios);
 

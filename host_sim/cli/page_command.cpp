@@ -25,8 +25,8 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// The program that serves the page: of the same build, beside this one; else that of the
-/// simulator's package, which brings it where no other package has a file of that name.
+/// The program that serves the page: the one of the same build, beside this one, or that of the
+/// simulator's package, which installs it where no other package has a file of that name.
 std::string page_program(const std::filesystem::path& own) {
   for (const char* place : {"supercoil", "../libexec/supercoil-sim/supercoil"}) {
     const std::filesystem::path file = own.parent_path() / place;
@@ -37,10 +37,10 @@ std::string page_program(const std::filesystem::path& own) {
 
 struct Board {
   pid_t process = 0;
-  int told = -1;  ///< what it prints
+  int told = -1;  ///< to read what it prints
 };
 
-/// A simulated board on a bus of its own, which ends with this program.
+/// Starts a simulated board on its own bus; it ends with this program.
 std::optional<Board> start_board(const std::filesystem::path& own, const PageOptions& options) {
   std::vector<std::string> words{own.string(), "run",   options.scenario, "--real-time",
                                  "--quiet",    "--can", "socketcand:0",   "--end-with-parent"};
@@ -61,7 +61,7 @@ std::optional<Board> start_board(const std::filesystem::path& own, const PageOpt
   return error == 0 ? std::optional(board) : std::nullopt;
 }
 
-/// The port of its bus, from its first line; 0: it has ended.
+/// The port of the board's bus, from the first line that it prints; 0: it has ended.
 int bus_port(const Board& board) {
   constexpr std::string_view before = "127.0.0.1:";
   std::string line;
@@ -89,7 +89,7 @@ int page_command(const PageOptions& options) {
                 std::string("cannot start a simulated board: ") + std::strerror(errno));
   }
   const int port = bus_port(*board);
-  if (port == 0) {  // it has said why
+  if (port == 0) {  // it has reported why
     int status = 0;
     waitpid(board->process, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : exit_failed;
@@ -98,8 +98,8 @@ int page_command(const PageOptions& options) {
                                  std::to_string(options.port)};
   std::puts("Open the address that follows, arm, and move the muscle. Ctrl-C ends it.");
   std::fflush(stdout);
-  // In place of this program, so that the board sees its end, however that comes. What the board
-  // prints stays open: writing to it must not fail.
+  // Replaces this program, so that the board notices its end, however that comes. The pipe from the
+  // board stays open: writing to it must not fail.
   execv(page.c_str(), pointers_to(words).data());
   return fail(exit_failed, "cannot start " + page + ": " + std::strerror(errno));
 }

@@ -22,7 +22,7 @@ std::vector<std::string> draw_all(const std::vector<paper::Part>& parts, OutputF
   return texts;
 }
 
-/// What is printed and what was measured may be a number, a range or words: all are text.
+/// Printed and measured values may be a number, a range or words: all are text.
 nlohmann::ordered_json rows_of(const std::vector<paper::Part>& parts) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const paper::Part& part : parts) {

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// It grows when a key is renamed or means something else.
+/// Incremented when a key is renamed or its meaning changes.
 constexpr int schema_version = 1;
 
 std::optional<std::string_view> next_line(std::string_view& text) {
@@ -37,7 +37,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-/// What is not finite is null: JSON has no such number.
+/// Values that are not finite become null: JSON has no such number.
 ordered_json value_of(std::string_view cell) {
   if (cell == "yes" || cell == "no") return cell == "yes";
   std::int64_t whole = 0;

@@ -1,4 +1,4 @@
-// What the commands that end in tables print for programs: docs/json.md.
+// JSON output of the commands that end in tables: docs/json.md.
 #pragma once
 
 #include <string>
@@ -12,23 +12,23 @@
 
 namespace supercoil::host_sim {
 
-/// The rows of a file.csv that has no quotes, as objects by its columns: text in those that are
-/// named, numbers in all others, null where nothing stands. "yes" and "no" are true and false.
+/// The rows of a CSV text without quotes, as objects with its columns as keys: text in the named
+/// columns, numbers in all others, null for empty cells. "yes" and "no" become true and false.
 nlohmann::ordered_json rows_json(std::string_view csv,
                                  const std::vector<std::string_view>& text_columns);
 
-/// Each with its name and what it shows.
+/// Each entry's name and description.
 nlohmann::ordered_json entries_json(const std::vector<BuiltinScenario>& entries);
 
-/// results: after the versions, which every answer begins with.
+/// Prints the versions, with which every answer begins, and then the results.
 void print_results(const nlohmann::ordered_json& results);
 
-/// Says what is wrong: with json to programs, as run --json does, and nothing to standard error.
-/// Returns the status.
+/// Reports an error: with json as JSON, like run --json, and nothing on standard error. Returns the
+/// status.
 int refuse(bool json, int status, const std::string& message);
-/// The same of a wrong input. Returns that status.
+/// The same for wrong input. Returns its status.
 int refuse_problems(bool json, const Errors& problems);
-/// A problem a line.
+/// One problem per line.
 int refuse_lines(bool json, const std::string& lines);
 
 }  // namespace supercoil::host_sim

@@ -45,13 +45,13 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
 
 using OrErrors = tl::expected<void, Errors>;
 
-/// With an option, or what it names.
+/// A problem with an option, or with what it names.
 Errors wrong_option(const std::string& option, const std::string& value,
                     const std::string& message) {
   return {{"", 0, option, message, value}};
 }
 
-/// As every command says it, or with --json for programs.
+/// Reports as every command does, or as JSON with --json.
 int refuse(const RunOptions& options, const Errors& problems) {
   if (options.json) {
     std::puts(problems_json(problems).dump(2).c_str());
@@ -67,7 +67,7 @@ int refuse(const RunOptions& options, const Errors& problems) {
   return exit_wrong_input;
 }
 
-/// Of --board, if there is one for this scenario.
+/// Applies --board, if there is one for this scenario.
 OrErrors use_own_board(const RunOptions& options, std::size_t place, const LearnedMuscles& learned,
                        Scenario& scenario) {
   if (options.boards.empty()) return {};
@@ -86,7 +86,7 @@ OrErrors use_own_board(const RunOptions& options, std::size_t place, const Learn
       Errors{{options.scenarios[place] + " on " + board, 0, "", used.error().text()}});
 }
 
-/// What of the options goes together, before any file is read.
+/// Checks that the options go together, before any file is read.
 OrErrors check_together(const RunOptions& options) {
   const std::size_t scenarios = options.scenarios.size();
   const std::string of_scenarios = std::to_string(scenarios) + " scenarios";
@@ -113,7 +113,7 @@ OrErrors check_together(const RunOptions& options) {
   return once_for_each("--channel", options.channels.size());
 }
 
-/// The scenarios with the boards that the options want, on one bus.
+/// The scenarios on one bus, with the boards that the options name.
 tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options,
                                                        LearnedFolder& folder_of_learned) {
   if (auto together = check_together(options); !together)
@@ -139,7 +139,7 @@ tl::expected<Window, Errors> window_of(const RunOptions& options, const Scenario
                                          number_text(scenario.duration_s, 9)));
 }
 
-/// Copies of one board can do the same. JSON of several scenarios is a list.
+/// Checks one of several copies, since all can do the same. JSON of several scenarios is a list.
 void check_only(const RunOptions& options, const std::vector<Scenario>& boards) {
   const std::size_t scenarios = options.scenarios.size();
   if (options.json) {

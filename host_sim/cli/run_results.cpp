@@ -48,7 +48,7 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
   std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(), limits.c_str());
 }
 
-/// The loop's own doing, which no reference asks for.
+/// Oscillation or divergence that the loop causes without the reference asking for it.
 void print_divergence(const Summary& summary, const Scenario& scenario) {
   if (summary.oscillated()) return;
   if (const double period_s = summary.limit_cycle_period_s(scenario); !std::isnan(period_s)) {
@@ -82,7 +82,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
       config::noise_remedy(channel.controllers.front(), channel, board).c_str());
 }
 
-/// What had been promised of it.
+/// The error that was promised for the run.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
   std::printf("promised: %.1f um rms%s%s, as the sensor shows it; it showed %.1f um\n",

@@ -1,4 +1,4 @@
-// What is left of a run: recordings, what was learned, summary.json, and words on standard output.
+// The results of a run: recordings, what was learned, summary.json, and text on standard output.
 #pragma once
 
 #include <string>
@@ -21,27 +21,27 @@ bool interrupted();
 /// How much was simulated: "12.3 s of 200 s".
 std::string reached(const Simulation& simulation, const Scenario& scenario);
 
-/// What a message about one of several boards begins with.
+/// Prefix of a message about one of several boards.
 std::string prefix(const RunOptions& options, const Scenario& scenario);
 
-/// All that happened: the recorder's last file; tells its notes.
+/// Writes the recorder's last file and prints its notes.
 void finish(recorder::FlightRecorder& recorder, const RunOptions& options);
 
-/// summary.json in the folder, which is then committed; prints its figures unless quiet. Returns
-/// what it holds.
+/// Writes summary.json to the folder and commits the folder; prints the figures unless quiet.
+/// Returns the content of summary.json.
 Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
                              const Simulation& simulation, double wall_s, OutputFolder& folder,
                              bool quiet);
 
-/// The operator arms the muscle at some time: there is something to judge.
+/// Whether the operator arms the muscle at some time, so that there is something to judge.
 bool asks(const Scenario& scenario);
 
-/// What of the run to tell after its figures: an error where nothing was followed. Returns the
+/// Prints what else there is to say of the run; it is an error if nothing was followed. Returns the
 /// program's exit status.
 int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
           const RunOptions& options);
 
-/// Draws the figure into the folder and returns it, or says why not and returns nothing: results
+/// Draws the figure into the folder and returns it, or reports why not and returns nothing: results
 /// are worth more than their picture.
 std::string draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
 

@@ -11,7 +11,7 @@
 
 namespace supercoil::host_sim {
 
-/// Of boards on one bus: "s", or "a+b".
+/// Name of the boards on one bus: "s", or "a+b".
 std::string name_of(const std::vector<Scenario>& boards);
 
 /// As fast as it can; writes what the options want.

@@ -1,4 +1,4 @@
-// What a comparison leaves: its files, and its tables on the terminal.
+// The results of a comparison: its files, and its tables on the terminal.
 #pragma once
 
 #include <string>
@@ -19,14 +19,13 @@ struct Tables {
   nlohmann::ordered_json rows;  ///< for programs
 };
 
-/// How it is told.
+/// How the results are printed.
 struct Telling {
-  bool json;   ///< the rows, in place of the tables
+  bool json;   ///< the rows, instead of the tables
   bool quiet;  ///< no tables
 };
 
-/// Writes the files, commits the folder, tells. Returns the program's exit status, as the commands
-/// do.
+/// Writes the files, commits the folder and prints the results. Returns the program's exit status.
 int conclude_tables(const Tables& tables, OutputFolder& folder, Telling telling);
 
 }  // namespace supercoil::host_sim

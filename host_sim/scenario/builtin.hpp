@@ -14,7 +14,7 @@ struct BuiltinScenario {
 };
 
 const std::vector<BuiltinScenario>& builtin_scenarios();
-/// The text of the one with this name.
+/// The text of the scenario with this name.
 std::optional<std::string_view> builtin_scenario(std::string_view name);
 std::vector<std::string> names_of(const std::vector<BuiltinScenario>& entries);
 /// The comment on its first line.

@@ -23,7 +23,7 @@ struct PlantSettings {
   bool air_acts = false;         ///< the muscle follows a change of the air's temperature
   double resistance_Ohm = 10.0;  ///< of the cold heater
   double temperature_coefficient_per_K = 0.0;  ///< of that resistance
-  double load_N = 0.0;  ///< pulls the muscle longer, on top of the moving mass
+  double load_N = 0.0;  ///< stretches the muscle, in addition to the moving mass
 
   friend bool operator==(const PlantSettings&, const PlantSettings&) = default;
 };
@@ -33,7 +33,7 @@ struct AntagonistConditions {
   PlantSettings plant;
   control::PhysicalParameters muscle;  ///< what the board believes it to be
   double co_contraction_W = 1.0;
-  int pwm_steps = 0;  ///< 0: as [power] says of both
+  int pwm_steps = 0;  ///< 0: as in [power]
 };
 
 /// A joint that the muscle turns against another one, a spring or a weight.
@@ -43,7 +43,7 @@ struct JointConditions {
   std::optional<AntagonistConditions> antagonist;  ///< empty: spring or weight oppose alone
 };
 
-/// Of a joint without an antagonist, as a board that knows it has it.
+/// Place in a joint without an antagonist, as on a board that knows of the joint.
 inline PlaceInJoint turned_by_one(const JointPlantSettings& joint) {
   PlaceInJoint place{.direction = 1, .lever = joint.lever};
   if (joint.spring_pretensions) return place;
@@ -54,11 +54,11 @@ inline PlaceInJoint turned_by_one(const JointPlantSettings& joint) {
 
 struct PositionSensorSettings {
   double noise_rms_m = 10e-6;
-  int resolution_bits = 16;  ///< 0: as good as not quantised
+  int resolution_bits = 16;  ///< 0: practically not quantised
   double count_m = 0.0;      ///< of a reading; 0: by resolution_bits
-  double rate_Hz = 0.0;      ///< of conversions; 0: one whenever the board asks
-  double min_m = 0.0;        ///< readings are from this
-  double range_m = 0.040;    ///< to this
+  double rate_Hz = 0.0;      ///< of conversions; 0: one at each reading
+  double min_m = 0.0;        ///< lowest reading
+  double range_m = 0.040;    ///< highest reading
 
   friend bool operator==(const PositionSensorSettings&, const PositionSensorSettings&) = default;
 };
@@ -91,7 +91,7 @@ struct PowerSettings {
 struct ThermalSpans {
   std::array<double, 2> mass_ratio{0.75, 1.35};
   std::array<double, 2> transfer_ratio{0.45, 2.2};
-  std::array<double, 2> power_ratio{1.0, 1.0};  ///< besides what the senses are wrong by
+  std::array<double, 2> power_ratio{1.0, 1.0};  ///< in addition to the error of the senses
 
   friend bool operator==(const ThermalSpans&, const ThermalSpans&) = default;
 };
@@ -101,8 +101,8 @@ struct Ambient {
   double air_C = 25.0;
   double warmest_C = 25.0;
   double coldest_C = 25.0;
-  double sensor_error_K = 0.0;   ///< what the board assumes of its sensor; 0: it has none
-  double sensor_offset_K = 0.0;  ///< what the sensor does err by
+  double sensor_error_K = 0.0;   ///< that the board assumes for its sensor; 0: it has none
+  double sensor_offset_K = 0.0;  ///< actual error of the sensor
 
   friend bool operator==(const Ambient&, const Ambient&) = default;
 };
@@ -118,33 +118,33 @@ inline constexpr control::Names<OperatorAction, 7> operator_action_names{
      {"first_motion", OperatorAction::first_motion},
      {"none", OperatorAction::none}}};
 
-/// The operator arms the muscle, where it is asked for at the start.
+/// Whether the operator arms the muscle at the start for this action.
 constexpr bool arms(OperatorAction action) {
   return action != OperatorAction::none && action != OperatorAction::disarm;
 }
 
 struct Conditions {
-  /// Of a sensor's range: the travel limit.
+  /// The travel limit over the sensor's range.
   static constexpr double travel_ratio = 0.999;
 
   PlantSettings plant;                 ///< of a joint: its agonist
   control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
   std::optional<JointConditions> joint;
-  /// What pulls beside it, each with a heater of its own; empty: it pulls alone.
+  /// The other muscles of a bundle, each with its own heater; empty: no bundle.
   std::vector<PlantSettings> companions;
   PositionSensorSettings position_sensor;
   ThermometerSettings thermometer;
   PowerSettings power;
   ThermalSpans thermal;
   Ambient ambient;
-  double sense_error_ratio = 0.02;  ///< that a comparison with a meter left; 0: never compared
+  double sense_error_ratio = 0.02;  ///< left after a comparison with a meter; 0: never compared
   InjectedFaults injected_faults;
   OperatorAction action = OperatorAction::track;
   Reference reference;
   control::ControllerSettings controller;
   control::EstimatorSettings estimator;
 
-  /// Null where the muscle is alone, or a spring or a weight opposes it.
+  /// Null if the muscle is alone, or opposed by a spring or a weight.
   const AntagonistConditions* antagonist() const {
     return joint && joint->antagonist ? &*joint->antagonist : nullptr;
   }

@@ -16,20 +16,20 @@ struct InjectedFaults {
   bool pwm_refuses = false;      ///< the PWM device answers with an error
   bool stop_pressed = false;     ///< the emergency stop's circuit is open
   bool commands_stop = false;    ///< the master falls silent
-  bool agonist_torn = false;     ///< of a joint: the muscle pulls no more
+  bool agonist_torn = false;     ///< in a joint: the muscle no longer pulls
   bool antagonist_torn = false;  ///< likewise
   bool antagonist_heater_open = false;
-  double current_gain = 1.0;       ///< what the current's sense reads, over the truth
-  double supply_gain = 1.0;        ///< likewise of the supply's
+  double current_gain = 1.0;       ///< reading of the current sense over the true current
+  double supply_gain = 1.0;        ///< likewise for the supply sense
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the power switch is off
-  double agonist_slack_m = 0.0;    ///< of a joint: it contracts so far before it pulls as it did
+  double agonist_slack_m = 0.0;    ///< in a joint: contraction that is lost before it pulls
   double antagonist_slack_m = 0.0;
   double open_heater_in_bundle = 0.0;  ///< the number of the muscle whose wire is broken; 0: none
 
   friend bool operator==(const InjectedFaults&, const InjectedFaults&) = default;
 };
 
-/// What a fault can happen to.
+/// What a scenario must have for a fault to be possible.
 enum class Needs { muscle, joint, antagonist, bundle };
 
 struct InjectedFaultName {

@@ -1,4 +1,4 @@
-// [bundle]: muscles that pull beside each other, with a heater each.
+// [bundle]: muscles that pull in parallel, each with its own heater.
 #include <array>
 
 #include "scenario/read_tables.hpp"
@@ -10,7 +10,7 @@ namespace {
 using config::Diagnostics;
 using config::Section;
 
-/// Of [plant], what all of them carry together.
+/// Keys of [plant] for what all of them carry together.
 constexpr std::array of_the_bundle{"moving_mass_kg", "hanging_mass_kg", "load_N",
                                    "friction_ratio", "end_stop_m",      "ceiling_m"};
 
@@ -48,7 +48,7 @@ std::vector<PlantSettings> read_companions(const toml::table& document, Diagnost
 
 control::PhysicalParameters bundle_parameters(const toml::table& document,
                                               control::PhysicalParameters first) {
-  Diagnostics elsewhere("");  // read again, and complained of, elsewhere
+  Diagnostics elsewhere("");  // reported when it is read again, elsewhere
   Section section(document["bundle"].as_table(), "bundle", elsewhere);
   if (section.table() == nullptr) return first;
   const std::size_t muscles = read_number(section);

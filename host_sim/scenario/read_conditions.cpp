@@ -17,7 +17,7 @@ using config::Diagnostics;
 using config::refuse_misfit;
 using config::Section;
 
-/// A muscle that is not the paper's may become longer than it was: its sensor sees some of that.
+/// A muscle other than the paper's may become longer than it was: its sensor sees some of that.
 constexpr double default_min_ratio = -0.25;
 constexpr double slowest_position_Hz = 20.0;
 /// To both sides.
@@ -167,7 +167,7 @@ OperatorAction read_operator(Section section) {
   return action;
 }
 
-/// A reference that the muscle cannot reach is refused before it is run, not found out afterwards.
+/// Refuses a reference that the muscle cannot reach, so that the run need not reveal it.
 void check_reach(Section& section, const Conditions& c) {
   if (c.reference.kind == ReferenceKind::power) return;
   std::ostringstream message;
@@ -177,7 +177,7 @@ void check_reach(Section& section, const Conditions& c) {
       return agonist.position_of_reading_m(Conditions::travel_ratio * reading_m);
     };
     const PositionSensorSettings& sensor = c.position_sensor;
-    const bool pair = c.antagonist() != nullptr;  // beside a spring the muscle only pulls
+    const bool pair = c.antagonist() != nullptr;  // against a spring the muscle only pulls
     const double min_m = pair ? std::max(contracted_m(sensor.min_m),
                                          agonist.position_m(c.joint->plant.min_angle_rad))
                               : 0.0;

@@ -18,11 +18,11 @@ using config::Diagnostics;
 using config::Section;
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
-/// Where nothing else opposes: as stiff as the paper's muscle at the default lever.
+/// If nothing else opposes: as stiff as the paper's muscle at the default lever.
 constexpr double default_spring_Nm_per_rad = 0.0036;
 constexpr double min_spring_Nm_per_rad = 1e-6;
 
-/// Where that opposes: about as stiff, at an arm that hangs half back, as the default spring.
+/// If a weight opposes: about as stiff, with the arm hanging half back, as the default spring.
 constexpr double default_weight_Nm = 0.005;
 constexpr double default_hangs_at_deg = -45.0;
 
@@ -31,7 +31,7 @@ constexpr control::Names<OpposedBy, 3> opposed_by_names{{{"muscle", OpposedBy::m
                                                          {"spring", OpposedBy::spring},
                                                          {"gravity", OpposedBy::gravity}}};
 
-/// Of [plant], what has another name in a joint.
+/// Keys of [plant] that have another name in a joint.
 struct RenamedInJoint {
   const char* plant;
   const char* joint;
@@ -94,8 +94,8 @@ void refuse_keys_of_one_muscle(Section section) {
   }
 }
 
-/// As an inertia and its springs beside each other move along the arc at the muscle's lever. other:
-/// null, there is none; its lever over this one.
+/// The joint as a linear muscle: inertia and parallel springs along the arc at the muscle's lever.
+/// other: null if there is none. other_ratio: its lever over this one.
 control::PhysicalParameters along_the_arc(const JointPlantSettings& joint, double lever_m,
                                           const control::PhysicalParameters& muscle,
                                           const control::PhysicalParameters* other = nullptr,
@@ -154,7 +154,7 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
       joint.antagonist->plant = read_plant(laid_over(document, "joint.antagonist", "plant", found));
       add_new(found, diagnostics);
     }
-    section.allow({"co_contraction_W"});  // once the power's limits are known
+    section.allow({"co_contraction_W"});  // read once the power limits are known
   } else {
     refuse_keys_of_two_muscles(section);
   }
@@ -169,7 +169,7 @@ double read_co_contraction_W(const toml::table& document, double max_W, Diagnost
 }
 
 BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnostics) {
-  Diagnostics elsewhere(diagnostics.file());  // read again, and complained of, elsewhere
+  Diagnostics elsewhere(diagnostics.file());  // reported when it is read again, elsewhere
   Section plant(document["plant"].as_table(), "plant", elsewhere);
   const auto agonist = read_plant_parameters(plant);
   Section muscle(document["muscle"].as_table(), "muscle", diagnostics);

@@ -28,7 +28,7 @@ void read_simulation(const toml::table& document, Scenario& scenario,
   }
 }
 
-/// What is soldered, or given to the firmware at its start, holds for the whole run.
+/// Keys for what is soldered, or given to the firmware at its start: they hold for the whole run.
 constexpr std::array fixed_keys{"simulation",
                                 "muscle",
                                 "reference_model",
@@ -96,8 +96,8 @@ std::string keys_of(const toml::table& changes, const std::string& path = "") {
   return keys;
 }
 
-/// Takes the events out of the document, earliest first; notes each that has no time or a wrong
-/// one.
+/// Takes the events out of the document, earliest first; reports each one whose time is missing or
+/// wrong.
 std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
                                       config::Diagnostics& diagnostics) {
   std::vector<WrittenEvent> events;
@@ -192,8 +192,8 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
                    start.antagonist() != nullptr ? start.antagonist()->plant : start.plant);
   for (std::size_t i = 0; i < start.companions.size(); ++i)
     scenario.known[i + 1] = known_before(learned[i + 1], configured.muscle, start.companions[i]);
-  // Each event is laid over all before it, and the whole is read and checked again. Events at one
-  // time are one change: what the first alone would make impossible, the second may put right.
+  // Each event is laid over all earlier ones, and the whole is read and checked again. Events at
+  // the same time are one change: the second may make valid what the first alone would not.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {
     if (scenario.events.empty() || scenario.events.back().at_s != event->at_s) {
       scenario.events.push_back({event->at_s, {}, false, false, false});
@@ -208,9 +208,9 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
       moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
-      // Its default depends on the muscle, and the sensor stays the same.
+      // The default depends on the muscle, but the sensor stays the same.
       moment.conditions.position_sensor.min_m = scenario.start.position_sensor.min_m;
-      // Another weight stretches the muscle by more: 0 stays where the first one let it rest.
+      // Another weight stretches the muscle by more: 0 stays at its rest under the first weight.
       if (moment.conditions.joint)
         moment.conditions.joint->plant.pretension_N = scenario.start.joint->plant.pretension_N;
     }

@@ -16,15 +16,15 @@ namespace supercoil::host_sim {
 using ScenarioOrProblems = tl::expected<Scenario, Errors>;
 
 /// path: a .toml file, or the name of a built-in scenario.
-/// learned: takes the place of [muscle], and of [joint.antagonist_muscle].
+/// learned: replaces [muscle] and [joint.antagonist_muscle].
 ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned = {});
 
-/// The same from text; name: how messages call it.
+/// The same from text; name: for messages.
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
                                   const LearnedMuscles& learned = {});
 
-/// Lays one document over another, as an event is laid over what was before it: a table that names
-/// its kind replaces the old one, other keys come beside those that are there.
+/// Lays one document over another, like an event over what was before it: a table that names its
+/// kind replaces the old one; other keys are merged into those that are there.
 void apply_changes(toml::table& document, toml::table&& changes);
 
 /// The same from a document.

@@ -17,36 +17,36 @@ namespace supercoil::host_sim {
 /// Finishes the section.
 PlantSettings read_plant(config::Section section);
 
-/// A table of the document, "joint.antagonist", laid over another one of it: what it lacks is as
-/// that one says.
+/// A table of the document, such as "joint.antagonist", laid over another of its tables: that one
+/// gives the keys that the first lacks.
 config::Section laid_over(const toml::table& document, const std::string& path, const char* under,
                           config::Diagnostics& diagnostics);
-/// What was found in a table that was laid over another one, but for what was said of that already.
+/// Adds the problems of a table that was laid over another one, except those already reported.
 void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics);
 
-/// Its physical parameters alone. Does not finish the section.
+/// Only the physical parameters. Does not finish the section.
 control::PhysicalParameters read_plant_parameters(config::Section& section);
 
-/// What the muscle moves, by which defaults differ: of the paper's and of others a load, a joint
-/// that another muscle draws back, one that a spring or a weight does.
+/// What the muscle moves, on which defaults depend: a load, of the paper's muscle or of another, a
+/// joint that another muscle draws back, or one that a spring or a weight draws back.
 enum class Moves { paper_load, load, joint, spring_joint };
 
 Reference read_reference(config::Section& section, Moves moves);
 
-/// [joint] but for its co-contraction; empty: there is none. plant: its agonist. believed: its
+/// [joint] without its co-contraction; empty: no joint. plant: its agonist. believed: its
 /// antagonist.
 std::optional<JointConditions> read_joint(const toml::table& document, const PlantSettings& plant,
                                           const control::PhysicalParameters& believed,
                                           config::Diagnostics& diagnostics);
-/// Of a joint of two muscles.
+/// For a joint of two muscles.
 double read_co_contraction_W(const toml::table& document, double max_W,
                              config::Diagnostics& diagnostics);
 
-/// [bundle]: the muscles beside [plant]'s, each as [plant] says where its own table does not.
-/// Empty: there is none.
+/// [bundle]: the muscles besides [plant]'s; keys that a muscle's own table lacks are [plant]'s.
+/// Empty: no bundle.
 std::vector<PlantSettings> read_companions(const toml::table& document,
                                            config::Diagnostics& diagnostics);
-/// As one muscle with the power of each for input: what moves is the bundle's, heat the first's.
+/// As one muscle with the power of each as input: motion is the bundle's, heat the first muscle's.
 control::PhysicalParameters bundle_parameters(const toml::table& document,
                                               control::PhysicalParameters first);
 
@@ -60,7 +60,7 @@ struct BelievedMuscles {
 /// [bundle].
 BelievedMuscles read_muscles(const toml::table& document, config::Diagnostics& diagnostics);
 
-/// Every other table than [simulation] and [[event]], and the keys that no table has.
+/// All tables other than [simulation] and [[event]]; also finds keys that no table has.
 Conditions read_conditions(const toml::table& document, const BelievedMuscles& believed,
                            double step_s, config::Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// What is asked of the muscle over time.
+// The reference over time.
 #pragma once
 
 #include <string_view>
@@ -35,10 +35,10 @@ struct Reference {
   friend bool operator==(const Reference&, const Reference&) = default;
 
   double at(double time_s) const;
-  /// The least and the greatest value that it can take.
+  /// The minimum and the maximum that it can take.
   double lowest() const;
   double highest() const;
-  /// The shortest time in which something of it comes again, or changes; infinite: nothing does.
+  /// The shortest time in which a part of it repeats or changes; infinite: nothing does.
   double shortest_s() const;
 };
 

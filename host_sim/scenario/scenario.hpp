@@ -19,9 +19,9 @@ namespace supercoil::host_sim {
 struct Event {
   double at_s;
   Conditions conditions;
-  bool new_controller;    ///< the event names [controller]: it starts anew with the new settings
+  bool new_controller;    ///< the event names [controller]: it restarts with the new settings
   bool new_estimator;     ///< likewise [estimator]
-  bool reset;             ///< the operator resets a fault and arms again, where it is possible
+  bool reset;             ///< the operator resets a fault and arms again, if possible
   std::string changes{};  ///< its keys: "plant.load_N, power.gain"
 };
 
@@ -34,31 +34,31 @@ struct KnownBefore {
   board::Calibration calibration;  ///< its resistance is the plant's unless learned
 };
 
-/// Of a scenario.
+/// In a scenario.
 inline constexpr std::size_t max_muscles = 8;
 
-/// What a board learned before: of its muscle, of a joint's agonist and antagonist, or of a
-/// bundle's muscles.
+/// What a board learned before: about its muscle, a joint's agonist and antagonist, or a bundle's
+/// muscles.
 using LearnedMuscles = std::array<std::optional<board::Learned>, max_muscles>;
 
 struct Scenario {
   std::string name;
-  std::uint32_t crc32 = 0;  ///< of what is written, without comments and order of keys
+  std::uint32_t crc32 = 0;  ///< of the content, without comments and order of keys
   double duration_s = 200.0;
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;
   int substeps = 1;
-  std::array<KnownBefore, max_muscles> known;  ///< likewise
-  /// The firmware of a board of the user's own, with one channel, joint or bundle; empty: one for
-  /// the scenario.
+  std::array<KnownBefore, max_muscles> known;  ///< in the order of LearnedMuscles
+  /// The firmware of the user's own board, with one channel, joint or bundle; empty: one is made
+  /// for the scenario.
   std::optional<BoardSettings> board;
-  std::uint32_t board_crc32 = 0;  ///< of what its file says
+  std::uint32_t board_crc32 = 0;  ///< of its file's content
   telemetry::CanSettings can;
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times
 
   double step_s() const { return 1.0 / rate_Hz; }
-  /// Of its board, each a node: two of a joint of two muscles.
+  /// Channels of its board, each a node; a joint of two muscles has two.
   int channels() const {
     return start.antagonist() != nullptr ? 2 : 1 + static_cast<int>(start.companions.size());
   }

@@ -30,7 +30,7 @@ double cut_normal(const Distribution& d, double probability) {
   };
   const double low = below(d.min);
   const double wanted = low + probability * (below(d.max) - low);
-  // Rounding may take a probability in a far tail to its end.
+  // Rounding may turn a probability in a far tail into 0 or 1.
   constexpr double least = std::numeric_limits<double>::min();
   constexpr double most = 1.0 - std::numeric_limits<double>::epsilon() / 2.0;
   const double value = d.first + d.second * normal_quantile(std::clamp(wanted, least, most));

@@ -30,7 +30,7 @@ struct Step {
   std::optional<std::size_t> index;
 };
 
-/// Of "a.b[2].c": one step, and what is left behind the dot. Empty where it is not of this form.
+/// The first step of "a.b[2].c"; key keeps what follows the dot. Empty if it is not of this form.
 std::optional<Step> take_step(std::string_view& key) {
   const std::size_t dot = std::min(key.find('.'), key.size());
   std::string_view step = key.substr(0, dot);
@@ -44,8 +44,8 @@ std::optional<Step> take_step(std::string_view& key) {
   return Step{std::string(step.substr(0, bracket)), index};
 }
 
-/// Sets "a.b[2].c"; makes tables where they are missing. False where something else stands in its
-/// way, or the list is shorter.
+/// Sets "a.b[2].c"; adds missing tables. False if something else is in the way, or the list is
+/// shorter.
 bool set(toml::table& document, std::string_view key, const toml::node& value) {
   toml::table* table = &document;
   while (table != nullptr) {
@@ -74,7 +74,7 @@ bool set(toml::table& document, std::string_view key, const toml::node& value) {
   return false;
 }
 
-/// Draws by name, the scenario's numbers by key.
+/// Finds draws by name, and the scenario's numbers by key.
 class Known {
  public:
   explicit Known(const toml::table& document) : document_(&document) {}
@@ -90,7 +90,7 @@ class Known {
   std::map<std::string, double> drawn_;
 };
 
-/// The error is what is not known.
+/// The error is the name that is not known.
 Result<double> final_value(const Draw& draw, double drawn, const Known& known) {
   for (const std::string& name : draw.times) {
     const auto factor = known.find(name);
@@ -110,7 +110,7 @@ bool set_all(toml::table& document, const Draw& draw, const toml::node& value) {
                              [&](const std::string& key) { return set(document, key, value); });
 }
 
-/// Whatever the study's scenario was written for: all contenders meet the same.
+/// Replaces what the study's scenario says of these tables: all contenders meet the same.
 void use_contender(toml::table& document, const compare::Document& contender) {
   if (contender.text.empty()) return;
   for (const char* table : {"controller", "estimator", "reference_model"})
@@ -157,7 +157,7 @@ Result<toml::table> Draws::document(const std::vector<double>& drawn, std::size_
                                     std::size_t run) const {
   toml::table document = study_->scenario;
   use_contender(document, study_->contenders[contender]);
-  // Each run has noise of its own; contenders of a run have the same.
+  // Each run has its own noise, the same for all contenders.
   set(document, "simulation.seed", toml::value<std::int64_t>(static_cast<std::int64_t>(run) + 1));
   Known known(document);
   for (std::size_t i = 0; i < study_->draws.size(); ++i) {

@@ -1,4 +1,4 @@
-// What the runs of a study draw, and the scenarios that it makes of them.
+// The draws of a study's runs, and the scenarios made from them.
 #pragma once
 
 #include <cstddef>
@@ -18,16 +18,16 @@ class Draws {
   /// Must not outlive the study.
   explicit Draws(const Study& study);
 
-  /// Of each draw, in the study's order, before times and over. Of a list: an index.
+  /// The value of each draw, in the study's order, before times and over; for a list: an index.
   std::vector<double> of_run(std::size_t run) const;
-  /// Half of all draws are below; what a study describes must be a scenario here.
+  /// The median of each draw; there the study must give a valid scenario.
   std::vector<double> medians() const;
 
-  /// As many numbers between 0 and 1, both excluded, are what of_run() is made of.
+  /// How many numbers between 0 and 1, both excluded, determine of_run().
   std::size_t dimensions() const { return study_->draws.size() + groups_.size(); }
   std::vector<double> at(const std::vector<double>& point) const;
 
-  /// The scenario, written out. The error says which draw refers to what is not there.
+  /// The complete scenario. The error says which draw refers to something that does not exist.
   Result<toml::table> document(const std::vector<double>& drawn, std::size_t contender,
                                std::size_t run) const;
   ScenarioOrProblems scenario(const std::vector<double>& drawn, std::size_t contender,
@@ -39,7 +39,7 @@ class Draws {
   Sampler sampler_;
 };
 
-/// For tables: a number, or what stands in the list.
+/// For tables: a number, or the list's value.
 std::string text_of(const Draw& draw, double drawn);
 
 }  // namespace supercoil::host_sim::campaign

@@ -8,7 +8,7 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
-/// What the few worst missed; their scenarios are in files.
+/// What the worst few runs missed; their scenarios are in files.
 std::string worst_runs(const Study& study, const Outcomes& outcomes, const ContenderRow& row) {
   if (row.worst.empty()) return {};
   constexpr std::size_t told = 3;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t look_every_ticks = 4096;
 
-/// 1 where it says no to what was asked; NaN where nothing was.
+/// 1 if the identify or calibrate that was requested found nothing; NaN if none was requested.
 double not_found(const Scenario& scenario, const Simulation& simulation) {
   const auto asks = [](OperatorAction action) {
     return action == OperatorAction::identify || action == OperatorAction::calibrate;
@@ -27,7 +27,7 @@ double not_found(const Scenario& scenario, const Simulation& simulation) {
   return simulation.learned() ? 0.0 : 1.0;
 }
 
-/// Of what identify found, by one property of a muscle; NaN where it found none.
+/// Relative error of a muscle's property that identify found; NaN if it found nothing.
 template <class Property>
 double found_error_ratio(const Simulation& simulation, Property property) {
   const auto& learned = simulation.learned();
@@ -36,7 +36,7 @@ double found_error_ratio(const Simulation& simulation, Property property) {
                   1.0);
 }
 
-/// NaN where nothing was promised, or no first motion came to its end.
+/// NaN if nothing was promised, or no first motion was completed.
 double promise_broken(double promised_rms_m, double rms_m) {
   if (std::isnan(promised_rms_m) || std::isnan(rms_m)) return NAN;
   return rms_m <= promised_rms_m ? 0.0 : 1.0;

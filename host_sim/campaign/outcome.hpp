@@ -1,4 +1,4 @@
-// What a run of a study came to.
+// The outcome of a run of a study.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Quantity {
   std::string_view meaning;
 };
 
-/// After compare's measures: what else a run is judged by.
+/// Quantities that judge a run, in addition to compare's measures, which come first.
 inline constexpr std::array<Quantity, 15> run_quantities{{
     {"tracking_rms_m", "error against the reference model within the window"},
     {"tracking_max_m", "the largest of it"},
@@ -48,14 +48,14 @@ constexpr Quantity quantity(std::size_t number) {
 std::optional<std::size_t> find_quantity(std::string_view name);
 
 struct Outcome {
-  std::string refused;  ///< why such a scenario cannot be, without comma; empty: it ran
+  std::string refused;  ///< why the scenario was refused, without commas; empty: it ran
   std::string fault;    ///< the first; empty without
-  /// As `quantity` has them. NaN: the run has none such. Infinite: no longer followed, or never
-  /// settled.
+  /// In the order of `quantity`. NaN: not available for the run. Infinite: the muscle no longer
+  /// followed, or never settled.
   std::array<double, quantity_count> values{};
 };
 
-/// Runs it; empty when it was given up because of stop.
+/// Runs the scenario; empty when it was given up because of stop.
 std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
                                 const std::atomic<bool>& stop);
 

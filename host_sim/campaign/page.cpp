@@ -1,5 +1,5 @@
-// report.html. Every figure is of the tables that campaign.csv is written from; <data> keeps it
-// with all its digits.
+// report.html. Every figure comes from the tables that campaign.csv is written from; <data> keeps
+// all its digits.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -45,7 +45,7 @@ std::string cells_of(const Rate& rate) {
          cell(in_percent(rate.low), "n") + cell(in_percent(rate.high), "n");
 }
 
-/// id: of the table. rows: of HTML.
+/// id: the table's. rows: as HTML.
 std::string table_of(const std::string& id, const std::vector<std::string>& head,
                      const std::string& rows) {
   std::string html = R"(<div class="wide" tabindex="0" role="region" aria-label=")" + id +
@@ -134,7 +134,7 @@ std::string goals(const Study& study, const std::vector<ContenderRow>& table) {
                                        rows);
 }
 
-/// Of every draw that is not always the same, with every goal; bold: more than by chance.
+/// Of every draw that varies, with every goal; bold: more than by chance.
 std::string correlations(const Study& study, const std::vector<ContenderRow>& table) {
   std::string rows;
   for (const ContenderRow& row : table) {

@@ -42,7 +42,7 @@ Axis axis_of(std::size_t number) {
   return {name};
 }
 
-/// Of a list its places are drawn.
+/// For a list, whose indices are drawn, the label gives the values.
 std::string label_of(const Draw& draw) {
   std::string label = draw.name;
   for (std::size_t i = 0; i < draw.distribution.values; ++i) {
@@ -56,7 +56,7 @@ std::string label_of(const Study& study, std::size_t contender) {
   return study.contenders[contender].name;
 }
 
-/// Share of all runs at or below a value; runs without a finite one never are.
+/// Share of all runs at or below a value; a run without a finite value never is.
 Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
                    const Outcomes& outcomes, std::size_t goal) {
   const Goal& of = study.goals[goal];
@@ -80,7 +80,7 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
       curve.x.push_back(axis.scale * points[k].value);
       curve.y.push_back(100.0 * static_cast<double>(k + 1) / runs);
     }
-    // A few runs far out would press all others into a corner.
+    // A few outliers would squeeze all other runs into a corner.
     if (!points.empty()) {
       largest = std::max(largest, axis.scale * points[points.size() * 98 / 100].value);
       smallest = std::min(smallest, axis.scale * points.front().value);
@@ -99,7 +99,7 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
   return panel;
 }
 
-/// The draw that the goal's quantity follows most, whoever controls; empty where it follows none.
+/// The draw that the goal's quantity follows most, with any contender; empty if it follows none.
 std::optional<std::size_t> deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
   std::optional<std::size_t> draw;
   double most = -1.0;
@@ -127,7 +127,7 @@ Panel scatter(const Study& study, const Draws& draws, const std::vector<Contende
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<Point> points = finite_values(outcomes, i, number);
     Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}, true};
-    // The first of them, which are spread as evenly as all; each n-th may not be.
+    // The first points are spread as evenly as all; every n-th point may not be.
     for (std::size_t k = 0; k < std::min(points.size(), max_points); ++k) {
       curve.x.push_back(draws.of_run(points[k].run)[draw]);
       curve.y.push_back(axis.scale * points[k].value);

@@ -19,10 +19,10 @@ using config::Diagnostics;
 using config::Section;
 
 constexpr config::Range any{-1e300, 1e300};
-/// What would break a line of runs.csv.
+/// Characters that would break a line of runs.csv.
 constexpr std::string_view separators = ",\"\n\r|";
 
-/// A list of names that are not empty, or one.
+/// One name that is not empty, or a list of such names.
 std::vector<std::string> texts(Section& section, const std::string& key) {
   section.allow({key});
   std::vector<std::string> found;
@@ -80,7 +80,7 @@ toml::array read_list(Section& section, Distribution& into) {
   return *list;
 }
 
-/// Of the keys that name a distribution, exactly one must be there.
+/// Exactly one of the keys that name a distribution must be there.
 void read_distribution(Section& section, Draw& draw) {
   using Kind = Distribution::Kind;
   static constexpr control::Names<Kind, 5> kinds{{{"constant", Kind::constant},
@@ -161,7 +161,7 @@ std::vector<Goal> read_goals(Section section) {
   return goals;
 }
 
-/// A scenario of a file of its own, with what is wrong with that file.
+/// A scenario from its own file, with the problems of that file.
 toml::table read_scenario_file(const std::string& path, Errors& problems) {
   Diagnostics diagnostics(path);
   toml::table scenario = config::parse(config::read_text(path, diagnostics), diagnostics);
@@ -169,7 +169,7 @@ toml::table read_scenario_file(const std::string& path, Errors& problems) {
   return scenario;
 }
 
-/// The scenario, and what the study lays over it.
+/// The scenario, with the study's changes laid over it.
 toml::table read_base(Section& study, const std::string& name, const std::filesystem::path& beside,
                       const toml::table& document, Errors& problems) {
   toml::table base;
@@ -206,7 +206,7 @@ std::uint32_t definition_of(const toml::table& document, const Study& study) {
   text << document << study.scenario;
   for (const compare::Document& one : study.contenders)
     text << '\n' << one.name << '\n' << one.text;
-  // Where the runs are does not depend on how many there are, but for this.
+  // Only a Latin hypercube's points depend on the number of runs.
   if (study.sampling == Sampling::latin_hypercube) text << study.runs;
   return storage::crc32(text.str());
 }
@@ -230,7 +230,7 @@ void read_window(Section& section, Study& study) {
   if (!(window[0] < window[1])) section.wrong("window_s", "the second must be above the first");
 }
 
-/// How many runs there are and what is asked of them says nothing of a run.
+/// Removes what does not affect a single run: the number of runs, and the goals.
 void keep_what_makes_a_run(toml::table& document) {
   document.erase("goals");
   if (toml::table* study = document.get_as<toml::table>("study")) {

@@ -121,7 +121,7 @@ std::string shell_word(const std::string& text) {
 
 std::vector<std::size_t> deciding_draws(const GoalRow& row) {
   std::vector<std::size_t> order;
-  // Chance alone gives this to less than 3 draws in 1000.
+  // By chance alone, less than 3 draws in 1000 reach this.
   const double least =
       3.0 / std::sqrt(static_cast<double>(std::max<std::int64_t>(1, row.failures.runs)));
   for (std::size_t i = 0; i < row.decides.size(); ++i) {

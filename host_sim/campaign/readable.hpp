@@ -18,19 +18,19 @@ std::string shown(const Goal& goal, double value);
 /// The share and its interval.
 std::string percent(const Rate& rate);
 
-/// The fault and the goals that a run missed, with what it came to.
+/// The run's fault and the goals that it missed, with its values.
 std::string missed(const Study& study, const Outcome& outcome);
 
-/// Draws that the goal's quantity follows more than by chance, those that it follows most first.
+/// Draws that the goal's quantity follows more than by chance, strongest first.
 std::vector<std::size_t> deciding_draws(const GoalRow& row);
 
-/// What the quantity follows most, with the sign of it: no more than three.
+/// The draws that the quantity follows most, with their signs: no more than three.
 std::string deciding(const Study& study, const GoalRow& row);
 
 /// "log-uniform, 8 to 80, times A, divided by B".
 std::string described(const Draw& draw);
 
-/// One word for a shell, whatever is in it.
+/// The text as one word for a shell, whatever it contains.
 std::string shell_word(const std::string& text);
 
 }  // namespace supercoil::host_sim::campaign

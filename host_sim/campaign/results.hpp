@@ -42,7 +42,7 @@ class Lines {
   /// The whole file: what made it, the columns' names, all lines in order.
   void write(std::ostream& out, const Outcomes& outcomes) const;
 
-  /// Adds what a file has. True: the last line was not whole, and is left out. A file of another
+  /// Adds a file's outcomes. True: the last line was incomplete, and is left out. A file of another
   /// version or study, a damaged line and two outcomes of one run are errors, which name the file
   /// and the line. An absent file has no outcomes.
   Result<bool> read(const std::filesystem::path& path, Outcomes& into) const;
@@ -56,13 +56,13 @@ class Lines {
   const Draws* draws_;
 };
 
-/// Carries a run out; empty when it was given up because of stop. The outcome depends on the study
-/// and the key alone.
+/// Carries a run out; empty when it was given up because of stop. The outcome depends only on the
+/// study and the key.
 std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const Key& key,
                                  const std::atomic<bool>& stop);
 
-/// Largest of the goals' quantities over what is allowed; above 1: failed. A quantity that is not
-/// there, a fault that is a failure, and more than nothing where nothing is allowed are infinite.
+/// The largest ratio of a goal's quantity to its maximum; above 1: failed. Infinite for a missing
+/// quantity, for a fault that is a failure, and for anything above a maximum of 0.
 double severity(const Study& study, const Outcome& outcome);
 
 }  // namespace supercoil::host_sim::campaign

@@ -11,7 +11,7 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
-// The standard says which numbers these give; its distributions differ from library to library.
+// The standard defines this generator's numbers; distributions differ from library to library.
 using Generator = std::mt19937_64;
 
 Generator generator(std::uint64_t seed, std::uint64_t stream, std::uint64_t number) {
@@ -66,8 +66,8 @@ std::vector<double> Sampler::point(std::size_t run) const {
 }
 
 std::vector<double> Sampler::sobol(std::size_t run) const {
-  // Boost's begins with the second point; with the first, of zeros, each power of two of runs is
-  // spread evenly.
+  // Boost's sequence begins with the second point. With the first, of zeros, each power of two of
+  // runs is spread evenly.
   boost::random::sobol sequence(dimensions_);
   if (run > 0) sequence.discard(static_cast<std::uint64_t>(run - 1) * dimensions_);
   std::vector<double> point;

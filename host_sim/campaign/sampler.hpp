@@ -18,8 +18,8 @@ inline constexpr control::Names<Sampling, 3> sampling_names{
 /// The same arguments give the same points, on every machine and in any order.
 class Sampler {
  public:
-  /// dimensions: at most 3667 of a Sobol sequence. runs: of a Latin hypercube, each of whose
-  /// dimensions has one point in each of as many equal parts; the others do not depend on it.
+  /// dimensions: at most 3667 for a Sobol sequence. runs: for a Latin hypercube, which has one
+  /// point in each of this many equal parts of each dimension; the other kinds do not depend on it.
   Sampler(Sampling sampling, std::uint64_t seed, std::size_t dimensions, std::size_t runs);
 
   /// Coordinates between 0 and 1, both excluded. run: from 0, below runs.
@@ -32,7 +32,7 @@ class Sampler {
   Sampling sampling_;
   std::uint64_t seed_;
   std::size_t dimensions_;
-  /// A Sobol sequence's random shift of each dimension, without which all seeds were one.
+  /// A Sobol sequence's random shift of each dimension; without it, all seeds would give the same.
   std::vector<std::uint64_t> shift_;
   /// A Latin hypercube's part of each run, dimension by dimension.
   std::vector<std::vector<std::uint32_t>> parts_;

@@ -15,9 +15,9 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
-/// For an optimiser that knows no infinity.
+/// In place of infinity, which the optimiser cannot handle.
 constexpr double worst_possible = 1e6;
-/// Less than any run that was one.
+/// Less than any run of a valid scenario.
 constexpr double no_scenario = -1.0;
 /// Both ends of a probability are excluded.
 constexpr double nearest_end = 1e-9;

@@ -1,4 +1,4 @@
-// The worst that a study's draws can come to, looked for.
+// Search for the worst run that a study's draws allow.
 #pragma once
 
 #include <atomic>
@@ -14,17 +14,17 @@
 namespace supercoil::host_sim::campaign {
 
 struct Worst {
-  std::vector<double> drawn;  ///< as Draws::at() has it; empty: no run was a scenario
+  std::vector<double> drawn;  ///< as from Draws::at(); empty: no run had a valid scenario
   Outcome outcome;
-  double severity = 0.0;  ///< as severity() has it
+  double severity = 0.0;  ///< as from severity()
   std::int64_t runs = 0;  ///< until the search ended
 };
 
 /// Controlled random search with local mutation (Kaelo and Ali, 2006; NLopt's CRS2_LM) over all
-/// draws, for the run of this contender that misses its goals by most, with one run's sensor noise.
-/// Ends after so many runs, or when nothing can be worse. The study's seed decides where it begins:
-/// the same study gives the same result. ran: called after each run, on the calling thread.
-/// Throws std::runtime_error where NLopt fails.
+/// draws, for the run in which this contender misses its goals most, with one run's sensor noise.
+/// Ends after `runs` runs, or when nothing can be worse. The study's seed determines the start: the
+/// same study gives the same result. ran: called after each run, on the calling thread. Throws
+/// std::runtime_error if NLopt fails.
 Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
              const std::atomic<bool>& stop, const std::function<void()>& ran);
 

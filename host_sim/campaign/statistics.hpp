@@ -1,4 +1,4 @@
-// How often, how certain, and what decides.
+// Failure rates with their confidence, quantiles and rank correlation.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ struct Rate {
 /// 0 <= failures <= runs
 Rate rate_of(std::int64_t failures, std::int64_t runs);
 
-/// The value below which this share of them is, by the nearest rank; NaN of none. None may be NaN,
-/// any may be infinite.
+/// The value below which this share of the values lies, by nearest rank; NaN if there are none.
+/// Values must not be NaN, but may be infinite.
 double quantile(std::vector<double> values, double share);
 
-/// Spearman's: of the ranks of both, from -1 to 1; equal values share their ranks. NaN where one of
-/// both is always the same. None may be NaN, any may be infinite. As many of both.
+/// Spearman's rank correlation, from -1 to 1; equal values share their ranks. NaN if x or y is
+/// constant. Values must not be NaN, but may be infinite. x and y have the same length.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace supercoil::host_sim::campaign

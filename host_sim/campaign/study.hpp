@@ -19,19 +19,19 @@ namespace supercoil::host_sim::campaign {
 
 inline constexpr std::int64_t max_runs = 1'000'000;
 
-/// [[draw]]: a value of its own in every run.
+/// [[draw]]: a different value in every run.
 struct Draw {
   std::string name;               ///< in tables
-  std::vector<std::string> keys;  ///< of the scenario that get it; none: only others refer to it
+  std::vector<std::string> keys;  ///< scenario keys that get it; none: only other draws refer to it
   Distribution distribution;
   toml::array values;              ///< of a list
-  std::vector<std::string> times;  ///< draws and keys that what is drawn is multiplied with
-  std::vector<std::string> over;   ///< and divided by
-  std::string group;               ///< draws of one group go together; empty: alone
+  std::vector<std::string> times;  ///< draws and keys that multiply the drawn value
+  std::vector<std::string> over;   ///< and those that divide it
+  std::string group;               ///< draws of one group are correlated; empty: no group
   double correlation = 1.0;        ///< with its group, in ranks of a normal distribution
 };
 
-/// [goals]: the largest value of a quantity that is no failure.
+/// [goals]: the maximum of a quantity; above it, the run has failed.
 struct Goal {
   std::size_t quantity;  ///< of `quantities`
   double max;
@@ -43,11 +43,11 @@ struct Study {
   std::int64_t runs = 1000;
   Sampling sampling = Sampling::sobol;
   std::uint64_t seed = 1;
-  /// Run until the share of failures is known to ± this, 95 %; 0: all runs.
+  /// Run until the share of failures is known to ± this, with 95 % confidence; 0: all runs.
   double known_to = 0.0;
   Window window;         ///< of tracking
   std::string base;      ///< the scenario's name or file
-  toml::table scenario;  ///< that, with the study's changes, without what is drawn
+  toml::table scenario;  ///< base, with the study's changes, without draws
   std::vector<Draw> draws;
   std::vector<compare::Document> contenders;  ///< one without text: the scenario's own controller
   std::vector<Goal> goals;
@@ -57,8 +57,8 @@ struct Study {
 /// The studies that come with the program.
 const std::vector<BuiltinScenario>& builtin_studies();
 
-/// path: a .toml file, or the name of a built-in study. runs: in place of its own; 0: these. Or
-/// everything that is wrong with it.
+/// path: a .toml file, or the name of a built-in study. runs: replaces the study's; 0: keeps it.
+/// The error is everything that is wrong with the study.
 tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs = 0);
 
 }  // namespace supercoil::host_sim::campaign

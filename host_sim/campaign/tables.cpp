@@ -36,7 +36,7 @@ GoalRow row_of(const Goal& goal, const Runs& runs) {
   std::int64_t missed = 0;
   for (const Outcome* outcome : runs.outcomes) {
     const double value = outcome->values.at(goal.quantity);
-    // What was not measured is no better than the worst.
+    // A value that was not measured counts as the worst.
     values.push_back(std::isnan(value) ? INFINITY : value);
     missed += values.back() > goal.max ? 1 : 0;
   }

@@ -1,4 +1,4 @@
-// All runs of a study together.
+// The tables over all runs of a study.
 #pragma once
 
 #include <cstddef>
@@ -29,22 +29,22 @@ struct ContenderRow {
   Rate refused;
   Rate failures;  ///< of those that were not refused: runs that miss any goal
   std::vector<GoalRow> goals;
-  std::string reason;  ///< of a refusal, the first run's; empty without
-  /// Runs that miss their goals by most, worst first; no more than ten.
+  std::string reason;  ///< of the first run that was refused; empty: none was
+  /// The runs that miss their goals most, worst first; no more than ten.
   std::vector<Key> worst;
 };
 
 std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
                                    const Outcomes& outcomes);
 
-/// A line a goal of a contender.
+/// One line per goal and contender.
 std::string to_csv(const std::vector<ContenderRow>& table);
-/// What a person reads.
+/// For people to read.
 std::string to_markdown(const Study& study, const std::vector<ContenderRow>& table,
                         const Outcomes& outcomes);
 
-/// report.html: the same with what was asked, how to repeat the worst runs, and the picture of
-/// figure_of(); svg: empty without.
+/// report.html: the same, with what was asked, how to repeat the worst runs, and figure_of()'s
+/// picture; svg: empty without one.
 std::string to_html(const Study& study, const std::vector<ContenderRow>& table,
                     const Outcomes& outcomes, const std::string& svg);
 
@@ -53,7 +53,7 @@ std::string to_html(const Study& study, const std::vector<ContenderRow>& table,
 Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcomes,
                  const std::vector<ContenderRow>& table);
 
-/// The file with the contender's worst run of that place, from 1.
+/// The file with the contender's worst run of this rank, from 1.
 std::string worst_name(const std::string& contender, std::size_t place);
 
 /// What a search found, by contender.

@@ -23,7 +23,7 @@ Experiment experiment_of(const Trial& trial, double begin_s) {
           .noise_density_m2_s = trial.noise_density_m2_s()};
 }
 
-/// When the bound first fits into the band, from the experiment's begin.
+/// When the bound first fits into the band, from the beginning of the experiment.
 Theta times_to(double band, const Experiment& experiment, const Unknown& unknown, double end_s) {
   constexpr double deviations = 2.0;
   constexpr double look_s = 0.05;

@@ -1,4 +1,4 @@
-// What no unbiased estimator can do better in a trial, in the terms of its outcome.
+// The best that an unbiased estimator can do in a trial, in the terms of its outcome.
 #pragma once
 
 #include <vector>

@@ -39,7 +39,7 @@ class LeastSquares : public Contender {
   Theta theta() const override {
     return estimator_.parameters().head<4>().cwiseProduct(scale_.nominal);
   }
-  /// Told over nominal; θ is near it.
+  /// Relative to nominal, which is near θ.
   Theta standard_deviations() const override {
     return estimator_.standard_deviations()
         .head<4>()
@@ -76,7 +76,7 @@ std::unique_ptr<Contender> make_normalised(const Theta& initial, double step_s) 
   // Near the best of 1500 random ones, on the nominal trial.
   settings.gain = settings.gain.cwiseProduct(Theta{4.5, 0.9, 2.5, 0.2});
   settings.normalisation = 1e-3;
-  // The bounds that the others have.
+  // The same bounds as the others.
   const control::LeastSquaresSettings bounds;
   const Theta& nominal = settings.scale.nominal;
   settings.bounds = control::Box<double, 4>{nominal * bounds.min_ratio, nominal * bounds.max_ratio};
@@ -101,7 +101,7 @@ std::unique_ptr<Contender> make_unscented(const Theta& initial, double step_s) {
   FilterSettings settings;
   settings.initial = initial;
   settings.forgetting_s = forgetting_s;
-  // With the extended filter's it became sure of θ1 while that was 3 % off.
+  // With the extended filter's ratio it became sure of θ1 while θ1 was 3 % off.
   settings.remainder_ratio = 0.2;
   settings.changed_logarithm = 0.2;
   settings.changed_bias_W = 0.2;

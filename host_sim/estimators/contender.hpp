@@ -1,4 +1,4 @@
-// The estimators that are compared, each behind the same face.
+// The estimators that are compared, behind a common interface.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class Contender {
   /// One tick: this tick's position, and the power that acted since the last one.
   virtual void step(double position_m, double power_W) = 0;
   virtual control::Theta theta() const = 0;
-  /// What it says of its errors, standard deviations relative to θ; NaN where it says nothing.
+  /// The standard deviations that it reports, relative to θ; NaN if it reports none.
   virtual control::Theta standard_deviations() const;
 };
 
@@ -35,7 +35,7 @@ struct ContenderKind {
 inline constexpr std::size_t contender_count = 5;
 extern const std::array<ContenderKind, contender_count> contenders;
 
-/// The forgetting time of those that have one, and the window with which their bound is computed:
+/// The forgetting time of estimators that have one, and the window for computing their bound:
 /// exponential forgetting scatters as much as a window of twice its time.
 inline constexpr double forgetting_s = 30.0;
 inline constexpr double bound_window_s = 2.0 * forgetting_s;

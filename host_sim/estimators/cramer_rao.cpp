@@ -31,7 +31,7 @@ control::Theta CramerRaoBound::until(double time_s) {
     const bool wanted = i < motion_size ? unknown_.motion : i != at_bias || unknown_.bias;
     if (wanted) unknowns.push_back(i);
   }
-  // In units in which every information is 1: metres and logarithms differ by 1e10.
+  // Scaled so that every information is 1: metres and logarithms differ by 1e10.
   const Eigen::MatrixXd information = information_(unknowns, unknowns);
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * information * scale.asDiagonal());

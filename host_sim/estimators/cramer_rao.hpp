@@ -8,13 +8,13 @@
 
 namespace supercoil::host_sim::estimators {
 
-/// What is not known, beside θ.
+/// What is unknown in addition to θ.
 struct Unknown {
-  bool motion = true;  ///< position, velocity and acceleration at the begin
-  bool bias = true;    ///< a constant one of the power
+  bool motion = true;  ///< position, velocity and acceleration at the beginning
+  bool bias = true;    ///< constant, of the power
 };
 
-/// An experiment on a muscle whose position is seen with white noise.
+/// An experiment on a muscle whose position is measured with white noise.
 struct Experiment {
   State begin;  ///< the muscle and its motion at begin_s
   double begin_s = 0.0;
@@ -23,21 +23,21 @@ struct Experiment {
   double noise_density_m2_s = 1e-13;  ///< rms² · sampling period: 10 µm at 1 kHz
 };
 
-/// The Cramér–Rao bound: the smallest standard deviation, relative, that an unbiased estimate of
-/// θ1…θ4 can have from what is seen of it. The Fisher information is summed from the derivatives of
-/// the muscle's exact motion by its parameters and its first state.
+/// The Cramér–Rao bound: the smallest relative standard deviation that an unbiased estimate of
+/// θ1…θ4 can have from the measurements. The Fisher information is summed from the derivatives of
+/// the muscle's exact motion with respect to its parameters and its first state.
 class CramerRaoBound {
  public:
   CramerRaoBound(const Experiment& experiment, const Unknown& unknown);
 
-  /// What is seen from begin_s to that time, later than any before. Infinite while it is too
-  /// little.
+  /// From the measurements between begin_s and this time, which is later than in any call before.
+  /// Infinite while they are too few.
   control::Theta until(double time_s);
 
  private:
   void step();
 
-  /// The sensitivities are smooth: 5 ms in place of the sensor's 1 ms changes no printed digit.
+  /// The sensitivities are smooth: 5 ms instead of the sensor's 1 ms changes no printed digit.
   static constexpr double step_s = 5e-3;
 
   Experiment experiment_;

@@ -17,7 +17,7 @@ std::string to_file(const Outcomes& outcomes);
 
 struct ReadOutcomes {
   Outcomes outcomes;
-  bool torn = false;  ///< the last line was not whole, and is left out
+  bool torn = false;  ///< the last line was incomplete, and is left out
 };
 /// A file of another version and a damaged line are errors, which name the file and the line. An
 /// absent file has no outcomes.

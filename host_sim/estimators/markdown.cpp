@@ -70,7 +70,7 @@ std::string table_of(const Measure& measure, const Outcomes& outcomes, const All
   return text;
 }
 
-/// What they say of their errors over what these are, all seeds together.
+/// Reported standard deviations over actual errors, all seeds together.
 std::string honesty_table(const Outcomes& outcomes) {
   std::string text =
       "\n### Reported standard deviations over actual errors\n\nrms over the last 40 s "

@@ -81,7 +81,7 @@ void MuscleFilter::forget() {
   const double memory_s =
       std::min(settings_.forgetting_s, std::max(settings_.first_forgetting_s, since_s_));
   belief_.covariance *= std::exp(step_s_ / memory_s);
-  // Without excitation it would grow for ever.
+  // Without excitation it would grow without limit.
   const double largest =
       belief_.covariance.diagonal().segment<parameter_size>(at_ln_theta_1).maxCoeff();
   const double most = settings_.prior_logarithm * settings_.prior_logarithm;
@@ -97,7 +97,7 @@ void MuscleFilter::detect_change(double normalised_square) {
   State added = State::Zero();
   added.segment<parameter_size>(at_ln_theta_1).setConstant(settings_.changed_logarithm);
   added[at_bias] = settings_.changed_bias_W;
-  // Where the stiffness jumps, the acceleration does.
+  // When the stiffness jumps, so does the acceleration.
   added[at_acceleration] = settings_.changed_acceleration_m_per_s2;
   belief_.covariance.diagonal() += added.cwiseAbs2();
 }

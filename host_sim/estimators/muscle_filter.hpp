@@ -1,4 +1,4 @@
-// A Kalman filter of the muscle's state and parameters, whichever way it predicts.
+// A Kalman filter of the muscle's state and parameters, for any kind of prediction.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +28,16 @@ bool predict_unscented(Belief& belief, double moving_mass_kg, double power_W, do
 struct FilterSettings {
   control::RegressionScale scale;
   control::Theta initial = scale.nominal;  ///< θ(0)
-  double min_ratio = 0.2;                  ///< θ is kept between these parts of its nominal
+  double min_ratio = 0.2;                  ///< θ is kept between these ratios of its nominal
   double max_ratio = 5.0;
   double position_noise_m = 10e-6;  ///< rms, white
-  /// What the linearisation leaves out counts as noise too: this part of position · half the
-  /// variance of the logarithms. Without it the filter becomes sure of what it saw while it was
+  /// What the linearisation leaves out counts as noise too: this ratio of position · half the
+  /// variance of the logarithms. Without it the filter becomes sure of what it learned while it was
   /// wrong.
   double remainder_ratio = 0.1;
-  /// Time in which an observation's weight falls to 1/e; infinity: never. After the start and after
-  /// a change it is the time since then, but at least first_forgetting_s: what was seen while the
-  /// filter was wrong is forgotten.
+  /// Time in which an observation's weight falls to 1/e; infinity: never. After the start or a
+  /// change it is the time since then, but at least first_forgetting_s: observations from when the
+  /// filter was wrong are forgotten.
   double forgetting_s = 30.0;
   double first_forgetting_s = 3.0;
   /// Standard deviations at the start, the muscle being at rest.
@@ -48,7 +48,7 @@ struct FilterSettings {
   /// The muscle has changed when the innovations' mean square, over 0.1 s, is more than this many
   /// times what the covariance says.
   double change_ratio = 3.0;
-  double blind_s = 1.0;  ///< after the start and after a change none is looked for
+  double blind_s = 1.0;  ///< after the start or a change, no change is looked for
   /// Standard deviations that a change adds.
   double changed_logarithm = 0.3;
   double changed_bias_W = 0.3;
@@ -61,8 +61,8 @@ class MuscleFilter {
   MuscleFilter(Predict predict, const FilterSettings& settings, double step_s);
 
   /// One tick: this tick's position, and the power that acted since the last one. A position that
-  /// is not finite is absent: the filter then only predicts. A power that is not finite is taken
-  /// for the last one that was.
+  /// is not finite is absent: the filter then only predicts. A power that is not finite is replaced
+  /// by the last finite one.
   void step(double position_m, double power_W);
 
   const Belief& belief() const { return belief_; }
@@ -71,7 +71,7 @@ class MuscleFilter {
   control::Theta standard_deviations() const;
   /// Changes of the muscle that were detected.
   std::int64_t changes() const { return changes_; }
-  /// How often rounding had made the covariance indefinite, and it began anew.
+  /// How often the filter restarted because rounding had made the covariance indefinite.
   std::int64_t restarts() const { return restarts_; }
 
  private:

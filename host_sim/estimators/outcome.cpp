@@ -20,10 +20,10 @@ class LastExit {
   LastExit(double band, double from_s, double to_s) : band_(band), from_s_(from_s), to_s_(to_s) {}
 
   void look(double time_s, const Theta& error) {
-    // At the end itself the muscle is another one already.
+    // At to_s itself the muscle has already changed.
     if (time_s <= from_s_ || time_s > to_s_ - tick_s / 2.0) return;
     for (int i = 0; i < 4; ++i) {
-      // Also what is NaN is outside.
+      // NaN counts as outside.
       if (!(std::abs(error[i]) <= band_)) last_s_[i] = time_s - from_s_;
     }
   }

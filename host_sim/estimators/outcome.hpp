@@ -10,13 +10,13 @@
 
 namespace supercoil::host_sim::estimators {
 
-/// Times are in seconds, infinite when it never was within the band for good; errors are relative.
+/// Times are in seconds, infinite if it never stayed within the band; errors are relative.
 struct Outcome {
   control::Theta to_5_percent_s;  ///< from rest until the last exit from ±5 % before the change
   control::Theta to_1_percent_s;
   control::Theta back_to_5_percent_s;  ///< from the change to the last exit before the end
   control::Theta steady_rms;           ///< the last 40 s before the change
-  control::Theta reported_rms;         ///< of the standard deviations told then; NaN without
+  control::Theta reported_rms;         ///< of the standard deviations reported then; NaN without
   /// Errors at plotted_s after the start, and after the change, squared.
   std::vector<control::Theta> squares_from_rest;
   std::vector<control::Theta> squares_after_change;
@@ -29,7 +29,7 @@ inline constexpr double wide_band = 0.05;
 inline constexpr double narrow_band = 0.01;
 inline constexpr double steady_s = 40.0;
 
-/// Runs it to the end; empty when it was stopped.
+/// Runs the trial to the end; empty when it was stopped.
 std::optional<Outcome> run(const ContenderKind& kind, const Trial& trial, std::uint64_t seed,
                            const std::atomic<bool>& stop);
 

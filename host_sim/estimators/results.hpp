@@ -23,16 +23,16 @@ struct Key {
 };
 
 using Outcomes = std::map<Key, Outcome>;
-/// Of each trial; empty without noise, where any exactness is possible.
+/// Of each trial; empty without noise, where accuracy has no bound.
 using AllBounds = std::array<std::optional<Bounds>, trials.size()>;
-/// ns a step of each contender.
+/// ns per step of each contender.
 using Costs = std::array<double, contender_count>;
 
 /// trial,estimator,seed,measure,theta1,theta2,theta3,theta4, errors in %;
 /// seed 0: the bound. Equal outcomes give equal bytes.
 std::string to_csv(const Outcomes& outcomes, const AllBounds& bounds);
 
-/// Markdown: a table a measure, mean over the seeds (worst).
+/// Markdown: one table per measure, mean over the seeds (worst).
 std::string to_markdown(const Outcomes& outcomes, const AllBounds& bounds, const Costs& costs);
 
 /// Errors in the nominal trial, rms over the seeds, from rest and after the change; the bound

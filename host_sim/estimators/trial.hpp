@@ -1,4 +1,4 @@
-// What the estimators are given: a muscle under Eq. (18), seen through a sensor.
+// What the estimators are given: a muscle under Eq. (18), measured by a sensor.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct Trial {
   double count_m() const {
     return bits > 0 ? 0.040 / static_cast<double>(std::int64_t{1} << bits) : 0.0;
   }
-  /// Of what the sensor adds, as if its rounding were white noise too: rms² · sampling period.
+  /// Of the noise that the sensor adds, its rounding counted as white too: rms² · sampling period.
   double noise_density_m2_s() const {
     constexpr double variance_of_rounding = 1.0 / 12.0;
     return (noise_m * noise_m + count_m() * count_m() * variance_of_rounding) * tick_s;

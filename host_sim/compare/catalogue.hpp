@@ -1,4 +1,4 @@
-// What comes with the program to compare, in the order in which tables have it.
+// The built-in controllers and disturbances, in the order of the tables.
 #pragma once
 
 #include <vector>

@@ -33,8 +33,8 @@ supercoil::Result<Document> find(const std::string& name, const char* what,
                  "\n");
 }
 
-/// A controller's file may not also choose the muscle or what is asked of it: it would replace the
-/// disturbance's, and the table would still name the disturbance.
+/// A controller's file must not also choose the muscle or what is asked of it: that would replace
+/// the disturbance's, while the table would still name the disturbance.
 supercoil::Result<Document> find_controller(const std::string& name) {
   constexpr std::array<std::string_view, 3> allowed{"controller", "estimator", "reference_model"};
   auto document = find(name, "--controllers", controllers());
@@ -63,7 +63,7 @@ supercoil::Result<Document> find_disturbance_now(const std::string& name) {
   return document;
 }
 
-/// NAME+SECONDS; in a file's name there may be a + too.
+/// NAME+SECONDS; a file's name may also contain a +.
 supercoil::Result<Document> find_disturbance(const std::string& name) {
   const std::size_t plus = name.rfind('+');
   if (plus == std::string::npos || name.ends_with(".toml")) return find_disturbance_now(name);

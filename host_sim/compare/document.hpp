@@ -11,16 +11,16 @@ namespace supercoil::host_sim::compare {
 struct Document {
   std::string name;      ///< in tables
   std::string text;      ///< TOML
-  double later_s = 0.0;  ///< of a disturbance: so much later
+  double later_s = 0.0;  ///< of a disturbance: delay
   bool steps = false;    ///< of a disturbance: asked for steps instead of its sine
 };
 
-/// Each by its name, or all that is wrong with them, a line each.
+/// The documents that were named, or all that is wrong with them, one problem per line.
 using Documents = supercoil::Result<std::vector<Document>>;
 
-/// Built-in names, or files: what has a dot or a slash.
+/// Built-in names, or files, which have a dot or a slash.
 Documents find_controllers(const std::vector<std::string>& names);
-/// Likewise; :steps and then +SECONDS may come after each.
+/// Likewise; each may be followed by :steps and then +SECONDS.
 Documents find_disturbances(const std::vector<std::string>& names);
 
 }  // namespace supercoil::host_sim::compare

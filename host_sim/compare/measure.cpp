@@ -7,7 +7,7 @@ namespace supercoil::host_sim::compare {
 
 namespace {
 
-/// The first seconds are the start's, not the steady motion's.
+/// The first seconds belong to the start, not to the steady motion.
 constexpr double started_s = 20.0;
 constexpr double settled_again_s = 60.0;
 

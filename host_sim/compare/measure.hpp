@@ -1,4 +1,4 @@
-// By what a run is compared with others: the true error against the controller's reference model.
+// The measures that compare runs: the true error against the controller's reference model.
 #pragma once
 
 #include <array>
@@ -37,14 +37,14 @@ inline constexpr std::array<Measure, 8> measures{{
     {"after_rms_m", How::rms, "from 60 s after the first event to the end"},
 }};
 
-/// Of one run, as `measures` has them; NaN: it has none such. Infinite: the muscle was no longer
-/// made to follow (a fault), or never settled.
+/// Of one run, in the order of `measures`; NaN: not available. Infinite: the muscle no longer
+/// followed (a fault), or never settled.
 using Values = std::array<double, measures.size()>;
 
-/// Where each measure looks in this scenario, empty (from_s >= to_s) where there is no room for it.
+/// Each measure's window in this scenario, empty (from_s >= to_s) if there is no room for it.
 std::array<Window, measures.size()> windows_of(const Scenario& scenario);
 
-/// Takes the measures of a run as it goes.
+/// Computes the measures of a run as it goes.
 class Meters {
  public:
   explicit Meters(const Scenario& scenario);

@@ -23,7 +23,7 @@ std::uint32_t checksum(const Document& controller, const Document& disturbance,
   return crc.checksum();
 }
 
-/// Where least squares cannot be in fixed point, it is in float.
+/// Where least squares is not available in fixed point, it runs in float.
 void set_arithmetic(toml::table& document, const std::string& arithmetic) {
   apply_changes(document, toml::table{{"controller", toml::table{{"arithmetic", arithmetic}}}});
   const auto kind = document["estimator"]["kind"].value_or<std::string>("gradient");
@@ -52,7 +52,7 @@ void ask_for_steps(toml::table& document) {
   }
 }
 
-/// A controller that is tuned by hand to each muscle: the disturbance has its keys.
+/// For a controller that is tuned by hand to each muscle, the disturbance provides the keys.
 void tune(toml::table& chosen, toml::table& disturbance, const std::string& controller) {
   if (const toml::table* tuned = disturbance["tuned"][controller].as_table())
     apply_changes(chosen, toml::table{{"controller", *tuned}});
@@ -73,7 +73,7 @@ supercoil::Result<Case> combine(const Document& controller, const Document& dist
     return failure(config::to_text(of_controller.problems()) +
                    config::to_text(of_disturbance.problems()));
   }
-  // Whatever the disturbance was written for: all controllers meet the same.
+  // All controllers meet the same, whatever the disturbance was written for.
   for (const char* table : {"controller", "estimator", "reference_model"})
     document.erase(table);
   tune(chosen, document, controller.name);
@@ -89,7 +89,7 @@ supercoil::Result<Case> combine(const Document& controller, const Document& dist
               checksum(controller, disturbance, arithmetic), std::move(*scenario)};
 }
 
-/// What fixed point cannot hold is left out; all else must be in order.
+/// Cases that fixed point cannot hold are left out; all others must be valid.
 supercoil::Result<void> add_cases(Plan& plan, const std::vector<Document>& controllers,
                                   const std::vector<Document>& disturbances,
                                   const std::vector<std::string>& arithmetics) {

@@ -1,4 +1,4 @@
-// Which runs a comparison is made of.
+// The runs of a comparison.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace supercoil::host_sim::compare {
 
-/// Empty lists are the built-in ones. A name with a dot or a slash is a scenario's file.
-/// A disturbance's name may end in +SECONDS: its events, and its end, come so much later.
+/// Empty lists mean the built-in ones. A name with a dot or a slash is a scenario's file.
+/// +SECONDS at the end of a disturbance's name delays its events and its end.
 struct Selection {
   std::vector<std::string> controllers;
   std::vector<std::string> disturbances;
   std::vector<std::string> arithmetics;
-  std::int64_t seeds = 20;  ///< 1 to this
+  std::int64_t seeds = 20;  ///< seeds 1 to this
   batch::Shard shard;
 };
 
@@ -43,10 +43,10 @@ struct Run {
 struct Plan {
   std::vector<Case> cases;
   std::vector<Run> runs;              ///< of the shard; all cases of a seed before the next seed
-  std::vector<std::string> left_out;  ///< what cannot be, and why
+  std::vector<std::string> left_out;  ///< cases that are impossible, and why
 };
 
-/// The error says all that is wrong with the selection, a line each.
+/// The error lists all problems of the selection, one per line.
 supercoil::Result<Plan> make_plan(const Selection& selection);
 
 }  // namespace supercoil::host_sim::compare

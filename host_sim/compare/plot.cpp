@@ -8,7 +8,7 @@ namespace supercoil::host_sim::compare {
 namespace {
 
 constexpr double plotted_um_per_m = 1e6;
-/// Of the distance between two disturbances, for the points of all contenders.
+/// Share of the distance between two disturbances that the points of all contenders take.
 constexpr double spread = 0.7;
 
 std::size_t place_of(std::vector<std::string>& names, const std::string& name) {

@@ -6,7 +6,7 @@
 
 namespace supercoil::host_sim::compare {
 
-/// A panel a measure; a point a contender, at the mean, with a bar to the worst seed.
+/// One panel per measure; one point per contender, at the mean, with a bar to the worst seed.
 Figure figure_of(const std::vector<TableRow>& table);
 
 }  // namespace supercoil::host_sim::compare

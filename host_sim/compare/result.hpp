@@ -1,4 +1,4 @@
-// What a run gave, and the file that keeps it: runs.csv.
+// The result of a run, and the file that keeps it: runs.csv.
 #pragma once
 
 #include <compare>
@@ -29,7 +29,7 @@ struct Result {
   std::string fault;             ///< the first; empty without
   Values values{};
 
-  /// The same, to the bit.
+  /// Equal to the bit.
   bool same_as(const Result& other) const;
 };
 
@@ -42,14 +42,14 @@ std::string to_file(const Results& results);
 
 struct ReadResults {
   Results results;
-  bool torn = false;  ///< the last line was not whole, and is left out
+  bool torn = false;  ///< the last line was incomplete, and is left out
 };
 /// A file of another version, a damaged line and two results for one run are errors, which name the
 /// file and the line. An absent file has no results.
 supercoil::Result<ReadResults> read_results(const std::filesystem::path& path);
 
-/// Adds what was read from a file to the results. The error names a run for which both say
-/// something else, or which was made by another definition.
+/// Adds a file's results. The error names a run whose two results differ, or that was made with
+/// another definition.
 supercoil::Result<void> merge(Results& into, const Results& from, const std::string& name);
 
 }  // namespace supercoil::host_sim::compare

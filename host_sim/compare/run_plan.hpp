@@ -1,4 +1,4 @@
-// Runs on as many threads as wanted.
+// Carries runs out on several threads.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace supercoil::host_sim::compare {
 struct Listener {
   /// A run has ended; called one at a time, in the order in which they end.
   std::function<void(const Run&, const Result&)> ended;
-  /// Asked several times a second; true gives up what still runs.
+  /// Called several times a second; if it returns true, unfinished runs are given up.
   std::function<bool()> stop;
 };
 

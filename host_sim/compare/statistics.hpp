@@ -1,4 +1,4 @@
-// Of the same measure over several seeds.
+// Statistics of one measure over several seeds.
 #pragma once
 
 #include <cstdint>

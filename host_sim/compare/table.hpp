@@ -31,10 +31,10 @@ std::vector<TableRow> table_of(const Results& results);
 
 /// controller,disturbance,arithmetic,measure,runs,mean,ci95_low,ci95_high,worst,goal,met.
 std::string to_csv(const std::vector<TableRow>& table);
-/// Markdown: a table a measure, mean ± half of the 95 % interval (worst), in µm and s.
+/// Markdown: one table per measure, mean ± half of the 95 % interval (worst), in µm and s.
 std::string to_markdown(const std::vector<TableRow>& table);
 
-/// What a controller is built to reach, in the measure's unit; empty where nothing was set.
+/// The controller's goal, in the measure's unit; empty if none was set.
 std::optional<double> goal_of(const TableRow& row, std::string_view measure);
 
 }  // namespace supercoil::host_sim::compare

@@ -1,4 +1,4 @@
-// What the pages that the program writes are made of: each a single file that refers to no other.
+// Parts of the pages that the program writes, each a single file that refers to no other.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ std::string escaped(std::string_view text);
 std::string page_begin(std::string_view title);
 std::string page_end();
 
-/// An image that holds the SVG, whose identifiers thus stay its own. alt: what it shows.
+/// An image that holds the SVG, so that its identifiers stay its own. alt: what it shows.
 std::string embedded_svg(std::string_view svg, std::string_view alt);
 
 }  // namespace supercoil::host_sim

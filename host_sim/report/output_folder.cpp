@@ -33,8 +33,7 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) return refuse("cannot be made: " + error.message());
   if (!fs::is_directory(folder, error)) return refuse("is not a folder");
-  // Root may write where the mode says otherwise, but not into a file system that is read-only: try
-  // it.
+  // Root may write whatever the mode says, but not to a read-only file system: try it.
   std::string probe = (folder / ".supercoil-XXXXXX").string();
   const int written = mkstemp(probe.data());
   if (written < 0) return refuse("cannot be written to: " + reason());
@@ -60,7 +59,7 @@ OutputFolder::~OutputFolder() {
   for (const std::string& name : names_)
     fs::remove(folder_ / (name + ".part"), ignored);
   for (const fs::path& folder : made_)
-    fs::remove(folder, ignored);  // only where it is empty
+    fs::remove(folder, ignored);  // only if it is empty
   if (lock_ >= 0) close(lock_);
 }
 
@@ -90,7 +89,7 @@ void OutputFolder::drop(const std::string& name) {
 }
 
 Result<void> OutputFolder::commit() {
-  // What would fail is looked for before the first file has its name.
+  // Looks for whatever would fail before the first file gets its name.
   for (const std::string& name : names_) {
     if (fs::is_directory(folder_ / name)) {
       return failure((folder_ / name).string() + ": cannot be written: is a folder");

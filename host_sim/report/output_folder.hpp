@@ -29,11 +29,11 @@ class OutputFolder {
   std::filesystem::path temporary(const std::string& name);
   /// Writes a whole file; the error says why it failed (a full disk, for one).
   Result<void> write(const std::string& name, const std::string& content);
-  /// The same of one that is better not in memory as a whole.
+  /// The same for a file that should not be in memory as a whole.
   Result<void> write(const std::string& name, const std::function<void(std::ostream&)>& content);
   /// Gives up a file that temporary() announced; the others are kept.
   void drop(const std::string& name);
-  /// With commit() a file of an earlier run goes that this one has no successor of.
+  /// commit() then removes this file of an earlier run, which this run does not replace.
   void supersede(const std::string& name) { superseded_.push_back(name); }
   /// Gives every file its name.
   Result<void> commit();

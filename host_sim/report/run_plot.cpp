@@ -90,7 +90,7 @@ Figure RunPlot::figure() const {
     }
     figure.panels.push_back(estimates);
   }
-  // What has no value at the start or the end is still drawn under what has.
+  // All panels share one time axis, also those without values at the start or the end.
   for (Panel& panel : figure.panels)
     panel.x_high = scenario_->duration_s;
   figure.panels.back().x_label = "time (s)";

@@ -35,7 +35,7 @@ Number theta(const TraceRow& row) {
   return row.estimate ? Number(row.estimate->theta[Place]) : std::nullopt;
 }
 
-/// Least squares tell how far they may be off, the others do not.
+/// Least squares reports standard deviations, the others do not.
 bool deviates(const TraceRow& row) {
   return row.estimate && std::isfinite(row.estimate->bias_deviation_W);
 }

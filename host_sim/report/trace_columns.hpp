@@ -1,4 +1,4 @@
-// What a trace tells of each tick, column by column.
+// The columns of a trace.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,16 @@ struct TraceRow {
   const control::Lever& lever;  ///< of a joint
 };
 
-/// Of numbers or of words: the other one is null.
+/// A column of numbers or of words; the other function is null.
 struct TraceColumn {
   std::string_view name;
-  /// Empty: there is nothing to tell.
+  /// Empty: no value.
   std::optional<double> (*number)(const TraceRow&) = nullptr;
   std::string_view (*word)(const TraceRow&) = nullptr;
 };
 
-/// Of a joint with its angles and, of one of two muscles, those of the antagonist; of a bundle with
-/// those of all. The rows have to have them. conditions: null: of a muscle by itself.
+/// A joint adds its angles and, if it has two muscles, the antagonist's columns; a bundle adds
+/// those of all its muscles. The rows must have them. conditions: null: of a muscle by itself.
 std::vector<TraceColumn> trace_columns(const Conditions* conditions);
 
 }  // namespace supercoil::host_sim

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t flush_bytes = 1 << 20;
 
-/// Empty cells tell that there is nothing to tell.
+/// An empty cell means that there is no value.
 class CsvTrace final : public TraceWriter {
  public:
   CsvTrace(const std::filesystem::path& path, std::int64_t every, const Conditions* conditions)
@@ -42,9 +42,9 @@ class CsvTrace final : public TraceWriter {
 };
 
 /// An array of records, in numpy's format 1.0
-/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): doubles, NaN where
-/// there is nothing to tell, and words of so many bytes. Its header gets the number of rows at the
-/// end: the file of a program that was killed has none.
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): doubles, NaN for no
+/// value, and words of word_bytes bytes. The header gets the number of rows at the end: the file of
+/// a program that was killed has none.
 class NpyTrace final : public TraceWriter {
  public:
   NpyTrace(const std::filesystem::path& path, std::int64_t every, const Conditions* conditions)
@@ -75,7 +75,7 @@ class NpyTrace final : public TraceWriter {
 
   std::string header_of_all() const override { return header(rows()); }
 
-  /// As long whatever the number.
+  /// Has the same length for every number.
   std::string header(std::int64_t count) const {
     const std::string digits = std::to_string(count);
     std::string text = "{'descr': [";

@@ -42,7 +42,7 @@ class TraceWriter {
 
  private:
   virtual void add_row(const TraceRow& row) = 0;
-  /// What stands at the file's begin, once all rows are there; empty: what was written stays.
+  /// The file's header, once all rows are there; empty: what was written stays.
   virtual std::string header_of_all() const { return {}; }
   void flush();
 
@@ -55,7 +55,7 @@ class TraceWriter {
 };
 
 /// every: one row per this many ticks, from the first on. conditions: of the scenario, for
-/// what it has beside a muscle. Numbers can be read back to the bit.
+/// what it has in addition to a muscle. Numbers can be read back to the bit.
 std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
                                          std::int64_t every,
                                          const Conditions* conditions = nullptr);

@@ -70,7 +70,7 @@ void add_coefficients(Part& part) {
       {"errata.perturbation.b1", "ϱ = 12", "b1", "", "145.54", shown(after.b1), ""});
 }
 
-/// The largest value of a model's answer to a step over its last, in percent.
+/// How far the maximum of a model's step response exceeds its final value, in percent.
 double overshoot_percent(const control::ReferenceModelSettings& settings) {
   control::ReferenceModel<double> model(settings, step_s);
   double highest = 0.0;

@@ -62,7 +62,7 @@ struct Moment {
 };
 
 /// Runs a law, power = law(LawInput), for end_s; the stiffness falls from 16 to 12 N/m at
-/// change_at_s. range: Eq. (19), or a range without end. observe(Moment) is called once a tick.
+/// change_at_s. range: Eq. (19), or an unlimited range. observe(Moment) is called once a tick.
 template <class Law, class Observe>
 void run(Law&& law, Target target, const control::ReferenceModelSettings& model_settings,
          Signal signal, const control::PowerRange& range, Observe observe) {

@@ -1,4 +1,4 @@
-// All that the program repeats of the paper.
+// The parts of the paper that the program reproduces.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ Part run_physical();
 /// Double against fixed point on the physical muscle.
 Part compare_arithmetic();
 
-/// All parts in order; told before each which one begins (0 to 1).
+/// All parts in order. progress: called before each part with its place (0 to 1).
 std::vector<Part> reproduce(const std::function<void(double)>& progress);
 
 }  // namespace supercoil::host_sim::paper

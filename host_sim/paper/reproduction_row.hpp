@@ -1,4 +1,4 @@
-// A row of the table that sets the paper's figures beside ours.
+// A row of the table that compares the paper's figures with ours.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ class Work {
     news_.notify_one();
   }
 
-  /// The handovers since the last call; waits a while if there are none.
+  /// The handovers since the last call. Waits a while for one, or until all `jobs` threads end.
   std::vector<Handover> wait(unsigned jobs) {
     using namespace std::chrono_literals;
     std::unique_lock lock(mutex_);

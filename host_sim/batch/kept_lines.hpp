@@ -13,7 +13,7 @@
 
 namespace supercoil::host_sim::batch {
 
-/// One of `of` equal shares of all runs, numbered from 1: every `of`-th run.
+/// One of `of` shares of all runs, numbered from 1: every `of`-th run.
 struct Shard {
   std::int64_t number = 1;
   std::int64_t of = 1;

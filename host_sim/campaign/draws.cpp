@@ -110,7 +110,7 @@ bool set_all(toml::table& document, const Draw& draw, const toml::node& value) {
                              [&](const std::string& key) { return set(document, key, value); });
 }
 
-/// Replaces what the study's scenario says of these tables: all contenders meet the same.
+/// Replaces the scenario's own tables on control: all contenders meet the same.
 void use_contender(toml::table& document, const compare::Document& contender) {
   if (contender.text.empty()) return;
   for (const char* table : {"controller", "estimator", "reference_model"})

@@ -27,8 +27,8 @@ class KeptRuns {
   };
   KeptRuns(const std::string& what, const Count& count, OutputFolder& folder, bool quiet);
 
-  /// Writes the runs that are known to the file; from here on it grows by whole lines. Returns the
-  /// program's exit status.
+  /// Writes the known runs to the file; from here on it grows by whole lines. Returns the program's
+  /// exit status.
   int begin(const std::function<void(std::ostream&)>& content);
   int begin(const std::string& content);
   /// A run has ended.

@@ -11,7 +11,7 @@ namespace supercoil::host_sim::compare {
 struct Document {
   std::string name;      ///< in tables
   std::string text;      ///< TOML
-  double later_s = 0.0;  ///< of a disturbance: delay
+  double later_s = 0.0;  ///< of a disturbance: delay of its events and its end
   bool steps = false;    ///< of a disturbance: asked for steps instead of its sine
 };
 

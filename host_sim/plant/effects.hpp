@@ -40,7 +40,7 @@ struct PlantEffects {
   double creep_fast_s = 5.0;
   double creep_slow_s = 60.0;
 
-  // The first heating makes the muscle permanently longer by lonely_stroke_m at lonely_stroke_at_K.
+  // The first heating lengthens the muscle for good: by lonely_stroke_m once at lonely_stroke_at_K.
   double lonely_stroke_m = 0.0;
   double lonely_stroke_at_K = 60.0;
 

@@ -29,7 +29,7 @@ class GuideFriction {
     double bristle_m;
   };
   double bristle_speed(double bristle_m, double velocity_m_per_s) const;
-  /// For motion too fast to follow the bristles: friction stays constant over the step.
+  /// For motion too fast to follow the bristles: constant friction; they yield along the path.
   Motion coarse_step(const Motion& from, const Drive& drive, const Mechanics& mechanics);
   State slope(const State& state, double stiffness_N_per_m, double force_N) const;
 

@@ -36,7 +36,7 @@ struct JointPlantSettings {
   double pretension_N = 0.883;       ///< of the agonist
   bool spring_pretensions = true;    ///< without an antagonist, the spring holds it
   double friction_ratio = 0.0;       ///< Coulomb friction at the lever over the pretension
-  double weight_Nm = 0.0;            ///< of a level arm
+  double weight_Nm = 0.0;            ///< moment of the level arm
   double hangs_at_rad = 0.0;         ///< angle at which the arm hangs freely
   double min_angle_rad = -1.5;       ///< end stops
   double max_angle_rad = 1.5;

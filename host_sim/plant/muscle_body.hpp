@@ -28,9 +28,9 @@ class MuscleBody {
 
   double rise_K() const { return heat_.rise_K(); }
   double peak_rise_K() const { return peak_K_; }
-  /// Heat lost to the air in the last step.
+  /// Heat lost to the air in the last step, in J.
   double heat_loss_J() const { return heat_.loss_J(); }
-  /// The stiffness when cold.
+  /// The highest stiffness, which the muscle has when cold.
   double max_stiffness_N_per_m() const {
     return softening_.cold_N_per_m() + creep_.stiffness_N_per_m();
   }

@@ -47,7 +47,7 @@ class NonlinearPlant {
   double position_m() const { return load_.position_m(); }
   double velocity_m_per_s() const { return load_.velocity_m_per_s(); }
   double peak_temperature_rise_K() const { return body_.peak_rise_K(); }
-  /// Heat lost to the air in the last tick.
+  /// Heat lost to the air in the last tick, in J.
   double heat_loss_J() const { return heat_loss_J_; }
   const Moisture& moisture() const { return body_.moisture(); }
 

@@ -43,7 +43,7 @@ class InfeasibleTime {
     leave_limit();
   }
 
-  /// However short: a step that cannot be made in a short run cannot be made in a long one either.
+  /// For however long: a step that cannot be made is infeasible in a long run as well.
   bool found() const { return !std::isnan(first_s_); }
   /// Infeasible ticks over all that followed a position; NaN: none did.
   double ratio() const {

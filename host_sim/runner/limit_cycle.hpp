@@ -29,8 +29,8 @@ class LimitCycle {
     last_ = LimitedBy::nothing;
     risen_s_ = NAN;
   }
-  /// Of the newest cycles, if most of them have about the same period, below a third of longest_s;
-  /// otherwise NaN.
+  /// The period of the newest cycles, if most of them last about as long, below a third of
+  /// longest_s; otherwise NaN.
   double period_s(double longest_s) const {
     std::array<double, 256> sorted = lasted_s_;
     const std::span all(sorted.data(), std::min<std::size_t>(count_, sorted.size()));

@@ -12,8 +12,8 @@ class Pace {
   explicit Pace(double step_s)
       : step_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(step_s))) {}
 
-  /// Waits until the next tick is due. The simulation catches up with delays by a busy machine of
-  /// up to a second; after a longer one it stays that far behind.
+  /// Waits until the next tick is due. The simulation makes up for delays of up to a second that a
+  /// busy machine causes; after a longer one it stays that far behind.
   void wait() {
     next_ += step_;
     const auto now = Clock::now();

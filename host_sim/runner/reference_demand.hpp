@@ -12,7 +12,7 @@ namespace supercoil::host_sim {
 class ReferenceDemand {
  public:
   /// load_N stretches the muscle. left: at the beginning of a scenario. tolerated_ratio: tolerated
-  /// excess over the maximum power, while the muscle is not behind.
+  /// excess beyond a limit over the maximum power, while the muscle is not behind.
   ReferenceDemand(const Conditions& c, const control::PhysicalParameters& muscle, double load_N,
                   const PowerLeft& left, double step_s, double tolerated_ratio = rounding_ratio);
 

@@ -22,7 +22,7 @@ struct ReferenceFeasibility {
   /// The limit that it exceeds for most of the infeasible time, and the largest excess.
   LimitedBy limited_by = LimitedBy::nothing;
   double excess_W = 0.0;
-  /// When the muscle, as its controller, has lacked power for saturated_s; NaN: not in this time.
+  /// When it, like its controller, has lacked power for saturated_s on end; NaN: not in this time.
   double invalid_s = NAN;
   double behind_m = 0.0;          ///< how far the muscle falls behind at most
   double infeasible_ratio = 0.0;  ///< of the time; says nothing about a single step

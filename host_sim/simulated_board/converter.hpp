@@ -14,7 +14,7 @@
 namespace supercoil::host_sim {
 
 struct ConverterSettings {
-  double low = 0.0;  ///< value at 0 counts; readings are clipped to low and high
+  double low = 0.0;  ///< with high: values at 0 and full scale; readings are clipped to them
   double high = 1.0;
   int bits = 16;           ///< 0: practically not quantised
   double noise_rms = 0.0;  ///< white, in every conversion

@@ -25,8 +25,8 @@ struct SimulatedBoardSettings {
   std::vector<std::vector<std::size_t>> bundles;  ///< channels; none is in two of either
 };
 
-/// The board is its own clock: waiting lets the muscles move on, and only lose_in_tick() takes time
-/// otherwise. The firmware may stop at any point; the board can go on without it.
+/// The board is its own clock: waiting lets the muscles move on, and nothing else takes time unless
+/// a caller asks for it. The firmware may stop at any point; the board can go on without it.
 class SimulatedBoard final : public hal::Clock {
  public:
   explicit SimulatedBoard(const SimulatedBoardSettings& settings);

@@ -25,7 +25,7 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
   bool is_open() const { return socket_.is_open(); }
   /// Reads at most one buffer.
   void read();
-  /// Sends a bus frame, as text, to a client in raw mode.
+  /// Sends the text of a bus frame, if the client is in raw mode.
   void hear(std::string_view frame);
   void close();
 

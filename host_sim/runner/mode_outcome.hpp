@@ -1,4 +1,4 @@
-// How an identify or calibrate that a scenario asks for ended, in words.
+// How a scenario's identify or calibrate ended, in words.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Whether a muscle can follow a scenario's reference, told before it is run.
+// Whether a muscle can follow a scenario's reference, determined before the run.
 #pragma once
 
 #include <cmath>

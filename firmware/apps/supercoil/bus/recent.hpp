@@ -38,7 +38,7 @@ class FrameHistory {
   std::uint64_t end() const;
   /// Frames between two times of the bus; a negative from is relative to the newest frame.
   std::vector<hal::CanFrame> between(hal::Time from, hal::Time to) const;
-  /// As of the newest frame; all 0 when that is more than a second old by the machine's clock.
+  /// Over the second before the newest frame; all 0 while the source is lost.
   BusFigures figures() const;
   /// supercoil nodes that have sent a message, in order.
   std::vector<std::uint8_t> nodes() const;

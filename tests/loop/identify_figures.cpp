@@ -1,7 +1,7 @@
-// What identify finds on muscles of which the board believes up to half too much or too little:
+// What identify finds on muscles whose parameters the board believes up to 50 % too high or low:
 //   identify_figures SEEDS [track|no [MUSCLE]]
-// SEEDS beliefs of each muscle; track: also how learned_ff follows a sine after each of the first
-// three. The figures of docs/identify-theory.md.
+// SEEDS: beliefs drawn for each muscle; track: also how learned_ff follows a sine after each of the
+// first three. The figures of docs/identify-theory.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ using namespace supercoil::test;
 struct Worst {
   int found = 0;
   int kept_theta1 = 0;
-  std::array<double, 3> error{};  ///< largest, of θ2 to θ4
+  std::array<double, 3> error{};  ///< largest of each, θ2 to θ4
   double max_s = 0.0;
   double hottest_C = 0.0;
   double hottest_told_C = 0.0;

@@ -1,10 +1,9 @@
-// How joints of two muscles `real` that differ by 20 % follow, of which the board believes up to
-// half too much or too little, as they are told and once they are identified; and joints of one
-// such muscle and a spring:
+// How well joints track: two `real` muscles that differ by 20 %, with the board's beliefs up to
+// 50 % off, before and after identify; and one such muscle with a spring:
 //   joint_figures [SEEDS [MOTION [CONTROLLER]]]
-// MOTION, CONTROLLER: a part of its name; the motion `identify` is that alone, and how far off it
-// is: θ2 to θ4 against the linear muscle that moves nearest to the muscle in the joint. What
-// faults, and beside a spring what may not get as hot as it is asked for, is told and not among the
+// MOTION, CONTROLLER: a part of a name. The motion `identify` only identifies, and prints how far
+// off the result is: θ2 to θ4 against the linear muscle that moves nearest to the muscle in the
+// joint. Runs that fault, or that heat holds back beside a spring, are printed but not among the
 // figures. The tables of docs/joints.md.
 #include <algorithm>
 #include <array>
@@ -42,7 +41,7 @@ class Drawn {
   explicit Drawn(int seed) : source_(static_cast<unsigned>(seed)) {}
   /// -1 to 1.
   double uniform() { return uniform_(source_); }
-  /// Each of what makes a muscle a tenth more or less.
+  /// Each varied parameter is 10 % above or below its default.
   control::PhysicalParameters muscle() {
     control::PhysicalParameters m;
     for (const char* name : varied)
@@ -78,7 +77,7 @@ struct Motion {
   double duration_s;
   double (*reference_deg)(double time_s);
   bool (*counts)(double time_s);
-  double pull_at_s;  ///< both pull twice as much from then on
+  double pull_at_s;  ///< both muscles pull twice as hard from here on
 };
 
 constexpr double never_s = 1e9;
@@ -89,7 +88,7 @@ double set_points_deg(double time_s) {
 }
 
 const std::array<Motion, 3> motions{{
-    // Settled is the last 8 s of each 20.
+    // Counts the last 8 s of each 20 s, when the joint has settled.
     {"set points", 240.0, set_points_deg,
      [](double t) { return t > 120.0 && std::fmod(t, 20.0) > 12.0; }, never_s},
     {"sine of 20 deg at 0.1 Hz", 200.0,
@@ -101,13 +100,13 @@ const std::array<Motion, 3> motions{{
 
 enum class OpposedBy { muscle, spring };
 
-/// A muscle only pulls: beside a spring a joint turns as far, around this angle instead of 0.
+/// A muscle only pulls, so a joint with a spring moves as far, but around this angle instead of 0.
 double middle_deg(OpposedBy opposed_by) {
   return opposed_by == OpposedBy::spring ? 21.0 : 0.0;
 }
 
-/// Of one seed both kinds of joint have the same agonist; the spring is as stiff as a new, cold
-/// muscle.
+/// With the same seed both kinds of joint have the same agonist; the spring is as stiff as a new,
+/// cold muscle.
 std::string scenario_of(int seed, const std::string& controller, OpposedBy opposed_by) {
   Drawn drawn(seed);
   const control::PhysicalParameters agonist = drawn.muscle();
@@ -130,8 +129,8 @@ std::string scenario_of(int seed, const std::string& controller, OpposedBy oppos
   } else {
     text += table("joint.antagonist", antagonist) + "preset = 'real'\n";
   }
-  // What is believed of the joint along its arc, each up to half off; of the force, of that at the
-  // middle of what the muscle does.
+  // Beliefs about the joint along its arc, each up to 50 % off; the force is the one at the middle
+  // of the muscle's range.
   const std::array<std::pair<const char*, const control::PhysicalParameters*>, 2> beliefs{
       {{"muscle", &agonist}, {"joint.antagonist_muscle", &antagonist}}};
   for (const auto& [title, truth] : beliefs) {
@@ -152,7 +151,7 @@ struct Found {
   double hottest_C = 0.0;
   long outside = 0;
   Fault fault = Fault::none;
-  bool held_back = false;  ///< by what is known of the muscle's heat, while it counts
+  bool held_back = false;  ///< by temperature or `unproven`, while the motion counts
 };
 
 /// What an operator does with a joint.
@@ -169,7 +168,7 @@ class Operated {
       run(1.0);
     }
   }
-  /// Every muscle in one run; false: one was not found.
+  /// All muscles in one run; false when one was not found.
   bool identify() {
     send(0, Verb::identify);
     did_ = {};
@@ -212,7 +211,7 @@ class Operated {
   }
   const Found& found() const { return found_; }
   std::size_t channels() const { return channels_; }
-  /// Of a muscle that identify found, θ2 to θ4: how far they are off.
+  /// Relative errors of θ2 to θ4 of a muscle that identify found.
   control::Vector<double, 3> error_ratio(std::size_t channel) const {
     const control::PhysicalParameters& muscle = simulation_.learned(channel)->muscle;
     const Did& did = did_.at(channel);
@@ -220,7 +219,7 @@ class Operated {
         test::best_linear(did.position_m, did.power_W, muscle.moving_mass_kg);
     return (control::theta_from(muscle).cwiseQuotient(nearest) - control::Theta::Ones()).tail<3>();
   }
-  /// Likewise, the standard deviations that are told.
+  /// The standard deviations that the board reports for them.
   control::Vector<double, 3> told_ratio(std::size_t channel) const {
     const Channel& of = simulation_.loop().channel(channel);
     return {of.known(known_theta1_deviation + 1), of.known(known_theta1_deviation + 2),
@@ -228,7 +227,7 @@ class Operated {
   }
 
  private:
-  /// A muscle while it was identified, 100 times a second.
+  /// A muscle during identify, sampled at 100 Hz.
   struct Did {
     std::vector<double> position_m;
     std::vector<double> power_W;

@@ -1,6 +1,6 @@
-// The whole firmware over a simulated board for as many ticks as is asked for: it learns, its
-// controllers take over from each other, and faults come and go. Nothing may drift: time, counters,
-// memory, heat.
+// The whole firmware over a simulated board for a given number of ticks: it learns, its controllers
+// take over from each other, and faults come and go. Nothing may drift: time, counters, memory,
+// heat.
 //   loop_soak [TICKS [MUSCLE]]    10^9 by hand (docs/architecture.md); the suite asks for fewer
 // The muscle is real or real_hard (docs/muscles.md); without one it is linear.
 #include <cstdio>
@@ -47,7 +47,7 @@ double resident_MB() {
 
 /// What must be the same after a thousand cycles as after eight.
 struct Figures {
-  double error_m = 0.0;  ///< rms over the last 5 s of a following
+  double error_m = 0.0;  ///< rms over the last 5 s of following a reference
   double resident_MB = 0.0;
 };
 
@@ -60,7 +60,7 @@ RigSettings rough_board_with(host_sim::MusclePreset preset) {
     channel.effects = muscle.effects;
     ChannelSettings& firmware = s.firmware.channels[i];
     channel.effects.air_C = channel.rise_from_C = firmware.thermal.air.warmest_C;
-    // At rest it hangs lower after its first heating.
+    // After its first heating the muscle hangs lower at rest.
     channel.position.low = -0.005;
     firmware.position.scaling = {channel.position.per_count(), channel.position.low};
     firmware.supervision.min_position_m = channel.position.low;
@@ -95,12 +95,12 @@ class Soak {
 
   Rig rig_;
   long cycles_ = 0;
-  long overruns_ = 0;  ///< those that were made
+  long overruns_ = 0;  ///< those injected
   Figures first_;
   Figures now_;
 };
 
-/// All controllers, each taken over from the one before, and open loop.
+/// All controllers, each taking over from the one before, and open loop.
 void Soak::follow() {
   rig_.send(Verb::controller, static_cast<double>(cycles_ % 3));
   rig_.heat(Task::position);

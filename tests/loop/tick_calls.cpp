@@ -1,5 +1,5 @@
-// Counts what a tick allocates, locks, writes or throws, with every detector on and every mode,
-// switch and fault passed through: nothing is allowed.
+// Counts allocations, locks, writes and exceptions in the ticks, with every detector on and through
+// every mode, switch and fault: none are allowed.
 #include <cstdio>
 #include <string>
 
@@ -40,7 +40,7 @@ void calibrate_in_vain(Rig& rig, Seen& seen) {
   run(rig, 1.0, seen);
 }
 
-/// Every answer but obedience.
+/// Provokes every refusal.
 void ask_in_vain(Rig& rig, Seen& seen) {
   rig.send(Verb::none);
   rig.send(Verb::position, std::nan(""));
@@ -52,8 +52,8 @@ void ask_in_vain(Rig& rig, Seen& seen) {
   run(rig, 0.01, seen);
 }
 
-/// The controller that follows becomes one of each law; false when one was not taken. It is the one
-/// with a reference model that every law can follow.
+/// Gives the following controller the tuning of each law in turn; false when one was refused. It is
+/// the controller with a reference model that every law can follow.
 bool tune(Rig& rig, Seen& seen) {
   constexpr std::size_t place = 2;
   rig.send(Verb::controller, place);
@@ -111,7 +111,7 @@ void live(Seen& seen) {
   int results = 0;
   while (rig.loop.channel(Rig::tested).take_learned_update(update))
     ++results;
-  // Of calibrate, identify and scale.
+  // The results of calibrate, identify and scale.
   seen.whole_life = rig.state() == State::armed && results == 3 && tuned;
 }
 

@@ -18,13 +18,13 @@ constexpr double air_error_K = 2.0;
 constexpr double sense_error_ratio = 0.02;
 constexpr double mass_error_ratio = 0.03;
 constexpr double thermometer_error_K = 1.0;
-/// Far more than any of the muscles needs for 160 °C: nothing but the hot end limits it.
+/// Far more than any muscle needs for 160 °C, so that only the hot end limits the power.
 constexpr double ample_ratio = 6.0;
 constexpr double peak_W = 25.0;
 constexpr double heater_Ohm = 5.0;
 constexpr int max_identify_s = 2000;
 
-/// What is true, of what the board knows with an error.
+/// True values of what the board knows with an error.
 struct Truth {
   double air_C;
   double supply_gain;  ///< true over measured
@@ -45,7 +45,7 @@ struct Truth {
   }
 };
 
-/// A converter whose board believes that it reads the truth.
+/// Gives a converter a gain error that the board does not know of.
 void lie(host_sim::ConverterSettings& converter, double true_over_measured) {
   converter.low *= true_over_measured;
   converter.high *= true_over_measured;
@@ -62,7 +62,7 @@ control::ControllerSettings pi() {
   return c;
 }
 
-/// The board and its muscle from a start to the next.
+/// The board and its muscle from one start to the next.
 class Life {
  public:
   Life(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth, double max_W,
@@ -87,7 +87,7 @@ class Life {
     run(Verb::none, 0.0, 0.3);
   }
 
-  /// Asked for all the time; the value may change with it.
+  /// Repeats the command all the time; its value may depend on time.
   template <class Value>
   void run_with(Verb verb, const Value& value, double time_s) {
     const double start_s = this->time_s();
@@ -104,7 +104,7 @@ class Life {
   }
   void command(Verb verb, double value) { loop_.send({0, verb, value}); }
   void note_widths(std::vector<double>* widths_K) { widths_K_ = widths_K; }
-  /// The last that the channel handed over.
+  /// The last learned update that the channel handed over.
   std::optional<board::Learned> update() {
     std::optional<board::Learned> last;
     for (board::LearnedUpdate update; loop_.channel(0).take_learned_update(update);)
@@ -113,7 +113,7 @@ class Life {
   }
   bool active() const { return state() == State::active; }
   double rise_K() const { return board_.channel(0).plant().temperature_rise_K(); }
-  /// By what is believed.
+  /// The believed time constant.
   double believed_s() const {
     return settings_.channels[0].muscle.thermal_mass_J_per_K /
            settings_.channels[0].muscle.heat_transfer_W_per_K;
@@ -159,7 +159,7 @@ class Life {
     c.supervision.max_measured_W = default_max_measured_W(max_W);
     c.supervision.energy_J = default_energy_J(max_W, c.supervision.energy_window_s);
     c.limiter.max_W = max_W;
-    c.supervision.saturated_s = 600.0;  // it asks for too much on purpose
+    c.supervision.saturated_s = 600.0;  // the test demands too much on purpose
     c.controllers = {pi()};
     c.estimators[0].kind = control::EstimatorKind::none;
 
@@ -167,7 +167,7 @@ class Life {
     const double least = std::min(0.45, 0.4 * muscle.cooling_ratio);
     t.bounds = {0.75 * believed.thermal_mass_J_per_K, 1.35 * believed.thermal_mass_J_per_K,
                 least * believed.heat_transfer_W_per_K, 2.2 * believed.heat_transfer_W_per_K};
-    t.boot_rise_K = 20.0;  // it is known to be cold
+    t.boot_rise_K = 20.0;  // the muscle is known to be cold
     const bool knows_air = knowledge != Knowledge::defaults;
     t.air.coldest_C = knows_air ? air_C - air_error_K : 15.0;
     t.air.warmest_C = knows_air ? air_C + air_error_K : 35.0;
@@ -217,7 +217,7 @@ class Life {
   long ticks_ = 0;
 };
 
-/// identify, and a thermometer read in steady heat.
+/// Runs identify, then reads a thermometer in steady heat, as far as `knowledge` includes them.
 board::ThermalFacts found_out(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
                               std::uint64_t seed, Findings& findings) {
   board::ThermalFacts facts;
@@ -239,7 +239,7 @@ board::ThermalFacts found_out(const MuscleCase& muscle, Knowledge knowledge, con
   return facts;
 }
 
-/// Levels from nothing to all of it, and steps between them.
+/// Power levels from 0 to max_W, with steps between them.
 double level_W(double time_s, double max_W) {
   constexpr std::array<double, 8> levels{0.1, 0.5, 0.2, 0.8, 0.0, 1.0, 0.3, 0.05};
   return max_W * levels[static_cast<std::size_t>(time_s / 5.0) % levels.size()];

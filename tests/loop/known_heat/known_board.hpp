@@ -1,4 +1,4 @@
-// A board that finds out about its muscle's heat step by step, and is then made to heat it.
+// A board that learns about its muscle's heat step by step, and then heats it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace supercoil::test {
 
-/// What is known, each with all before it but that a thermometer may do alone.
+/// What is known. Each level includes those before it, but thermometer_alone omits `weighed`.
 enum class Knowledge { defaults, air_and_senses, weighed, thermometer, thermometer_alone };
 inline constexpr std::array<std::string_view, 5> knowledge_names{
     "defaults: air 15 to 35 °C, senses never compared", "air ±2 K, senses ±2 %",
@@ -28,13 +28,13 @@ struct Findings {
   std::int64_t outside_ticks = 0;
   double outside_K = -1e9;    ///< how far at worst; negative: inside
   double median_width_K = 0;  ///< while it follows a motion
-  double reach_ratio = 0;  ///< of the rise from the air to 160 °C, where power does not limit it
+  double reach_ratio = 0;     ///< steady rise over that from the air to 160 °C, with ample power
   Fault fault = Fault::none;  ///< any at all
   bool cooling_found = false;
   bool read = false;
 };
 
-/// What everything that is known errs by is drawn from its error, by the seed.
+/// The seed draws the error of each known quantity from within its error bound.
 Findings measure(const MuscleCase& muscle, Knowledge knowledge, std::uint64_t seed);
 
 }  // namespace supercoil::test

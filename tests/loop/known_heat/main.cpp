@@ -1,6 +1,6 @@
-// How wide the published interval is, and how far a muscle may be heated, by what is known of its
-// heat; that it holds the truth and that nothing trips. docs/safety.md has the table.
-//   known_heat [SEEDS [JOBS]]    of every muscle; without, what the suite asks for
+// Width of the published interval, and how far a muscle may heat up, by what is known of its heat;
+// checks that the interval holds the truth and nothing trips. docs/safety.md has the table.
+//   known_heat [SEEDS [JOBS]]    all muscles; without arguments, the cases of the suite
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +24,7 @@ struct Case {
   Findings findings{};
 };
 
-/// What must be reached, on the muscle that it is said of.
+/// What must be reached on this muscle.
 struct Goal {
   MusclePreset preset;
   Knowledge knowledge;
@@ -57,7 +57,7 @@ std::vector<Case> all_cases(std::uint64_t seeds) {
   return cases;
 }
 
-/// Where there is a goal, and the hardest muscle.
+/// The cases with a goal, and the hardest muscle.
 std::vector<Case> suite_cases() {
   std::vector<Case> cases;
   for (const Goal& goal : goals) {
@@ -86,7 +86,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// A row of the table, of all seeds; whether it is as it must be.
+/// Prints one row of the table, over all seeds; returns whether it is as it must be.
 bool judge(const std::vector<Case>& seeds) {
   const Case& first = seeds.front();
   std::vector<double> widths_K;

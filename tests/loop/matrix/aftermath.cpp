@@ -12,7 +12,7 @@ bool quiet(const Rig& rig) {
          rig.loop.supervisor().verdict().fault() == Fault::none;
 }
 
-/// Held from before the cause goes until a while after it.
+/// Holds `reset` from before the cause goes until a while after it.
 std::string hold_reset(Rig& rig) {
   const Fault board = rig.loop.board_fault();
   const double max_s = rig.time_s() + 3.0;
@@ -27,7 +27,7 @@ std::string hold_reset(Rig& rig) {
   return "";
 }
 
-/// Whatever is asked of both: neither heats, not even when the supply closes for the self-test.
+/// Whatever is commanded, neither channel heats, not even when the supply closes for the self-test.
 std::string restarts(Rig& rig, Fault neighbours) {
   const double end_s = rig.time_s() + 0.4;
   for (int i = 0; rig.time_s() < end_s; ++i) {
@@ -56,7 +56,7 @@ std::string aftermath(const FaultCase& c, Rig& rig, Fault first, Fault neighbour
   if (std::string wrong = neighbour_wrong(rig, neighbours); !wrong.empty()) return wrong;
   if (c.fault != Fault::emergency_stop) rig.board.stop_circuit.level.high = true;
   rig.run_ticks(3);
-  // A reset while the cause is there does nothing. (Of some, nothing is seen once power is off.)
+  // A reset does nothing while the cause is there. (Some causes do not show once power is off.)
   const bool seen = !quiet(rig);
   rig.send(Verb::reset);
   rig.tick();
@@ -71,7 +71,7 @@ std::string aftermath(const FaultCase& c, Rig& rig, Fault first, Fault neighbour
     rig.send(Verb::reset);
     rig.tick();
   }
-  // One edge is for the channel and for its board.
+  // One edge resets both the channel and its board.
   if (rig.state() != State::disarmed || rig.loop.board_fault() != Fault::none) {
     return "it cannot be reset: " + text(rig.loop.channel(Rig::tested).present_fault()) +
            ", board " + text(rig.loop.board_fault());

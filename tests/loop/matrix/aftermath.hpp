@@ -1,4 +1,4 @@
-// When a fault was seen and all is cold: what may come after it.
+// What may follow once a fault was detected and everything is cold.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace supercoil::test {
 
-/// The first cause is kept, only an edge resets, one is enough, and only when the cause is gone;
+/// The first cause is kept; one edge resets, nothing else does, and only once the cause is gone;
 /// nothing heats again by itself. `first`: the cause of the tested channel; `neighbours`: that of
 /// its neighbour, or none.
 std::string aftermath(const FaultCase& fault_case, Rig& rig, Fault first, Fault neighbours);

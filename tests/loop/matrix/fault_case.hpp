@@ -1,4 +1,4 @@
-// How each fault is brought about on the simulated board, and how soon it must be seen.
+// How each fault is injected on the simulated board, and how soon it must be detected.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace supercoil::test {
 
-/// The rule for every rate: a time that does not depend on it, and so many periods. The time is how
-/// long the detector holds, and what the board's filters and the muscle need. The periods are 2,
-/// one until a tick reads it and one for the rounding to whole ticks; or, where a detector counts
-/// ticks instead, what it counts and one.
+/// The deadline at any rate: a time that does not depend on the rate, plus a number of periods. The
+/// time covers the detector's hold time, the board's filters and the muscle. The periods are 2, one
+/// until a tick reads it and one for rounding to whole ticks; where a detector counts ticks, they
+/// are its count plus one instead.
 struct Within {
   double time_s;
   int periods = 2;
@@ -26,21 +26,21 @@ inline std::string text(Fault fault) {
 
 struct FaultCase {
   Fault fault;
-  std::string how = {};  ///< it comes about, when that is not the obvious way
+  std::string how = {};  ///< how it comes about, when that is not obvious
   Within within;         ///< from the injection to heater off, and to the board's fault
   std::vector<Situation> elsewhere = {};  ///< where it cannot come about,
   std::string why_not = {};               ///< and why
   std::function<void(Rig&)> inject;       ///< into the tested channel, or the whole board
   std::function<void(Rig&)> remove;
   std::function<void(RigSettings&)> tune = [](RigSettings&) {};  ///< thresholds for the test
-  /// Where another detector is as right and faster: the first cause is then this one.
+  /// The first cause where another detector is just as right, and faster.
   std::function<Fault(Situation)> first = nullptr;
 };
 
 /// At least one of every fault but self_test_failed and those of a joint.
 const std::vector<FaultCase>& fault_cases();
 
-/// Whether the fault can come about there.
+/// Whether the fault can occur in this situation.
 bool possible(const FaultCase& fault_case, Situation situation);
 
 }  // namespace supercoil::test

@@ -1,4 +1,4 @@
-// Every fault × everything that a channel can be doing, and a part of it at the slowest and the
+// Every fault × everything that a channel can be doing, and some of them at the slowest and the
 // fastest rate. Prints what was tried; its exit status is the verdict.
 #include <cstdio>
 #include <span>
@@ -16,7 +16,7 @@ struct Count {
   int not_possible = 0;
 };
 
-/// At a rate, where.
+/// One rate, and the situations tried at it.
 struct Run {
   double rate_Hz;
   std::span<const SituationName> situations;
@@ -90,7 +90,7 @@ int failed(const Run& run) {
 }  // namespace
 
 int main() {
-  // Between them every fault can come about.
+  // Every fault can occur in at least one of these.
   constexpr std::array<SituationName, 3> at_other_rates{{{Situation::arming, "arming"},
                                                          {Situation::armed, "armed"},
                                                          {Situation::mrac, "active, mrac"}}};

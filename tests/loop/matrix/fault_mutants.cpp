@@ -22,7 +22,7 @@ int main() {
     std::printf("without %-24s %s\n", std::string(fault.name).c_str(),
                 wrong.empty() ? "NOT NOTICED" : wrong.c_str());
   }
-  // The mutation itself does no harm: without any, nothing is to be noticed.
+  // The mutation itself does no harm: with no detector disabled, the matrix must notice nothing.
   disabled_detector = Fault::none;
   const std::string harm = noticed(Fault::emergency_stop, nothing);
   if (!harm.empty()) std::printf("the unmutated supervisor fails: %s\n", harm.c_str());

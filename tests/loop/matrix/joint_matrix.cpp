@@ -1,5 +1,5 @@
 // Every fault on a board whose two channels are a joint: whatever is wrong with one muscle, both go
-// cold in the same tick, and both tell the same cause. Its exit status is the verdict.
+// cold in the same tick and report the same cause. Its exit status is the verdict.
 #include <cstdio>
 
 #include "loop/matrix/cases/cases.hpp"
@@ -10,7 +10,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// What both channels do; the situation of a single channel that is like it.
+/// What both channels do, and the situation of a single channel that is most like it.
 struct JointSituation {
   Situation like;
   const char* name;

@@ -7,11 +7,11 @@ namespace supercoil::test {
 
 namespace {
 
-/// Of what a single muscle is asked for: a joint of 8 mm either way needs less,
+/// Scales the commands of a single muscle: a joint of 8 mm either way needs less,
 constexpr double joint_scale = 0.3;
-constexpr double max_joint_scale = 0.56;  ///< and takes no more.
+constexpr double max_joint_scale = 0.56;  ///< and takes no more
 
-/// Thresholds of a joint, which each muscle moves half as far and at half of the power.
+/// Thresholds of a joint: each muscle moves it half as far, with half the power.
 void tune_joint(const FaultCase& c, RigSettings& s) {
   for (ChannelSettings& channel : s.firmware.channels) {
     channel.thermal.boot_rise_K = 20.0;
@@ -25,7 +25,7 @@ void tune_joint(const FaultCase& c, RigSettings& s) {
 }
 
 void bring_to_joint(const FaultCase& c, Situation situation, Rig& rig) {
-  // Weak heaters must not be at their limits before, nor the joint near its end stops.
+  // Before the fault, weak heaters must not be at their limits, nor the joint near its end stops.
   const bool near_zero = c.fault == Fault::controller_invalid || c.fault == Fault::muscle_loose;
   rig.scale = near_zero ? 0.1 : joint_scale;
   rig.boot();
@@ -66,8 +66,8 @@ std::string try_joint(const FaultCase& c, Situation situation) {
   if (rig.fault() != Fault::none) return "before the injection there was " + text(rig.fault());
   const double asked = rig.scale;
   c.inject(rig);
-  // Who holds a sensor that has stopped is asked for nothing; who moves is. Not for more than there
-  // is, which would be muscle_loose.
+  // Holding still demands nothing from a muscle whose sensor has stopped, so the reference moves;
+  // but not for more than the power there is, which would be muscle_loose.
   if (c.fault == Fault::heater_not_responding) {
     rig.before_tick = [&rig] {
       rig.scale = joint_scale * (1.0 + 0.4 * std::sin(0.5 * rig.time_s()));
@@ -79,7 +79,7 @@ std::string try_joint(const FaultCase& c, Situation situation) {
       !wrong.empty())
     return wrong;
   if (rig.interval_missed) return "a temperature left its interval";
-  // Gone or not, nothing heats again by itself.
+  // Whether or not the cause is gone, nothing heats again by itself.
   c.remove(rig);
   const double end_s = rig.time_s() + 1.0;
   while (rig.time_s() < end_s) {

@@ -7,7 +7,7 @@
 
 namespace supercoil::test {
 
-/// What was not as it must be; empty: nothing. situation: of a single channel, like that of both.
+/// What went wrong; empty: nothing. situation: the single channel's that is like that of both.
 std::string try_joint(const FaultCase& fault_case, Situation situation);
 
 }  // namespace supercoil::test

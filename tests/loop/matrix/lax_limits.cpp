@@ -7,7 +7,7 @@ namespace {
 using Loosen = std::function<void(RigSettings&)>;
 
 constexpr double lax = 3.0;
-constexpr double lax_below = 1.0 / lax;  ///< of a limit that must not be fallen below
+constexpr double lax_below = 1.0 / lax;  ///< for lower limits
 
 template <typename Number>
 Loosen channel(Number ChannelSupervision::*limit, double times = lax) {
@@ -34,11 +34,11 @@ void older_currents(RigSettings& s) {
 void older_supplies(RigSettings& s) {
   s.firmware.supply.max_age_s *= lax;
 }
-/// At once is no time that could be multiplied.
+/// A hold time of zero cannot be multiplied.
 void bus_off_later(RigSettings& s) {
   s.firmware.supervision.bus_off_s = lax * s.firmware.step_s();
 }
-/// Nothing of the firmware: what it counts on.
+/// Nothing in the firmware, but the hardware that it counts on.
 void slower_pump(RigSettings& s) {
   s.board.charge_pump_decay_s *= lax;
 }
@@ -88,7 +88,7 @@ std::vector<LaxLimit> of_muscle() {
       {"trip_C", Fault::over_temperature, channel(&C::trip_C)},
       {"max_travel", Fault::over_travel, channel(&C::max_travel_m)},
       {"energy_J", Fault::energy_budget_exceeded, channel(&C::energy_J)},
-      // What is on the account leaves it sooner.
+      // A shorter window is laxer: energy leaves the account sooner.
       {"energy_window_s", Fault::energy_budget_exceeded, channel(&C::energy_window_s, lax_below)},
       {"resistance_ratio", Fault::resistance_drift, channel(&C::resistance_ratio)},
       {"max_measured_W", Fault::power_limit_exceeded, channel(&C::max_measured_W)},

@@ -12,7 +12,7 @@ namespace supercoil::test {
 
 struct LaxLimit {
   std::string name;
-  Fault fault;  ///< that it delays, or hides
+  Fault fault;  ///< the fault that it delays or hides
   std::function<void(RigSettings&)> loosen;
   std::string why_not = {};  ///< why the matrix cannot notice it
 };

@@ -1,5 +1,5 @@
 // Makes each hold time and each limit three times as lax, and asks the matrix whether it notices:
-// else the times that it states would be no proof. Four faults have no number that could be lax
+// otherwise the times that it states would prove nothing. Four faults have no number to make lax
 // (line_failed, emergency_stop, configuration_invalid, self_test_failed): `fault_mutants` has them.
 #include <cstdio>
 

@@ -4,7 +4,7 @@ namespace supercoil::test {
 
 namespace {
 
-/// From the muscle to its reference model, both of which began at rest half a second before.
+/// Max distance of the muscle from its reference model; both began at rest half a second before.
 constexpr double tracking_m = 0.5e-3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a fault of the tested channel does to the muscle beside it: nothing, or all.
+// What a fault of the tested channel does to its neighbour: nothing, or the same fault.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 namespace supercoil::test {
 
 /// What is wrong with the neighbour at this tick. With Fault::none it must go on as if nothing had
-/// happened: active, without fault, and where its reference model is. Else it must be in fault,
-/// with this cause.
+/// happened: active, without fault, and where its reference model is. Otherwise it must be in
+/// fault, with this cause.
 std::string neighbour_wrong(const Rig& rig, Fault cause);
 
 }  // namespace supercoil::test

@@ -8,8 +8,8 @@
 
 namespace supercoil::test {
 
-/// What the matrix says first, at 1 kHz, about a board whose settings were changed; empty when it
-/// notices nothing. A trial that fails for another reason than lacking protection does not count.
+/// The matrix's first complaint, at 1 kHz, about a board whose settings were changed; empty when it
+/// notices nothing. A trial that fails for a reason other than missing protection does not count.
 std::string noticed(Fault fault, const std::function<void(RigSettings&)>& change);
 
 }  // namespace supercoil::test

@@ -7,18 +7,18 @@ namespace supercoil::test {
 
 namespace {
 
-/// Both ways of cutting, at the tick of the fault.
+/// Checks both ways of cutting the heat, at the tick of the fault.
 std::string lines_wrong(Rig& rig, std::uint8_t channel) {
   const host_sim::MuscleChannel& muscle = rig.board.channel(channel);
   const std::string which = channel == Rig::tested ? "" : "of the neighbour ";
   if (muscle.enable.high()) return which + "the enable line is high";
-  // One that reads back wrongly is one step off; one that refuses is cut by its enable line alone.
+  // A PWM that reads back wrongly is one step off; one that refuses is cut by its enable line.
   const bool obeys = muscle.pwm.refuses == hal::Status::ok;
   if (obeys && muscle.pwm.read_back() > 1) return which + "the duty is not 0";
   return "";
 }
 
-/// A fault of the whole board: the neighbour with it, and the supply open when the pump has
+/// A fault of the whole board: the neighbour is cold too, and the supply is open once the pump has
 /// decayed.
 std::string board_wrong(Rig& rig, Fault fault, double decay_s) {
   if (rig.loop.board_fault() != fault)
@@ -47,7 +47,7 @@ std::string heated(Rig& rig, Fault neighbours) {
 
 RigSettings board_for(const FaultCase& c, double rate_Hz) {
   RigSettings settings = rough_board(rate_Hz);
-  // Cold muscles: else every trial begins with waiting until they must have cooled.
+  // Muscles known to be cold: otherwise every trial would first wait until they must have cooled.
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.thermal.boot_rise_K = 20.0;
   c.tune(settings);
@@ -94,7 +94,7 @@ std::string try_fault(const FaultCase& c, Situation situation, const RigSettings
   } else {
     rig.run_ticks(2);
   }
-  // The bus is everybody's, but nothing is wrong with the board: its heartbeat goes on.
+  // All channels share the bus, but nothing is wrong with the board: its heartbeat goes on.
   const bool everybody = of_board || before || fault.group == "bus";
   const Fault neighbours = everybody ? boards : Fault::none;
   if (std::string wrong = heated(rig, neighbours); !wrong.empty()) return wrong;

@@ -10,7 +10,7 @@ namespace supercoil::test {
 /// The board on which a case is tried, with the thresholds that it needs.
 RigSettings board_for(const FaultCase& fault_case, double rate_Hz = 1000.0);
 
-/// Empty when all held; else what did not.
+/// What did not hold; empty when everything did.
 std::string try_fault(const FaultCase& fault_case, Situation situation, const RigSettings& settings,
                       double* seen_after_s);
 

@@ -1,4 +1,4 @@
-// What a muscle that is not linear is compared with.
+// The linear muscle that a nonlinear one is compared with.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace supercoil::test {
 
-/// The linear muscle whose motion under this power is nearest to this motion; both 100 times a
-/// second.
+/// The linear muscle whose motion under this power is nearest to this motion; both sampled at
+/// 100 Hz.
 inline control::Theta best_linear(const std::vector<double>& position_m,
                                   const std::vector<double>& power_W, double moving_mass_kg) {
   identification::Samples samples;

@@ -14,8 +14,8 @@ inline constexpr std::uint8_t follower = Rig::neighbour;
 inline constexpr std::uint8_t last = 2;
 inline constexpr std::size_t muscles = 3;
 
-/// The muscles differ by a fifth in heat transfer and a tenth in resistance; the firmware is told
-/// the motion of all three together, and one cold resistance. A resistance tells no temperature.
+/// The muscles differ by a fifth in heat transfer and a tenth in resistance; the firmware knows the
+/// motion of all three together, and one cold resistance. Resistance does not tell temperature.
 inline RigSettings bundle_board() {
   RigSettings s = rough_board();
   s.board.channels.push_back(s.board.channels[leader]);
@@ -40,7 +40,7 @@ inline RigSettings bundle_board() {
   return s;
 }
 
-/// A group's fixture.
+/// The fixture of a test group.
 struct BundleCase : Utest {
   Rig rig{bundle_board()};
 
@@ -63,7 +63,7 @@ struct BundleCase : Utest {
     CHECK(all(State::armed));
     rig.run(0.2);
   }
-  /// Renewed at each tick.
+  /// Renews the command at each tick.
   void hold(Verb verb, double value, double time_s) {
     const double from_s = rig.time_s();
     while (rig.time_s() - from_s < time_s) {
@@ -71,7 +71,7 @@ struct BundleCase : Utest {
       rig.tick();
     }
   }
-  /// Until the mode has ended by itself.
+  /// Runs until the mode has ended by itself.
   bool measures_to_the_end(Verb mode, double max_s) {
     CHECK(rig.answer_of(leader, mode) == Refusal::none);
     return rig.run_until(

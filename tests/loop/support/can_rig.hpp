@@ -1,4 +1,4 @@
-// The rough board on a CAN bus, and a master who commands it there.
+// The rough board on a CAN bus, and a master that commands it there.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class CanRig {
   CanRig(const CanRig&) = delete;
   CanRig& operator=(const CanRig&) = delete;
 
-  /// One tick, with what other threads do.
+  /// One tick, including the work of other threads.
   void tick() {
     executive.run_tick();
     loop.health().telemetry_heartbeats.store(++beats_);
@@ -53,7 +53,7 @@ class CanRig {
   Refusal command(Master& who, Verb verb, float value = 0.0F) {
     return command(who, static_cast<std::uint8_t>(verb), value);
   }
-  /// What the board says to a frame about settings; all zero: nothing.
+  /// The board's answer to a frame about settings; all zero: none.
   supercoil_setting_t ask_setting(const hal::CanFrame& frame) {
     settings_told.clear();
     bus.deliver(frame);

@@ -27,8 +27,8 @@ control::PhysicalParameters muscle_of(const MuscleKind& kind) {
   return parsed("[plant]\n" + std::string(kind.plant)).start.plant.parameters;
 }
 
-/// The span of a quantity that is believed to be so many times what it is, no narrower than the
-/// default one would be about the truth.
+/// The span of a quantity that is believed to be `believed_ratio` times the truth; no narrower than
+/// the default span around the truth.
 std::string span(double believed_ratio, double low, double high) {
   return "[" + std::to_string(std::min(1.0, low / believed_ratio)) + ", " +
          std::to_string(std::max(1.0, high / believed_ratio)) + "]\n";
@@ -56,7 +56,7 @@ std::string scenario_of(const MuscleKind& kind, int seed, double duration_s, Hea
             "transfer_ratio = " +
             span(b.heat_transfer_W_per_K / truth.heat_transfer_W_per_K, 0.45, 2.2);
   }
-  // The windows in which heater_not_responding judges go on from boot.
+  // heater_not_responding counts its windows from boot, so the start time is random.
   std::uniform_real_distribution<double> start_s(0.1, 20.1);
   text +=
       "[[event]]\nat_s = " + std::to_string(start_s(random)) + "\noperator.action = 'identify'\n";

@@ -1,4 +1,4 @@
-// The mode identify on muscles that are not as the board believes.
+// The mode identify on muscles that differ from what the board believes.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ struct MuscleKind {
   std::string_view name;
   std::string_view plant;  ///< keys of [plant]
   double max_W;
-  double sine_rad_per_s;  ///< that it can follow, between these:
+  double sine_rad_per_s;  ///< a sine that it can follow, between these:
   double sine_bottom_m = 0.002;
   double sine_top_m = 0.020;
 };
 
-/// Those of docs/muscles.md, and such that differ from the paper's in one thing.
+/// Those of docs/muscles.md, and some that differ from the paper's in one thing.
 inline constexpr std::array<MuscleKind, 11> muscle_kinds{{
     {"paper", "preset = 'paper'", 4.5, 0.25},
     {"real", "preset = 'real'", 4.5, 0.25},
@@ -45,27 +45,27 @@ struct Identified {
   Fault fault = Fault::none;
   std::optional<board::Learned> learned;
   control::PhysicalParameters truth;  ///< of the cold muscle, without its effects
-  double ended_s = 0.0;               ///< in the scenario,
-  double took_s = 0.0;                ///< after it was asked for
-  double hottest_C = 0.0;             ///< truly
+  double ended_s = 0.0;               ///< time in the scenario
+  double took_s = 0.0;                ///< since the command
+  double hottest_C = 0.0;             ///< the true temperature
   double hottest_told_C = 0.0;        ///< the hot end of the board's interval
   double max_m = 0.0;
-  double min_m = 0.0;  ///< at most 0: how far below where it began, once it had moved
-  /// What it did, 100 times a second.
+  double min_m = 0.0;  ///< at most 0: how far below its start it came, once it had moved
+  /// What it did, sampled at 100 Hz.
   std::vector<double> position_m;
   std::vector<double> power_W;
 };
 
-/// The board's bounds of heat: about its belief, as wrong as that is, or about the truth.
+/// Whether the board's bounds of heat are around its belief, wrong as that is, or around the truth.
 enum class Heat { believed, known };
 
 /// Every physical parameter of the belief is the muscle's times a random factor of 0.5 to 1.5, and
-/// it is asked for at a random time.
+/// identify begins at a random time.
 Identified run_identify(const MuscleKind& kind, int seed, Heat heat = Heat::believed);
 
-/// As run_identify() with known heat, which leaves the power for a full stroke; then learned_ff
-/// follows a sine. The true tracking error in the fourth to sixth period, rms in m. NaN when the
-/// muscle was not found.
+/// Like run_identify() with Heat::known, which leaves enough power for a full stroke; learned_ff
+/// then follows a sine. Returns the true tracking error in the fourth to sixth period, rms in m;
+/// NaN when the muscle was not found.
 double tracking_after(const MuscleKind& kind, int seed);
 
 }  // namespace supercoil::test

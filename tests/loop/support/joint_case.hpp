@@ -16,8 +16,8 @@ inline constexpr std::uint8_t antagonist = Rig::neighbour;
 inline constexpr double lever_m = 0.015;
 inline constexpr double degree_m = lever_m * 3.14159265358979 / 180.0;
 
-/// Both muscles are known as they are, as after identify. Resistance tells no temperature here: it
-/// would tell sooner what is wrong.
+/// Both muscles are known exactly, as after identify. Resistance does not tell temperature here: it
+/// would reveal sooner what is wrong.
 inline RigSettings known_joint(double co_contraction_W) {
   RigSettings settings = joint_board();
   for (std::size_t i = 0; i < settings.firmware.channels.size(); ++i) {
@@ -39,7 +39,7 @@ inline void begin(Rig& rig) {
   rig.run(0.2);
 }
 
-/// Identifies or calibrates the agonist, and what goes on with it; whether that ends before max_s.
+/// Starts the mode at the agonist; whether it ends before max_s, with all that it goes on to.
 inline bool measures_to_the_end(Rig& rig, Verb mode, double max_s) {
   CHECK(rig.answer_of(agonist, mode) == Refusal::none);
   return rig.run_until(
@@ -61,7 +61,7 @@ inline bool follows_until_fault(Rig& rig, double max_s,
       max_s);
 }
 
-/// A group's fixture.
+/// The fixture of a test group.
 struct JointCase : Utest {
   Rig rig{joint_board()};
 
@@ -86,7 +86,7 @@ struct JointCase : Utest {
     rig.run(0.2);
   }
   void follow(double position_m) { rig.send(Verb::position, position_m); }
-  /// Renewed at each tick; reference of the time since now.
+  /// Renews the command at each tick; `reference_m` takes the time since now.
   void follow_for(
       double time_s, const std::function<double(double)>& reference_m,
       const std::function<void()>& look = [] {}) {

@@ -55,7 +55,7 @@ void add_channel(RigSettings& s) {
 RigSettings rough_board(double rate_Hz) {
   RigSettings s;
   s.board.rate_Hz = rate_Hz;
-  // At the fast rates a period is short against everything on the board.
+  // At high rates a period is short compared with everything on the board.
   s.board.substeps = rate_Hz > 5e3 ? 1 : 5;
   s.board.supply = {0.0, 30.0, 14, 0.005};
   s.board.channels.clear();
@@ -64,7 +64,7 @@ RigSettings rough_board(double rate_Hz) {
   board.rate_Hz = rate_Hz;
   board.supply.scaling = {s.board.supply.per_count(), s.board.supply.low};
   board.supervision.late_s = 0.5 * board.step_s();
-  // The pump must outlive the overruns that are borne, twice.
+  // The pump must outlive twice the overruns that are tolerated.
   const double borne_s = board.supervision.overruns_in_a_row * board.step_s();
   board.supervision.charge_pump_decay_s =
       std::max(board.supervision.charge_pump_decay_s, 2.4 * borne_s);
@@ -119,7 +119,7 @@ Rig::Rig(const RigSettings& settings)
 
 void Rig::ask() {
   if (!commands_flow) return;
-  // What is scaled does not wait for the wave's crest.
+  // Scaled commands are constant: they do not wait for the wave's crest.
   const double wave = scale == 1.0 ? std::sin(0.8 * time_s()) : 1.0;
   switch (task) {
     case Task::position:
@@ -215,7 +215,7 @@ void Rig::hold_power(double power_W, double time_s) {
 
 void Rig::boot() {
   run_until([&] { return loop.self_test().passed() || loop.self_test().failed(); }, 2.0);
-  // Until then the muscle may be hot from before, and nothing is armed.
+  // Until it must have cooled the muscle may be hot from before, and nothing is armed.
   const auto cool = [&](std::uint8_t i) { return loop.channel(i).snapshot().hottest_C < 120.0; };
   run_until([&] { return cool(tested) && cool(neighbour); }, 10.0);
   run(0.1);

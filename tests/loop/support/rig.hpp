@@ -11,7 +11,7 @@
 
 namespace supercoil::test {
 
-/// What the muscle under test is asked for, by time since boot.
+/// What the tested muscle is asked for, by time since boot.
 enum class Task { nothing, position, power, identify, calibrate };
 
 struct RigSettings {
@@ -19,15 +19,15 @@ struct RigSettings {
   BoardSettings firmware;
 };
 
-/// Two channels; places of controllers: 0 pi, 1 pd_ff, 2 mrac. What a board's settings must have in
-/// common with its rate has it.
+/// Two channels; places of controllers: 0 pi, 1 pd_ff, 2 mrac. Settings that depend on the rate are
+/// set for it.
 RigSettings rough_board(double rate_Hz = 1000.0);
 
 /// The same with both muscles at one joint, the tested one its agonist; place 0 is learned_ff. The
 /// muscles differ by 20 % in heat transfer and force.
 RigSettings joint_board(double rate_Hz = 1000.0);
 
-/// Channel 0 is under test, and all that is not said to be the neighbour's is about it.
+/// Channel 0 is under test; whatever does not name the neighbour is about channel 0.
 class Rig {
  public:
   static constexpr std::uint8_t tested = 0;
@@ -37,11 +37,11 @@ class Rig {
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  /// One tick: what is asked for, then the firmware.
+  /// One tick: commands what the task asks for, then runs the firmware.
   void tick();
   void run(double time_s);
   void run_ticks(int ticks);
-  /// Until it holds; false when it does not within max_s.
+  /// Runs until the condition holds; false when it does not within max_s.
   bool run_until(const std::function<bool()>& holds, double max_s);
 
   /// Boots and passes the self-test; then arms (which probes); then heats.
@@ -52,11 +52,11 @@ class Rig {
   void start_neighbour();
 
   void send(Verb verb, double value = 0.0) { loop.send({tested, verb, value}); }
-  /// Sends it, and runs the tick that answers. Not for a rig that sends by itself (task).
+  /// Sends it, and runs the tick that answers. Not for a rig with a task, which sends by itself.
   Refusal answer_to(Verb verb, double value = 0.0);
-  /// The same of either channel.
+  /// The same for either channel.
   Refusal answer_of(std::uint8_t channel, Verb verb, double value = 0.0);
-  /// Commands it for so long, again before it expires.
+  /// Holds this power for this time; renews the command before it expires.
   void hold_power(double power_W, double time_s);
   State state() const { return loop.channel(tested).state().state(); }
   Fault fault() const { return loop.channel(tested).state().first_cause(); }
@@ -64,9 +64,9 @@ class Rig {
   host_sim::MuscleChannel& muscle() { return board.channel(tested); }
   double time_s() const { return hal::seconds(board.true_time()); }
   double period_s() const { return period_s_; }
-  /// Of the last command to any but the neighbour that was not obeyed.
+  /// Of the last command that was not obeyed, by any channel but the neighbour.
   Refusal last_refusal = Refusal::none;
-  double last_nearest = NAN;              ///< of that answer
+  double last_nearest = NAN;              ///< the nearest value in that answer
   std::array<Refusal, 2> last_answers{};  ///< to the last command to each channel
   /// The answer to the tested channel's last reset.
   Refusal answer_to_reset = Refusal::none;

@@ -38,9 +38,9 @@ inline constexpr std::array<SituationName, 10> situations{{
     {Situation::fault, "fault"},
 }};
 
-/// A rig is booted and brought there, its neighbour active; the muscle is warm in the active ones.
-/// In `fault` the emergency stop was pressed, and is released: the neighbour has that fault as
-/// well.
+/// Boots a rig and brings it into the situation, with its neighbour active; the muscle is warm in
+/// the active ones. For `fault` the emergency stop is pressed and released: the neighbour has that
+/// fault as well.
 inline void bring_to(Situation situation, Rig& rig) {
   rig.boot();
   rig.start_neighbour();

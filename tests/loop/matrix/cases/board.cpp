@@ -24,7 +24,7 @@ void wake_late(Rig& rig) {
   every_tick(rig, [&rig] { rig.board.oversleep(0.8 * rig.period_s()); });
 }
 
-/// A board that takes its steps at whole periods only wakes nobody late.
+/// A simulated board that steps only at whole periods cannot wake the loop late.
 void finer_steps(RigSettings& settings) {
   settings.board.substeps = 5;
 }
@@ -42,7 +42,7 @@ std::vector<FaultCase> board_cases() {
        .inject = [](Rig& r) { r.board.supply.set({.silent = true}); },
        .remove = [](Rig& r) { r.board.supply.set({.silent = false}); }},
       {.fault = Fault::over_voltage, .within = {0.02}, .inject = supply(14.5), .remove = well},
-      // Two periods a tick, and five of them left out.
+      // Each tick takes two periods, and the fault needs five left out.
       {.fault = Fault::overrun, .within = {0.0, 12}, .inject = overrun, .remove = nothing_more},
       {.fault = Fault::tick_late,
        .within = {0.0, 6},

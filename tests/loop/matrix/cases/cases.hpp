@@ -16,7 +16,7 @@ std::vector<FaultCase> board_cases();
 std::vector<FaultCase> joint_cases();
 std::vector<FaultCase> command_cases();
 
-/// The muscle gets no power, or next to none.
+/// The muscle gets no power, or almost none.
 inline const std::vector<Situation> cold{Situation::disarmed, Situation::arming, Situation::armed,
                                          Situation::calibrate, Situation::fault};
 

@@ -1,4 +1,4 @@
-// Whoever commands, and the controller.
+// Faults of commands, and of the controller.
 #include "loop/matrix/cases/cases.hpp"
 
 namespace supercoil::test {
@@ -16,7 +16,7 @@ void damage(Rig& rig) {
   every_tick(rig, [&rig] { rig.loop.send_damaged(Rig::tested); });
 }
 
-/// Arming where that is done, heating where it is not.
+/// `rest` where the channel is off, `arm` everywhere else: neither is allowed there.
 void ask_for_what_is_not_allowed(Rig& rig) {
   rig.commands_flow = false;
   every_tick(rig, [&rig] {

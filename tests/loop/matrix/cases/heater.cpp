@@ -8,8 +8,8 @@ using enum Situation;
 
 const std::vector<Situation> without_duty{disarmed, armed, calibrate, fault};
 
-/// More than was asked for looks like a short at first; when it goes on after the channel was made
-/// safe, the board cuts the supply.
+/// Too much current looks like a short at first; when it goes on after the channel was made safe,
+/// the board cuts the supply.
 Fault first_of_stuck_on(Situation s) {
   const bool off = s == disarmed || s == armed || s == calibrate;
   return off ? Fault::heater_stuck_on : Fault::heater_short;
@@ -18,7 +18,7 @@ Fault first_of_stuck_on(Situation s) {
 /// Where resistance tells the temperature, `sensors_disagree` is faster.
 void deaf_resistance(RigSettings& s) {
   s.firmware.channels[Rig::tested].heater.temperature_coefficient_per_K = 0.0;
-  // 40 s at 10 kHz would take as long as all other trials of a rate.
+  // At 10 kHz, 40 s would take as long as all other trials of that rate.
   if (s.firmware.rate_Hz > 1e3)
     s.firmware.channels[Rig::tested].supervision.responding_window_s = 5;
 }
@@ -37,7 +37,7 @@ std::vector<FaultCase> heater_cases() {
        .within = {0.006},
        .elsewhere = without_duty,
        .why_not = "no duty is given",
-       // Together with the muscle a third of the least resistance that it may have.
+       // In parallel with the muscle, a third of the min resistance.
        .inject = [](Rig& r) { r.muscle().faults.short_Ohm = 1.9; },
        .remove = [](Rig& r) { r.muscle().faults.short_Ohm = 0.0; }},
       {.fault = Fault::heater_stuck_on,
@@ -50,8 +50,8 @@ std::vector<FaultCase> heater_cases() {
        .within = {0.06},
        .inject = [](Rig& r) { r.muscle().current.set({.silent = true}); },
        .remove = [](Rig& r) { r.muscle().current.set({.silent = false}); },
-       // Cold as far as is known; when nobody can tell whether that is so, the board cuts the
-       // supply.
+       // The channel is cold as far as is known; when nothing can tell whether it is, the board
+       // cuts the supply.
        .first = [](Situation) { return Fault::sensor_stale; }},
       {.fault = Fault::heater_not_responding,
        .within = {40.0},

@@ -4,7 +4,7 @@ namespace supercoil::test {
 
 namespace {
 
-/// End stops within the travel, or a torn muscle is over_travel of the other one.
+/// End stops within the travel: otherwise a torn muscle causes over_travel of the other one.
 void end_stops(RigSettings& s) {
   host_sim::JointPlantSettings& joint = s.board.joints[0].plant;
   joint.min_angle_rad = -0.4;

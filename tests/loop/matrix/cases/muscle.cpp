@@ -43,7 +43,7 @@ void small_budget(RigSettings& s) {
 
 void slow_power_stage(RigSettings& s) {
   ChannelSettings& channel = s.firmware.channels[Rig::tested];
-  // The measured resistance lags: else the power stage corrects itself within 0.2 s.
+  // The measured resistance lags: otherwise the power stage corrects itself within 0.2 s.
   channel.heater.resistance_filter_s = 10.0;
   channel.supervision.resistance_ratio = 0.9;
   channel.heater.temperature_coefficient_per_K = 0.0;

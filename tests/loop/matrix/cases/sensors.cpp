@@ -10,7 +10,7 @@ std::function<void(Rig&)> position(const ConverterFaults& faults) {
   return [faults](Rig& rig) { rig.muscle().position.set(faults); };
 }
 
-/// A third more than what a muscle can move in a period, and what noise can be besides.
+/// A third more than the muscle's motion in a period and the noise can add up to.
 void jump(Rig& rig) {
   const ChannelSupervision limits;
   const double noise_m = 50e-6 + 12.0 * limits.position_noise_rms_m;

@@ -67,7 +67,7 @@ TEST(Accidents, SensorsWireComesOffWhileFullPowerIsAskedFor) {
 }
 
 TEST(Accidents, OneOfThreeThreadsInParallelBreaksAndTheOthersGetItsShare) {
-  // By the power that is measured each gets a third of it; the two that are left get a half.
+  // Each gets a third of the power that is measured; once one breaks, the two left get a half each.
   for (const char* asked : {"kind = 'pi'", "kind = 'learned_ff'"}) {
     const Aftermath after =
         aftermath_of(std::string("simulation.duration_s = 60.0\nreference = ") + constant("0.020") +

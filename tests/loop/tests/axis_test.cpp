@@ -1,4 +1,4 @@
-// What an axis is asked for, what it tells of it, and what it keeps.
+// What an axis is commanded, what it publishes, and what it keeps.
 #include <cmath>
 #include <optional>
 
@@ -25,7 +25,7 @@ TEST_GROUP(Axis) {
   Refusal answer_to(Verb verb, double value = 0.0) {
     return rig().answer_to(verb, value);
   }
-  /// In this window of heater_not_responding.
+  /// The motion in the current window of heater_not_responding.
   double moved_m() {
     return rig().loop.channel(0).verdict().margin(Fault::heater_not_responding).measured;
   }
@@ -58,7 +58,7 @@ TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
   }
 }
 
-/// And tells it, until another muscle is stored.
+/// And publishes it, until another muscle is stored.
 TEST(Axis, StillKnowsAfterAStartHowSureIdentifyWas) {
   const board::Identification stored{{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
   settings.firmware.channels[0].identification = stored;
@@ -71,7 +71,7 @@ TEST(Axis, StillKnowsAfterAStartHowSureIdentifyWas) {
   CHECK(update()->identification == stored);
 }
 
-/// Not only at the next start. The muscle was believed to move half as far again.
+/// At once, not only at the next start. The muscle was believed to move half as far again.
 TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
   control::ThermalBounds& bounds = settings.firmware.channels[0].thermal.bounds;
   const control::PhysicalParameters& plant = settings.board.channels[0].plant;
@@ -88,7 +88,7 @@ TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
   };
   for (int i = 0; i < 30 && margin().measured < 0.004; ++i)
     rig().hold_power(2.0, 1.0);
-  rig().run(2.0);  // heat that is ahead of the motion arrives
+  rig().run(2.0);  // the motion catches up with the heat
   CHECK(margin().judged);
   DOUBLES_EQUAL(0.3, margin().limit / margin().measured, 0.03);
 }
@@ -136,7 +136,7 @@ TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
   const auto scaled = update();
   CHECK(scaled.has_value() && scaled->has_muscle);
   DOUBLES_EQUAL(1.1, scaled->calibration.position_scale, 0.01);
-  // A scale is no jump of the sensor.
+  // A change of scale is not a sensor jump.
   rig().hold_power(2.0, 3.0);
   CHECK(rig().fault() == Fault::none);
   CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
@@ -191,7 +191,7 @@ TEST(Axis, ForgetsTheHeatThatWasReadWithTheMuscle) {
   CHECK_FALSE(rig().interval_missed);
 }
 
-/// The power from before the rest is no power to go on with.
+/// The power from before the rest must not be carried over.
 TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
   rig().heat(Task::position);
   rig().run(10.0);
@@ -216,12 +216,12 @@ TEST(Axis, KeepsAReadingWithThePowerThatItsSensesTold) {
   DOUBLES_EQUAL(1.5, read->heat.steady_max_W, 0.04);
 }
 
-/// A time constant is that of the heat, whatever else identify makes of the muscle.
+/// The time constant is that of the heat, whatever else identify finds.
 TEST(Axis, KeepsTheTimeConstantOfAMuscleThatIsNotTheConfiguredOne) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.muscle.stiffness_N_per_m = 200.0;
   channel.thermal.mass_error_ratio = 0.03;
-  channel.heater.temperature_coefficient_per_K = 0.0;  // else both temperatures would disagree
+  channel.heater.temperature_coefficient_per_K = 0.0;  // otherwise the temperatures disagree
   rig().heat(Task::identify);
   rig().run(61.0);
   CHECK(rig().snapshot().result == ModeResult::implausible);
@@ -230,7 +230,7 @@ TEST(Axis, KeepsTheTimeConstantOfAMuscleThatIsNotTheConfiguredOne) {
   DOUBLES_EQUAL(0.162 / 0.089, found->heat.time_constant_s, 0.05);
 }
 
-/// Else a muscle that hangs loose would look as if it had moved.
+/// Otherwise a muscle that hangs loose would look as if it had moved.
 TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
   settings.firmware.channels[0].supervision.proof_of_response = false;
   settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
@@ -246,13 +246,13 @@ TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
     rig().run(0.1);
     rig().muscle().faults.slack = true;
     rig().heat(Task::power);
-    // Before the window after the one in which it began to heat; if that was at its very end, then.
+    // Found within the window in which it began to heat, or in the next if that one was at its end.
     CHECK(rig().run_until([&] { return rig().fault() != Fault::none; }, 21.5));
     CHECK(rig().fault() == Fault::heater_not_responding);
   }
 }
 
-/// A dither that the sensor's noise hides is not waited for.
+/// identify does not wait for dithers that the sensor's noise would hide.
 TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
   settings.firmware.channels[0].response_ratio = 0.3;  // of an earlier muscle
   const auto identified_s = [&](double noise_rms_m) {
@@ -271,11 +271,11 @@ TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
   CHECK_COMPARE(identified_s(10e-6) - identified_s(500e-6), >, 5.0 * 0.162 / 0.089 + 3.0);
 }
 
-/// Bounds that make a muscle cool faster than it does make it colder than it is.
+/// Bounds that let a muscle cool faster than it does make it seem colder than it is.
 TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.thermal.bounds.min_transfer_W_per_K = 0.100;  // the muscle has 0.089
-  channel.heater.temperature_coefficient_per_K = 0.0;   // else both temperatures would disagree
+  channel.heater.temperature_coefficient_per_K = 0.0;   // otherwise the temperatures disagree
   channel.estimators[0].kind = control::EstimatorKind::least_squares;
   channel.estimators[0].set_nominal(channel.muscle, channel.limiter.max_W);
   const auto rise_K = [&](double trusted_error) {
@@ -292,7 +292,7 @@ TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
   DOUBLES_EQUAL(0.100 / 0.089, rise_K(100.0) / rise_K(0.0), 0.03);
 }
 
-/// Else a muscle that hangs loose would look as if it had moved.
+/// Otherwise a muscle that hangs loose would look as if it had moved.
 TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
   settings.firmware.channels[0].supervision.proof_of_response = false;
   for (const double waited_s : {1.0, 5.0, 9.0, 13.0}) {
@@ -306,7 +306,7 @@ TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
     CHECK(update()->has_muscle);
     rig().run_ticks(2);
     DOUBLES_EQUAL(1.3 * before_m, moved_m(), 1e-4);
-    // Its own motion before was in this window: the next one at the latest.
+    // This window still contains the muscle's own motion: found in the next one at the latest.
     CHECK(rig().run_until([&] { return rig().fault() != Fault::none; }, 40.0));
     CHECK(rig().fault() == Fault::heater_not_responding);
   }
@@ -325,7 +325,7 @@ TEST(Axis, TwoScalesInOneTickAreNoMotionEither) {
   DOUBLES_EQUAL(1.2 * before_m, moved_m(), 1e-4);
 }
 
-/// While the muscle rests it cools, and its estimator does not look: how it lies then is no motion.
+/// While a muscle rests it cools and its estimator is paused: that change of position is no motion.
 TEST(Axis, TheEstimatorBeginsWhereAMuscleThatHadCooledIs) {
   const auto follow = [this](double position_m, double time_s) {
     CHECK_FALSE(rig().run_until(

@@ -1,4 +1,4 @@
-// What the muscles of a bundle know of each other, and what their leader goes by.
+// What the muscles of a bundle know of each other, and what their leader relies on.
 #include <algorithm>
 
 #include "loop/support/bundle_case.hpp"
@@ -32,7 +32,7 @@ detectors::Margin motion_of(const Rig& rig, std::uint8_t channel) {
   return rig.loop.channel(channel).verdict().margin(Fault::heater_not_responding);
 }
 
-/// From when on its position stands still, at this moment; that of the leader proves all.
+/// Time to a fault once the position freezes at this moment; the leader's proof is that of all.
 double lost_contact_found_s(RigSettings settings, double moment_s) {
   for (ChannelSettings& channel : settings.firmware.channels) {
     channel.supervision.energy_J = 1e6;
@@ -54,7 +54,7 @@ double lost_contact_found_s(RigSettings settings, double moment_s) {
   return rig.time_s() - from_s;
 }
 
-/// On average, wherever between two dithers it is.
+/// The mean over moments between two dithers.
 double lost_contact_found_s(const RigSettings& settings) {
   double sum_s = 0.0;
   for (const double moment_s : {20.0, 20.2, 20.4, 20.6, 20.8})
@@ -92,7 +92,7 @@ TEST(BundleKnowledge, IsProvenByTheWidestBoundsOfPower) {
 TEST(BundleKnowledge, ItsZeroIsTakenWhenTheSlowestMuscleIsCold) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels)
-    channel.thermal.boot_rise_K = 20.0;  // else it waits for a minute
+    channel.thermal.boot_rise_K = 20.0;  // otherwise it waits for a minute
   board::ThermalSettings& slow = settings.firmware.channels[last].thermal;
   slow.bounds.max_mass_J_per_K *= 1.5;
   Rig fresh(settings);
@@ -154,7 +154,7 @@ TEST(BundleKnowledge, WhatIdentifyFindsIsExpectedOfEveryMuscle) {
 TEST(BundleKnowledge, IdentifyAsksForNoMoreThanAHotMuscleMayHave) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels)
-    channel.thermal.boot_rise_K = 20.0;  // else it waits for a minute
+    channel.thermal.boot_rise_K = 20.0;  // otherwise it waits for a minute
   settings.firmware.channels[last].limiter.derate_from_C = 50.0;
   settings.firmware.channels[last].limiter.derate_to_C = 90.0;
   Rig fresh(settings);

@@ -1,4 +1,4 @@
-// Muscles that pull together, with a heater each.
+// Muscles that pull together, each with its own heater.
 #include "loop/bundle.hpp"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST(Bundle, OnlyTheLeaderTakesCommandsThatHeat) {
   CHECK(rig.answer_of(follower, Verb::power, 1.0) == Refusal::wrong_state);
   CHECK(rig.answer_of(follower, Verb::renew) == Refusal::wrong_state);
   CHECK(all(State::active));
-  // Whoever stops to renew the leader's command stops all.
+  // When the leader's command is no longer renewed, all stop.
   rig.run(0.5);
   CHECK(all(State::fault) && all_off());
   CHECK(rig.fault() == Fault::command_timeout);
@@ -82,13 +82,13 @@ TEST(Bundle, NoMuscleGetsMoreThanTheWeakestMayHave) {
   hold(Verb::power, 2.5, 2.0);
   for (const std::uint8_t i : {leader, follower, last})
     DOUBLES_EQUAL(1.5, muscle_of(i).true_power_W(), 0.03);
-  // The leader, whose own heater could give it, tells why not.
+  // The leader reports the reason, although its own heater could give the power.
   CHECK(of(last).limited_by == LimitedBy::maximum);
   CHECK(of(leader).limited && of(leader).limited_by == LimitedBy::maximum);
   CHECK_FALSE(of(follower).limited);
   rig.loop.channel(leader).allow_power(1.0);
   hold(Verb::power, 2.5, 0.5);
-  std::array<double, 3> peaks_W{};  // a dither takes from it
+  std::array<double, 3> peaks_W{};  // peaks, because a dither lowers it
   for (int tick = 0; tick < 1000; ++tick) {
     hold(Verb::power, 2.5, rig.period_s());
     for (const std::uint8_t i : {leader, follower, last})
@@ -105,7 +105,7 @@ TEST(Bundle, ControllersCountOnWhatTheWeakestCanGive) {
     fresh.arm();
     fresh.loop.channel(limited).allow_power(1.2);
     fresh.loop.channel(also).allow_power(1.2);
-    // Further than 1.2 W hold: the integral must not wind up.
+    // Further than 1.2 W can hold: the integral must not wind up.
     fresh.run_until([&] { return fresh.send(Verb::position, 0.020), false; }, 30.0);
     CHECK(fresh.snapshot().limited);
     return fresh.snapshot().demanded_W;
@@ -131,7 +131,7 @@ TEST(Bundle, AFaultOfOneMuscleCoolsAll) {
       CHECK(fresh.loop.channel(i).state().first_cause() == Fault::heater_open);
       CHECK(!fresh.board.channel(i).enable.high());
     }
-    // Nor may one be reset while another one still is as it was.
+    // Nor may a muscle be reset while another one still has the cause.
     fresh.run(1.0);
     fresh.answer_of(follower, Verb::reset);
     CHECK(fresh.state() == State::disarmed || fresh.state() == State::fault);
@@ -167,7 +167,7 @@ TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
       400.0));
   CHECK(alone && all(State::armed));
   CHECK_COMPARE(progress, >, 0.66F);
-  // Within what the rough board's senses are wrong by.
+  // Within the errors of the rough board's senses.
   for (const std::uint8_t i : {leader, follower, last}) {
     const double cold_Ohm = rig.loop.channel(i).known(known_cold_resistance);
     DOUBLES_EQUAL(1.0, cold_Ohm / muscle_of(i).settings().resistance_Ohm, 0.03);
@@ -218,7 +218,7 @@ TEST(Bundle, AnEndedCalibrateIsNotToldAsFound) {
         },
         200.0));
   };
-  // Of any node, also of one that waits for its turn.
+  // A command to any node ends it, even to one that waits for its turn.
   for (const std::uint8_t asked : {leader, follower, last}) {
     Rig fresh(bundle_board());
     calibrates_second(fresh);
@@ -255,7 +255,7 @@ TEST(Bundle, ADitherThatOneOfThemCannotFollowIsNone) {
   arm();
   rig.loop.channel(last).allow_power(1.5);
   rig.run(0.01);
-  // More is asked for than the weakest may have: there is room for the dither below that.
+  // The demand is more than the weakest may have: the dither has room below that limit.
   double most_W = 0.0;
   double apart_W = 0.0;
   const double from_s = rig.time_s();
@@ -334,7 +334,7 @@ TEST(Bundle, TheSensesOfEachMuscleAreComparedWhileAllGetOnePower) {
   }
   DOUBLES_EQUAL(1.0 / current_gain, lying.loop.channel(follower).senses().current_gain, 0.02);
   CHECK_FALSE(lying.loop.channel(leader).senses().compared());
-  // Another power begins the average anew, and one that a controller changes always does.
+  // A change of power restarts the average, and a controller changes the power all the time.
   hold_for(Verb::power, 1.8, 0.1);
   CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
   hold_for(Verb::position, 0.005, 3.0);

@@ -1,4 +1,4 @@
-// What calibrate hands to whoever stores it.
+// What calibrate hands over to be stored.
 #include <CppUTest/TestHarness.h>
 
 #include "loop/support/rig.hpp"
@@ -30,7 +30,7 @@ TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {
   CHECK(rig.snapshot().result == ModeResult::found);
   DOUBLES_EQUAL(11.0, update->calibration.cold_resistance_Ohm, 0.5);
   CHECK(update->has_muscle);
-  // Also by what is stored later: nothing has forgotten the muscle since.
+  // So does what is stored later: the muscle is not forgotten meanwhile.
   rig.send(Verb::disarm);
   rig.run(0.1);
   rig.send(Verb::compare_supply, 0.0);

@@ -1,4 +1,4 @@
-// Who speaks and holds the lease of which node, where a bus or a joint has several.
+// Which master holds the lease of which node, and which node speaks, on a bus or joint of several.
 #include <array>
 #include <cmath>
 
@@ -67,7 +67,7 @@ TEST(NodesOnCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
 }
 
-/// Nothing on the bus tells that two sessions are of one master.
+/// Nothing on the bus shows that two sessions belong to one master.
 TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   CanRig joint(joint_board());
   Master antagonist_master;
@@ -86,13 +86,13 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   joint.run(0.2);
   follow();
 
-  // Who holds both nodes keeps others from both.
+  // A master that holds both nodes keeps others from both.
   CHECK(joint.claim(antagonist_master) == Refusal::none);
   CHECK(joint.claim(stranger) == Refusal::not_lease_holder);
   CHECK(joint.command(stranger, Verb::rest) == Refusal::not_lease_holder);
   follow();
 
-  // Who holds the agonist's alone does not; both muscles rest together.
+  // One that holds only the agonist's does not; both muscles rest together.
   CHECK(joint.command(antagonist_master, telemetry::Opcode::lease, telemetry::releases) ==
         Refusal::none);
   CHECK(joint.claim(stranger) == Refusal::none);
@@ -102,7 +102,7 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
     CHECK(joint.loop.channel(channel).state().state() == State::armed);
 }
 
-/// Who listens to one node of a joint knows the other muscle as well.
+/// A listener to one node of a joint learns about the other muscle as well.
 TEST(NodesOnCan, TheAgonistsNodeTellsTheJointAndBothHeaters) {
   CanRig joint(joint_board());
   const auto seconds = [&](int count) {

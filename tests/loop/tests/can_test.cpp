@@ -95,7 +95,7 @@ TEST(OverCan, EachNodeTellsItsProgramOnceASecondWhileTheLoopRuns) {
   CHECK(rig.heard_of[SUPERCOIL_BOOT_FRAME_ID] <= before + 1);
 }
 
-/// Whoever asks needs no lease; what calibrate finds is what is told from then on.
+/// Asking needs no lease; once calibrate has found something, that is what the board reports.
 TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
   const ChannelSettings& channel = rig.settings.firmware.channels[0];
   rig.run(1.0);
@@ -118,7 +118,7 @@ TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
   const double found_Ohm = rig.muscle(known_cold_resistance);
   DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, found_Ohm, 0.5);
   CHECK(found_Ohm != channel.calibration.cold_resistance_Ohm);
-  // The file's stands beside it.
+  // The file's value is reported beside it.
   DOUBLES_EQUAL(channel.heater.cold_resistance_Ohm, rig.muscle(known_joint_lever - 1), 1e-6);
   CHECK(std::isnan(rig.muscle(known_joint_lever)));
 }
@@ -145,12 +145,12 @@ TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {
     if (refused.opcode == static_cast<std::uint8_t>(Verb::position))
       CHECK(rig.command(master, Verb::position, refused.nearest) == Refusal::none);
   }
-  // What nothing near it would help: as it was sent, and no other.
+  // There is no nearest value to offer: the refusal carries the value as sent, and nothing else.
   rig.refused_values.clear();
   CHECK(rig.command(master, Verb::power, NAN) == Refusal::out_of_range);
   rig.tick();
   CHECK(std::isnan(rig.refused_values.at(0).value) && std::isnan(rig.refused_values.at(0).nearest));
-  // A refusal that is none of a value's tells none.
+  // A refusal that is not about a value carries none.
   rig.refused_values.clear();
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
   rig.run(0.01);
@@ -160,7 +160,7 @@ TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {
 TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {
   rig.run(0.1);
   rig.claim(master);
-  // Somebody on the board itself has filled the loop's ring.
+  // A program on the board itself has filled the loop's ring.
   while (rig.loop.send({0, Verb::disarm})) {
   }
   rig.answers.clear();
@@ -173,7 +173,7 @@ TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {
   for (const auto& answer : rig.answers)
     CHECK(static_cast<Refusal>(answer.refusal) == Refusal::queue_full);
   LONGS_EQUAL(0, rig.refused_values.size());
-  // What comes later is answered for itself.
+  // Later commands get answers of their own.
   CHECK(rig.command(master, Verb::renew) == Refusal::wrong_state);
 }
 
@@ -238,7 +238,7 @@ TEST(OverCan, AMillionRandomFramesDisturbNothing) {
   for (int tick = 0; tick < 125'000; ++tick) {
     for (int i = 0; i < 8; ++i) {
       hal::CanFrame frame;
-      // Any but the board's own heartbeat, which is node_conflict.
+      // Any frame but the board's own heartbeat, which is node_conflict.
       do {
         frame.id = static_cast<std::uint16_t>(random() % 0x800U);
       } while (is_heartbeat(frame.id));
@@ -274,7 +274,7 @@ TEST(OverCan, AClientOfVersion3IsRefusedAndCanStillDisarm) {
   constexpr std::uint8_t claim_of_3 = 14;
   other.session = other.name;
   CHECK(rig.command(other, claim_of_3) == Refusal::protocol_mismatch);
-  // It takes this for its answer, and for no lease.
+  // The client takes this for its answer, but not for a lease.
   const supercoil_acknowledge_t told = rig.answers.back();
   LONGS_EQUAL(other.name, told.session);
   LONGS_EQUAL(claim_of_3, told.opcode);

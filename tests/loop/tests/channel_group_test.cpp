@@ -40,7 +40,7 @@ TEST(BundleGroup, WhereTheLeaderIsNotCalibratedNoOtherIs) {
 
 TEST_GROUP_BASE(JointGroup, JointCase){};
 
-/// Below the limit of the joint there is none for a muscle that is driven alone.
+/// The joint's limit does not apply to a muscle that is driven alone.
 TEST(JointGroup, AMuscleThatPullsAloneGetsWhatItIsAskedFor) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = 0.8;

@@ -68,7 +68,7 @@ TEST(Channel, TellsByHowMuchTheBoardsFaultWasPassed) {
 TEST(Channel, TellsByHowMuchAFaultOfTheBusWasPassed) {
   rig.boot();
   rig.arm();
-  // Of each channel by itself, and yet judged once for the whole board.
+  // Reported for each channel, but judged once for the whole board.
   rig.loop.health().bus.store(hal::CanState::error_passive);
   CHECK(rig.run_until([&] { return rig.fault() == Fault::bus_error_passive; }, 10.0));
   const Snapshot& s = rig.snapshot();

@@ -97,7 +97,7 @@ TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
   CHECK(answer_to(Verb::controller, 3) == Refusal::out_of_range);
   CHECK(answer_to(Verb::controller, std::nan("")) == Refusal::out_of_range);
   CHECK(answer_to(Verb::scale, -1.0) == Refusal::out_of_range);
-  // Of a muscle at rest it would be a scale of a thousand.
+  // For a muscle at rest this would be a scale of a thousand.
   CHECK(answer_to(Verb::scale, 0.5) == Refusal::out_of_range);
   CHECK(rig.state() == State::armed);
 }
@@ -242,7 +242,7 @@ TEST(Commands, PeriodsThatAreLeftOutCountForACommandThatExpires) {
   rig.run(1.0);
   rig.commands_flow = false;
   const double silent_since_s = rig.time_s();
-  // Every other tick takes three periods more than it has: half of all periods are left out.
+  // Every other tick overruns by three periods: half of all periods are left out.
   for (int i = 0; rig.state() == State::active && i < 1000; ++i) {
     rig.board.lose_in_tick(3.1 * rig.period_s());
     rig.run_ticks(3);

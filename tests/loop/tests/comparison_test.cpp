@@ -15,7 +15,7 @@ TEST_GROUP(Comparison) {
   static constexpr double current_gain = 0.8;
   static constexpr double supply_V = 12.0;
 
-  /// A converter whose board believes that it reads so much of the truth.
+  /// Makes a converter read `gain` times the truth without the board knowing.
   static void lie(host_sim::ConverterSettings & converter, double gain) {
     converter.low /= gain;
     converter.high /= gain;
@@ -49,7 +49,7 @@ TEST_GROUP(Comparison) {
   Refusal ask(Verb verb, double value) {
     return rig.answer_to(verb, value);
   }
-  /// The mean of what flows, as a meter in the line shows it.
+  /// The mean current, as a meter in the line shows it.
   double line_A() {
     double sum_A = 0.0;
     for (int i = 0; i < 100; ++i) {
@@ -59,7 +59,7 @@ TEST_GROUP(Comparison) {
     }
     return sum_A / 100.0;
   }
-  /// What the channel gives when it is asked for 4 W, and whether the proof of response limits it.
+  /// The power given when 4 W are demanded, and whether the proof of response limits it.
   std::pair<double, bool> given_of_4_W(test::Rig & asked) {
     for (int i = 0; i < 20; ++i) {
       asked.send(Verb::power, 4.0);
@@ -80,7 +80,7 @@ TEST_GROUP(Comparison) {
     channel().take_learned_update(update);
     return update;
   }
-  /// So many began while a power was held.
+  /// How many probes began while a power was held.
   int probes(double power_W, double time_s) {
     int begun = 0;
     bool probing = rig.snapshot().probing;
@@ -100,7 +100,7 @@ TEST_GROUP(Comparison) {
     CHECK(rig.fault() == Fault::none);
     CHECK_FALSE(rig.interval_missed);
   }
-  /// Of the temperature's interval at this power, when it has settled.
+  /// The width of the temperature's interval at this power, once it has settled.
   double width_K(double power_W) {
     hold(power_W, 25.0);
     return rig.snapshot().hottest_C - rig.snapshot().coldest_C;
@@ -120,7 +120,7 @@ TEST(Comparison, FindsTheGainsAndNarrowsTheBounds) {
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.01);
   CHECK(found->senses.error_ratio >= 0.02);
   CHECK(found->senses.error_ratio <= 0.05);
-  CHECK_FALSE(found->has_muscle);  // it was never learned: the configured one is not stored
+  CHECK_FALSE(found->has_muscle);  // it was never learned, and the configured one is not stored
 
   const double narrow_K = width_K(0.5);
   printf("%.1f K wide, compared %.1f K\n", wide_K, narrow_K);
@@ -142,7 +142,7 @@ TEST(Comparison, OneMistypedReadingChangesNothing) {
   check(Refusal::none, ask(Verb::compare_supply, supply_V));
   check(Refusal::out_of_range, ask(Verb::compare_current, 1.1 * line_A()));
   check_nothing_changed();
-  // Nobody knows which reading was wrong, so the right one alone does not do it either.
+  // Which reading was wrong is not known, so a right one alone does not help either.
   read_both();
   check_nothing_changed();
 }
@@ -244,7 +244,7 @@ TEST(Comparison, TellsTheProofAtOnceHowFarThePowerIsKnown) {
 }
 
 TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
-  // As calibrate found it through senses of which the one tells 0.9 and the other 0.8.
+  // As calibrate found it through senses that read 0.9 and 0.8 of the truth.
   const double reported_Ohm = 10.0 * supply_gain / current_gain;
   settings.firmware.channels[0].calibration.cold_resistance_Ohm = reported_Ohm;
   settings.firmware.channels[0].has_muscle = true;
@@ -295,7 +295,7 @@ TEST(Comparison, IsMadeOverCanToo) {
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.02);
 }
 
-/// What compared senses calibrated is told again as they tell it when they are not compared.
+/// A resistance that compared senses calibrated becomes what they would report uncompared.
 TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
   settings.firmware.channels[0].senses = {1.0 / supply_gain, 1.0 / current_gain, 0.03, 0.0};
   settings.firmware.channels[0].calibration.cold_resistance_Ohm = 10.4;
@@ -308,7 +308,7 @@ TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
   DOUBLES_EQUAL(10.4 * supply_gain / current_gain, found->calibration.cold_resistance_Ohm, 1e-9);
 }
 
-/// At little power pulses measure the heater's resistance, and somebody may read at any moment
+/// At low power, pulses measure the heater's resistance, and the meter may be read at any moment
 /// between two of them.
 TEST(Comparison, OfLittlePowerIsNotDisturbedByProbes) {
   start();
@@ -344,7 +344,7 @@ TEST(Comparison, LetsTheMeterBeReadWithoutAPulse) {
   CHECK_COMPARE(after, >, 3);
 }
 
-/// Who began a comparison and went away has a heater that is looked after again.
+/// The heater of a comparison that was abandoned is probed again.
 TEST(Comparison, ThatDoesNotGoOnLetsTheHeaterBeProbed) {
   start();
   hold(0.1, 6.0);

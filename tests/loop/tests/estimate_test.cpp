@@ -1,4 +1,4 @@
-// What is published of the estimates: what the estimator tells, and NaN for what it does not.
+// Published estimates: the estimator's values, and NaN for those that it does not have.
 #include <cmath>
 #include <string>
 

@@ -18,8 +18,8 @@ using namespace supercoil::test;
 namespace {
 
 constexpr double trip_C = 160.0;
-/// From the crossing of the limit to the heater being off, a muscle that may be heated with 4.5 W
-/// becomes warmer by less.
+/// A muscle that may be heated with 4.5 W warms by less than this from crossing the limit until the
+/// heater is off.
 constexpr double overshoot_K = 0.1;
 
 struct Heat {
@@ -106,7 +106,7 @@ TEST(Heat, OfMaxPowerHeldIndefinitelyIsNotAFaultWithoutABudget) {
   // docs/safety.md states both times.
   const std::string held =
       "simulation.duration_s = 300.0\ncontroller.kind = 'power'\n"
-      "thermal.transfer_ratio = [0.7, 2.2]\n"  // else it is derated, and controller_invalid
+      "thermal.transfer_ratio = [0.7, 2.2]\n"  // otherwise derated: controller_invalid
       "reference = {kind = 'power', offset_W = 4.5, amplitudes_W = [0.0], "
       "angular_frequencies_rad_per_s = [1.0]}\n";
   const Heat heat = heat_of(read(held));
@@ -152,14 +152,14 @@ TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
 
 namespace {
 
-/// What the senses of a muscle tell that is stiff enough to show little of 11 W.
+/// Senses that lie, on a muscle so stiff that 11 W hardly move it.
 struct LyingSenses {
   double supply_gain = 1.0;  ///< measured over true
   double current_gain = 1.0;
   bool compared = false;  ///< the board believes that they were compared with a meter
 };
 
-/// Counts mean more to the board than to the converter: it reads `gain` of the truth.
+/// Makes a converter read `gain` times the truth without the board knowing.
 void scale(ConverterSettings& converter, double gain) {
   converter.low /= gain;
   converter.high /= gain;
@@ -167,7 +167,7 @@ void scale(ConverterSettings& converter, double gain) {
 
 Heat heat_of_power(const LyingSenses& senses, double power_W) {
   test::RigSettings settings = test::rough_board();
-  // So wide a range that 0.83 times 12 V is no fault.
+  // A range so wide that 0.83 times 12 V is no fault.
   settings.firmware.supervision.min_supply_V = 9.0;
   settings.firmware.supervision.max_supply_V = 15.0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -244,7 +244,7 @@ TEST(Heat, IsContainedInAirThatIsMeasuredAndNotAsConfigured) {
     const std::string text = std::string(measured).append(offset_K).append(events);
     check_contained(std::string("air, its sensor off by ") + offset_K, read(text));
   }
-  // The truth is outside where nothing measures it, so that this tests something.
+  // Where nothing measures the air, the truth leaves the interval: the test is not vacuous.
   const Heat blind =
       heat_of(read("simulation.duration_s = 150.0\ncontroller.kind = 'pi'\n"
                    "plant.air_acts = true" +

@@ -46,7 +46,7 @@ TEST(Heater, TellsHowOldItsResistanceIs) {
 }
 
 TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
-  // As behind a bus. Probes end with a fall of the duty, and nothing flows behind them.
+  // As with a bus. Probes end with a falling duty, after which no current flows.
   const auto fault_with = [](double short_ticks) {
     RigSettings slow = rough_board(100.0);
     host_sim::MuscleChannelSettings& simulated = slow.board.channels[0];
@@ -109,7 +109,7 @@ TEST(Heater, ASensorMustShowItsNoiseOnlyWhereTheMuscleMayBeWarm) {
   }
 }
 
-/// What rounding took from a duty is given in the next tick, but not after a rest.
+/// A duty's rounding error is made up for in the next tick, but not after a rest.
 TEST(Heater, OwesNothingOfTheLastPowerAfterARest) {
   settings.board.supply.noise_rms = 0.0;
   settings.board.channels[0].current.noise_rms = 0.0;

@@ -1,5 +1,5 @@
-// Identify on muscles of which the board believes up to half too much or too little. More seeds,
-// and the figures of docs/identify-theory.md: identify_figures.
+// identify on muscles whose parameters the board believes up to 50 % too high or too low. More
+// seeds, and the figures of docs/identify-theory.md: identify_figures.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -68,7 +68,7 @@ TEST(Identify, EndsOnceASlowMuscleIsFound) {
   }
 }
 
-/// Seven strokes of 3 mm leave θ2 and θ4 of such a muscle uncertain, and fifteen do not.
+/// Seven strokes of 3 mm leave θ2 and θ4 of such a muscle uncertain; fifteen do not.
 TEST(Identify, GoesOnWhereTheFirstStrokesLeaveTheMuscleUncertain) {
   const auto scenario = host_sim::parse_scenario(
       "simulation.seed = 12\nsimulation.duration_s = 300.0\noperator.action = 'identify'\n"

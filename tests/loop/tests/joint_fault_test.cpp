@@ -40,7 +40,7 @@ TEST(JointFault, AFaultOfEitherChannelCoolsBothInTheSameTickAndBothTellIt) {
   arm();
   for (const auto& [fault, inject] : cases) {
     for (const std::uint8_t where : {agonist, antagonist}) {
-      // Towards where this muscle pulls: the other one may get nothing yet.
+      // In the direction in which this muscle pulls: the other one may get no power yet.
       const double towards_m = where == agonist ? 0.002 : -0.002;
       hold(towards_m, 1.0);
       CHECK(both(State::active));
@@ -136,11 +136,11 @@ TEST(JointFault, IdentifyTellsThatHeatMovesTheJointTheOtherWay) {
   CHECK(of(agonist).result == ModeResult::moved_backwards);
   LONGS_EQUAL(0, of(agonist).identify_notes & note_too_little_motion);
   CHECK_FALSE(both(State::fault));
-  // A tenth of the travel of 8 mm shows it, and what heat is on its way.
+  // A tenth of the travel of 8 mm shows it; heat that is on its way adds to the motion.
   CHECK_COMPARE(moved_m, <, 0.0012);
 }
 
-/// What one muscle is expected to do the other one's detectors take away.
+/// The motion expected of one muscle is subtracted in the other one's detectors.
 TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
   RigSettings settings = joint_board();
   settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 1.4;
@@ -156,8 +156,8 @@ TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
   }
 }
 
-/// A load that comes at once is no loose muscle, whether the muscle can hold it or gives all that
-/// it may and is drawn out.
+/// A load that comes at once is not a loose muscle, whether the muscle can hold it or is drawn out
+/// at the most power that it may have.
 TEST(JointFault, ALoadThatMovesItIsNoLooseMuscle) {
   double limited_s = 0.0;
   for (const double load_Nm : {-0.0008, 0.0008, -0.004, 0.004}) {

@@ -44,7 +44,7 @@ TEST(JointLever, TurnsToTheAngleAlsoWhereItsLeverDependsOnIt) {
   CHECK_FALSE(turned.interval_missed);
 }
 
-/// A sensor whose zero is 10 degrees away reads arcs of another place of the table.
+/// A sensor whose zero is 10 degrees away reads arcs from another place of the table.
 TEST(JointLever, FindsItsZeroWhereverTheLeverOfTheTableIs) {
   RigSettings settings = with_lever_table(joint_board());
   const double away_m = 10.0 * degree_m;
@@ -78,7 +78,7 @@ TEST(JointLever, EachMuscleMayPullAtALeverOfItsOwn) {
   loop.send({agonist, Verb::arm});
   joint.step();
   run(60.0, 0.0);
-  // What both pull with turns it nowhere: no effort is left to the controller.
+  // Co-contraction does not turn it: the controller has no effort to give.
   const double agonist_W = loop.channel(agonist).snapshot().applied_W;
   const double antagonist_W = loop.channel(antagonist).snapshot().applied_W;
   DOUBLES_EQUAL(0.015 * 0.0086 * agonist_W, 0.010 * 0.0120 * antagonist_W, 3e-6);

@@ -1,4 +1,4 @@
-// What both muscles of a joint pull against each other with.
+// Co-contraction: how hard both muscles of a joint pull against each other.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -27,16 +27,16 @@ TEST(JointPull, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
   CHECK_COMPARE(most_deg, <, 0.1);
   const double after_N = plant.tension_N(0) + plant.tension_N(1);
   CHECK_COMPARE(after_N, >, before_N + 0.05);
-  // Slow against every controller.
+  // Slow compared with every controller.
   CHECK_COMPARE(soon_N - before_N, <, 0.2 * (after_N - before_N));
   DOUBLES_EQUAL(2.0 * before_W, of(antagonist).reference, 1e-12);
-  // More than the heater may have is refused, and the nearest told; so is what is no number.
+  // More than the heater may have is refused, and the nearest value reported; NaN is refused too.
   for (const double wrong_W : {-0.1, 4.6, static_cast<double>(NAN)})
     CHECK(rig.answer_of(antagonist, Verb::power, wrong_W) == Refusal::out_of_range);
   DOUBLES_EQUAL(2.0 * before_W, of(antagonist).reference, 1e-12);
 }
 
-/// The limit is in watts of the agonist; the ratio of gains makes watts of the antagonist of it.
+/// The limit is in watts of the agonist; the ratio of gains converts them to the antagonist's.
 TEST(JointPull, PullsNoHarderThanTheLimitOfTheJoint) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = 1.2;
@@ -52,7 +52,7 @@ TEST(JointPull, PullsNoHarderThanTheLimitOfTheJoint) {
   CHECK_FALSE(follows_until_fault(fresh, 60.0, [] { return 0.0; }));
   CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, <, 1.25 / gain_ratio);
   CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, >, 0.9 / gain_ratio);
-  // By itself the muscle may have all that its heater may.
+  // Driven by itself, the muscle may have all that its heater may.
   CHECK(fresh.answer_of(antagonist, Verb::rest) == Refusal::none);
   CHECK(fresh.answer_of(antagonist, Verb::power, 2.0) == Refusal::none);
 }
@@ -78,8 +78,8 @@ TEST(JointPull, PullsNoHarderThanTheLimitWhereEachMuscleIsDrivenByItself) {
   }
 }
 
-/// What was commanded may be more than the limit once the muscles are known better: here the
-/// agonist moves less than was believed, so that the antagonist's watts count for more.
+/// A commanded power may exceed the limit once the muscles are known better: here the agonist moves
+/// less than was believed, so the antagonist's watts count for more.
 TEST(JointPull, PullsNoHarderOnceTheMusclesAreKnownBetter) {
   constexpr double max_W = 1.2;
   RigSettings settings = joint_board();
@@ -157,11 +157,11 @@ TEST(JointPull, PullsAgainstItselfForMinutesWithoutAFault) {
   }
 }
 
-/// The other muscle gives what a hot one may not: nothing stays limited.
+/// The other muscle makes up for what a hot one may not give: nothing stays limited.
 TEST(JointPull, PullsLessWhereOneMuscleIsAsHotAsItMayBe) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].co_contraction_W = 3.0;
-  settings.firmware.channels[agonist].thermal.boot_rise_K = 20.0;  // else it waits for a minute
+  settings.firmware.channels[agonist].thermal.boot_rise_K = 20.0;  // otherwise it waits a minute
   settings.firmware.channels[agonist].limiter.derate_from_C = 50.0;
   settings.firmware.channels[agonist].limiter.derate_to_C = 90.0;
   Rig fresh(settings);

@@ -11,7 +11,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// Hardly stretched while they are cold, so that a load can take all of a muscle's pull.
+/// Hardly stretched while they are cold, so that a load can take away all of a muscle's pull.
 RigSettings loose_joint(double max_co_contraction_W, bool known) {
   constexpr double pretension_N = 0.02;
   RigSettings settings = known_joint(std::min(0.3, max_co_contraction_W));
@@ -30,12 +30,12 @@ RigSettings loose_joint(double max_co_contraction_W, bool known) {
 }  // namespace
 
 TEST_GROUP_BASE(JointSlack, JointCase) {
-  /// Each muscle's, at the end.
+  /// Each muscle's values, at the end.
   struct Held {
     std::array<bool, 2> told{};
     std::array<double, 2> pull_N{};
   };
-  /// Where the load, in N at the lever, comes bit by bit. It turns the joint to positive positions.
+  /// The load, in N at the lever, grows step by step and turns the joint to positive positions.
   static Held held(const RigSettings& settings, double position_m, double load_N) {
     Rig fresh(settings);
     begin(fresh);

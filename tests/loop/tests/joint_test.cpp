@@ -126,7 +126,7 @@ TEST(Joint, OneMuscleMayBeDrivenAlone) {
     CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::none);
   }
   CHECK_COMPARE(angle_deg(), <, -1.0);
-  // What measures the other muscle, and what drives both, wants this one at rest first.
+  // Measuring the other muscle, or driving both, requires this one to be at rest first.
   CHECK(rig.answer_of(agonist, Verb::position, 0.001) == Refusal::busy);
   CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::busy);
   CHECK(rig.answer_of(agonist, Verb::power, 0.5) == Refusal::none);
@@ -178,7 +178,7 @@ TEST(Joint, ThatItIsStillDoesNotTellThatItsMusclesAreCold) {
   CHECK_COMPARE(hottest_K(), <, 1.0);
 }
 
-/// Its law hears of either heater's limit, and winds nothing up.
+/// Its law learns of either heater's limit, and does not wind up.
 TEST(Joint, ComesBackAtOnceFromWhatItsAntagonistCannotReach) {
   RigSettings settings = joint_board();
   settings.firmware.channels[antagonist].limiter.max_W = 1.0;
@@ -194,7 +194,7 @@ TEST(Joint, ComesBackAtOnceFromWhatItsAntagonistCannotReach) {
   DOUBLES_EQUAL(0.0, fresh.snapshot().position_m, 0.3e-3);
 }
 
-/// By what both muscles together can do a knot is judged.
+/// A knot is judged by what both muscles together can do.
 TEST(Joint, PlaysATrajectoryThatTakesTheAntagonist) {
   arm();
   hold(0.0, 5.0);
@@ -230,7 +230,7 @@ TEST(Joint, IdentifiesEachMuscleInTheJoint) {
     DOUBLES_EQUAL(1.0, found_m_per_W / gain_m_per_W, 0.03);
     rig.run(10.0);
   }
-  // A hold of minutes is no fault of known muscles either.
+  // With known muscles, holding for minutes is not a fault either.
   hold(10.0 * degree_m, 180.0);
   CHECK(both(State::active));
   DOUBLES_EQUAL(10.0, angle_deg(), 0.1);

@@ -12,7 +12,7 @@ TEST_GROUP(Light) {
   bool lit() const {
     return rig.board.light.high();
   }
-  /// Of the light, in two seconds.
+  /// Edges of the light in two seconds.
   long edges() {
     const auto before = rig.board.light.edges();
     rig.run(2.0);
@@ -55,7 +55,7 @@ TEST(Light, BlinksFastInAFault) {
   LONGS_EQUAL(20, edges());
 }
 
-/// Where it hangs behind a slow driver, a write costs the tick its time.
+/// Behind a slow driver, a write costs the tick time.
 TEST(Light, IsWrittenOnlyWhenItChanges) {
   class CountedLight final : public hal::DigitalOutput {
    public:
@@ -73,7 +73,7 @@ TEST(Light, IsWrittenOnlyWhenItChanges) {
   devices.light = &light;
   Loop loop(settings.firmware, devices);
   Executive executive(loop, board, settings.firmware.rate_Hz);
-  // Whatever it showed before is put out by the first tick.
+  // The first tick switches off whatever it showed before.
   for (int i = 0; i < 300; ++i)
     executive.run_tick();
   CHECK_FALSE(light.lit);

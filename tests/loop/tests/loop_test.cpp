@@ -17,7 +17,7 @@ TEST(Loop, GivesItsSelfTestTheTimeThatTheSlowestSenseNeeds) {
     settings.firmware.channels[1].heater.sense_filter_s = filter_s;
     return Rig(settings).loop.self_test().duration_s();
   };
-  // Five time constants to settle and eight of a pulse, three and two times; at least 50 and 30 ms.
+  // Settling three times takes 5 time constants each, at least 50 ms; two pulses 8, at least 30 ms.
   settings.firmware.channels[0].heater.sense_filter_s = 0.0;
   DOUBLES_EQUAL(decay_s + 3.0 * 0.05 + 2.0 * 0.03, duration_s(0.0), 1e-12);
   DOUBLES_EQUAL(decay_s + 3.0 * 0.05 + 2.0 * 0.04, duration_s(0.005), 1e-12);
@@ -55,7 +55,7 @@ TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
 }
 
 TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
-  constexpr double leak_A = 0.006;  // half of a probe's current is more
+  constexpr double leak_A = 0.006;  // less than half of a probe's current
   for (const double off_current_A : {0.05, 0.003}) {
     RigSettings leaking = rough_board();
     leaking.firmware.channels[1].supervision.off_current_A = off_current_A;
@@ -66,7 +66,7 @@ TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
   }
 }
 
-/// Behind noise a probe's current could hide: nothing is proven.
+/// Noise could hide a probe's current, so nothing would be proven.
 TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RigSettings noisy = rough_board();
@@ -111,7 +111,7 @@ TEST(Loop, NeedsNeitherAWatchdogNorALight) {
   UNSIGNED_LONGS_EQUAL(0, board.light.edges());
 }
 
-/// The loop never answers it: nobody may wait for that.
+/// The loop never answers such a command, so nothing may wait for the answer.
 TEST(Loop, WhatItsRingDoesNotTakeIsOverForTheTuner) {
   Rig rig(settings);
   while (rig.loop.send({Rig::tested, Verb::disarm}))
@@ -162,7 +162,7 @@ TEST(Loop, JudgesItsBoardAfterATenthOfASecond) {
   CHECK(rig.loop.board_fault() == Fault::under_voltage);
 }
 
-/// Until it is taken: the largest of its kind.
+/// The largest of each kind until it is taken.
 TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
   Rig rig(settings);
   CHECK(rig.loop.timing().late_ns == LoopTiming::none);
@@ -183,7 +183,7 @@ TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
   UNSIGNED_LONGS_EQUAL(0, rig.loop.timing().overruns);
 }
 
-/// Each left-out period is a step of what is believed of the heat, up to a number.
+/// The thermal model takes a step for each period left out, up to a max number.
 TEST(Loop, ComesBackFromAStallHoweverManyPeriodsItTook) {
   Rig rig(settings);
   rig.boot();
@@ -197,7 +197,7 @@ TEST(Loop, CountsTheRowsThatNobodyTakes) {
   host_sim::SimulatedBoard board(settings.board);
   supercoil::Loop loop(settings.firmware, board.devices());
   Executive executive(loop, board, settings.firmware.rate_Hz);
-  // A row of each of two channels a tick, and room for a second.
+  // One row per tick from each of two channels, and room for a second.
   for (int i = 0; i < 1000; ++i)
     executive.run_tick();
   UNSIGNED_LONGS_EQUAL(0, loop.timing().lost_rows);

@@ -1,4 +1,4 @@
-// A muscle whose motion no longer reaches the sensor, and that is cooled worse from then on.
+// A muscle whose motion no longer reaches the sensor, and whose cooling is worse from then on.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,7 +14,7 @@ using test::Rig;
 
 namespace {
 
-/// No resistance tells the temperature: only the position can show that something is wrong.
+/// Resistance does not tell temperature: only the position can show that something is wrong.
 test::RigSettings deaf_board(bool identified) {
   test::RigSettings s = test::rough_board();
   s.firmware.channels[Rig::tested].heater.temperature_coefficient_per_K = 0.0;
@@ -22,7 +22,7 @@ test::RigSettings deaf_board(bool identified) {
   s.firmware.channels[Rig::tested].muscle_identified = identified;
   s.firmware.channels[Rig::tested].senses.error_ratio = 0.02;  // compared with a meter
   s.firmware.channels[Rig::tested].supervision.energy_J = 1e6;
-  // Of an identified muscle the proof alone is tested, and not the window.
+  // With an identified muscle only the proof is tested, not the window.
   if (identified) s.firmware.channels[Rig::tested].supervision.responding_window_s = 600.0;
   return s;
 }
@@ -33,7 +33,7 @@ class LostContact {
     rig.boot();
   }
 
-  /// Follows `ask` from now on: a command and its value, by the time since then.
+  /// Commands `ask` from now on: a verb and its value, as a function of the time since then.
   void start(Verb verb, const std::function<double(double)>& ask) {
     arm();
     verb_ = verb;
@@ -60,7 +60,7 @@ class LostContact {
     run(time_s);
     asks_ = true;
   }
-  /// Until a fault, for at most so long.
+  /// Runs until a fault, or for time_s.
   void run(double time_s) {
     const double end_s = rig.time_s() + time_s;
     while (rig.time_s() < end_s && rig.state() != State::fault) {
@@ -72,7 +72,7 @@ class LostContact {
       limited = limited || s.limited_by == LimitedBy::unproven;
       const bool under_way = s.state == State::active && rig.time_s() - start_s_ > 1.0;
       if (under_way) min_W = std::min(min_W, s.applied_W);
-      // A dither: other power than was wanted, and nothing limits it.
+      // A dither: the power differs from the demand although nothing limits it.
       const double added_W = std::abs(s.applied_W - s.demanded_W);
       dithers += !s.limited && s.state == State::active && added_W > 0.03 ? 1 : 0;
     }
@@ -93,7 +93,7 @@ class LostContact {
   long dithers = 0;
 };
 
-/// 2 J/K, 27 s of time constant, and a fifth of the travel: no dither of a second moves it.
+/// 2 J/K, a time constant of 27 s, a fifth of the travel: a dither of a second does not move it.
 test::RigSettings slow_board() {
   constexpr double slower = 12.0;
   constexpr double weaker = 0.2;
@@ -106,7 +106,7 @@ test::RigSettings slow_board() {
   }
   channel.thermal.bounds.min_mass_J_per_K *= slower;
   channel.thermal.bounds.max_mass_J_per_K *= slower;
-  channel.thermal.boot_rise_K = 20.0;  // or it is armed after minutes
+  channel.thermal.boot_rise_K = 20.0;  // otherwise arming takes minutes
   return s;
 }
 
@@ -121,7 +121,7 @@ auto always(double value) {
   return [value](double) { return value; };
 }
 
-/// Armed anew every 12 s.
+/// Armed again every 12 s.
 void run_rearming(LostContact& muscle, int times) {
   for (int i = 0; i < times && muscle.rig.state() != State::fault; ++i) {
     muscle.run(11.7);
@@ -131,7 +131,7 @@ void run_rearming(LostContact& muscle, int times) {
   }
 }
 
-/// Rests so long after each time that it is heated.
+/// Heats and rests in turn.
 void run_resting(LostContact& muscle, double heated_s, double rests_s, double time_s) {
   const double end_s = muscle.rig.time_s() + time_s;
   while (muscle.rig.time_s() < end_s && muscle.rig.state() != State::fault) {
@@ -151,7 +151,7 @@ TEST_GROUP(LostContact){};
 
 TEST(LostContact, IsFoundThoughTheChannelIsArmedAnewEvery12Seconds) {
   LostContact muscle(deaf_board(false));
-  muscle.start(Verb::power, always(2.9));  // in the end 154 °C
+  muscle.start(Verb::power, always(2.9));  // 154 °C in the end
   muscle.run(10.0);
   muscle.lose_contact();
   run_rearming(muscle, 4);
@@ -160,7 +160,7 @@ TEST(LostContact, IsFoundThoughTheChannelIsArmedAnewEvery12Seconds) {
 
 TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsArmedAnew) {
   LostContact muscle(deaf_board(true));
-  muscle.start(Verb::power, always(4.0));  // 24 mm, and 25 mm may be travelled
+  muscle.start(Verb::power, always(4.0));  // 24 mm; the limit is 25 mm
   muscle.run(5.0);
   muscle.lose_contact();
   run_rearming(muscle, 4);
@@ -180,7 +180,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundThoughItRestsAgainAndAgain) {
   }
 }
 
-/// No dither is over in the time that it is heated for.
+/// The heating is always shorter than a dither.
 TEST(LostContact, OfASlowMuscleThatRestsAgainAndAgainIsFoundOrItIsHeldToTheSafePower) {
   LostContact muscle(slow_board());
   muscle.start(Verb::power, always(4.0));
@@ -229,7 +229,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
 }
 
 TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
-  // As if all of a small motion arrived: the proof fails, the power is taken away, then held down.
+  // As if all of a small motion arrived: the proof fails, power is cut to zero, then limited.
   LostContact unmeasured(rubbing_board(0.002, 0.0));
   unmeasured.start(Verb::power, always(1.5));
   unmeasured.run(60.0);
@@ -253,7 +253,7 @@ TEST(LostContact, WhereFrictionSwallowsADitherIsNotAskedForAtTheSafePower) {
   muscle.run(60.0);
   CHECK(muscle.rig.fault() == Fault::none);
   CHECK(muscle.limited);
-  // 1.1 W from the start, and never taken away.
+  // 1.1 W from the start, and never cut.
   CHECK_COMPARE(muscle.min_W, >, 1.0);
   CHECK_COMPARE(muscle.rig.snapshot().applied_W, <, 1.2);
   LONGS_EQUAL(0, muscle.dithers);
@@ -310,8 +310,8 @@ TEST(LostContact, IsNoneWhileALivingMuscleIsHeldInADraught) {
   }
 }
 
-/// What a new scale makes of a position that stands still is no answer. Without the proof the
-/// muscle comes to 148 °C meanwhile.
+/// The jump of a still position by a new scale is not a response. Without the proof the muscle
+/// would reach 148 °C meanwhile.
 TEST(LostContact, IsNotHiddenByScalesThatAreTold) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::power, always(3.0));
@@ -376,7 +376,7 @@ TEST(LostContact, IsNoneWhereASlowMuscleIsHeldForLong) {
   muscle.run(400.0);
   CHECK(muscle.rig.fault() == Fault::none);
   CHECK_COMPARE(muscle.dithers, >, 1000);
-  // Never taken away, nor held down.
+  // Neither cut nor limited.
   CHECK_COMPARE(muscle.min_W, >, 1.9);
   CHECK_FALSE(muscle.limited);
 }

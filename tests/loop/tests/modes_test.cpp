@@ -80,7 +80,7 @@ TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
   const control::AdaptiveFeedforwardSettings settings;
   const double theta3 = control::theta_from(ended.learned->muscle)[2];
   DOUBLES_EQUAL(settings.bandwidth_rad_per_s * theta3, ended.proportional_W_per_m, 1e-6);
-  // It was configured as another muscle's, by which it would be a third more.
+  // The configured values are another muscle's; with them it would be a third more.
   DOUBLES_EQUAL(8.0 * 322.09, ended.proportional_W_per_m, 0.05 * 8.0 * 322.09);
 }
 
@@ -106,7 +106,7 @@ TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
   }
 }
 
-/// The first strokes do not fit one muscle, so shorter ones are made: of the muscle that is there.
+/// The first strokes do not fit one muscle, so shorter ones follow: they find the present muscle.
 TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
   for (const int at_s : {20, 28, 36, 44}) {
     const Ending ended = ending(identify + "[[event]]\nat_s = " + std::to_string(at_s) +
@@ -116,7 +116,7 @@ TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
     CHECK(ended.unexplained_ratio > 0.06);  // of the full strokes
     DOUBLES_EQUAL(ended.unexplained_ratio, ended.learned->unexplained_ratio, 0.0);
     CHECK(ended.learned->identification.found());
-    DOUBLES_EQUAL(0.0, ended.learned->identification.identified_s, 0.0);  // no calendar
+    DOUBLES_EQUAL(0.0, ended.learned->identification.identified_s, 0.0);  // no calendar time
     control::PhysicalParameters softened;
     softened.stiffness_N_per_m = 11.0;
     const control::Theta truth = control::theta_from(softened);
@@ -206,8 +206,8 @@ TEST(Modes, CalibrateFindsZeroAndColdResistance) {
   DOUBLES_EQUAL(9.5, found->calibration.cold_resistance_Ohm, 0.05);
 }
 
-/// But not that of a heater whose resistance is to tell its temperature, nor by a sensor of so few
-/// steps that it shows no motion of half a millimetre.
+/// Except for a heater whose resistance tells its temperature, or a sensor with too few steps to
+/// show a motion of half a millimetre.
 TEST(Modes, TheZeroOfAStillMuscleIsTakenBeforeItMustBeCold) {
   const auto hottest_C = [](const std::string& plant) {
     const auto scenario = parse_scenario(calibrate + "[plant]\n" + plant, "modes.toml");
@@ -220,7 +220,7 @@ TEST(Modes, TheZeroOfAStillMuscleIsTakenBeforeItMustBeCold) {
     return snapshot.hottest_C;
   };
   const double warmest_C = board::AirSettings{}.warmest_C;
-  // A second of the mean and the probe follow.
+  // Averaging for a second and the probe follow.
   CHECK_COMPARE(hottest_C(""), >, warmest_C + 4.0);
   CHECK_COMPARE(hottest_C(""), <, warmest_C + 20.0);
   CHECK_COMPARE(hottest_C("temperature_coefficient_per_K = 0.002\n"), <, warmest_C + 1.0);

@@ -1,4 +1,4 @@
-// A NaN from anywhere cools.
+// A NaN from any source makes the channel cold.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -38,7 +38,7 @@ TEST(NotANumber, FromAController) {
     rig.arm();
     rig.run(0.2);
     rig.heat(Task::position);
-    // Before any detector has seen it, the limiter has.
+    // The limiter has seen it before any detector does.
     if (std::isnan(gain)) CHECK(rig.snapshot().limited_by == LimitedBy::invalid);
     CHECK(std::isfinite(rig.snapshot().applied_W));
     CHECK_COMPARE(rig.snapshot().applied_W, <=, cap_W);

@@ -1,5 +1,5 @@
-// What the loop makes of readings and of its own duties: which channel they are of, whether they
-// are there, when they act.
+// How the loop uses readings and its own duties: which channel they belong to, whether they are
+// present, and when they act.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -39,7 +39,7 @@ TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
   for (const std::size_t late : {0U, 1U}) {
     Rig each(rough_board());
     each.board.channel(late).current.set({.status = hal::Status::not_ready});
-    // Within the time in which converters may be without a value.
+    // Within the time for which converters may be without a value.
     for (int i = 0; i < 95; ++i) {
       each.tick();
       CHECK(each.loop.self_test().outcome() == SelfTest::Outcome::waiting);
@@ -74,7 +74,7 @@ TEST(Senses, APositionOutOfRangeIsNotUsed) {
   const control::Theta before = rig.snapshot().theta;
   rig.muscle().position.set({.loose = true});
   rig.tick();
-  // One reading is no fault yet; but nobody controls by it or learns from it.
+  // One bad reading is not a fault yet, but it is used neither to control nor to learn.
   CHECK(rig.state() == State::active);
   CHECK(std::isnan(rig.snapshot().position_m));
   CHECK(rig.snapshot().theta == before);

@@ -30,8 +30,8 @@ Refusal refusal_in(const supercoil_setting_t& told) {
 
 }  // namespace
 
-/// The estimator starts at the muscle's values and only has to prove them. An earlier identify told
-/// how well it had found them.
+/// The estimator begins at the muscle's values, so it only has to confirm them. An earlier identify
+/// has said how well it had found them.
 RigSettings well_known() {
   RigSettings settings = rough_board();
   ChannelSettings& channel = settings.firmware.channels[0];
@@ -147,7 +147,7 @@ TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
     CHECK(write(heartbeat, wrong) == Refusal::out_of_range);
   for (const float wrong : {1e-30F, NAN, -1.0F, 1001.0F, INFINITY})
     CHECK(write(position_rate, wrong) == Refusal::out_of_range);
-  // Each alone has room on the bus, all together have not.
+  // Each alone fits on the bus, all together do not.
   int refused = 0;
   for (std::uint8_t i = 1; i < telemetry::run_settings; ++i)
     refused += write(i, 700.0F) == Refusal::out_of_range ? 1 : 0;
@@ -201,7 +201,7 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
   CHECK(stored == Refusal::none);
   CHECK(rig.loop.channel(0).take_learned_update(update));
   DOUBLES_EQUAL(16.0, update->muscle.stiffness_N_per_m, 3.0);
-  // What motion cannot tell stays as it was believed.
+  // What motion cannot show stays as it was believed.
   const control::PhysicalParameters& believed = rig.settings.firmware.channels[0].muscle;
   DOUBLES_EQUAL(believed.force_per_kelvin_N_per_K, update->muscle.force_per_kelvin_N_per_K, 0.0);
   DOUBLES_EQUAL(believed.moving_mass_kg, update->muscle.moving_mass_kg, 0.0);

@@ -13,7 +13,7 @@ using namespace supercoil::host_sim;
 
 namespace {
 
-/// What was told of a fall from 20 to 2 mm, 20 s after the scenario's begin.
+/// What was reported about a fall from 20 to 2 mm, 20 s after the scenario began.
 struct Fall {
   int cooling = 0;        ///< ticks limited by it
   int lacking = 0;        ///< ticks in which more cold was wanted than there is
@@ -42,7 +42,7 @@ Fall fall(const std::string& controller) {
   return fall;
 }
 
-/// What was told of a set point that asks for more than can be held for good.
+/// What was reported about a set point that is more than can be held indefinitely.
 struct Held {
   Fault fault = Fault::none;
   double highest_m = 0.0;   ///< of the model
@@ -99,7 +99,7 @@ TEST(Shaping, MuscleKeepsToAShapedFallAndItIsSaidWhy) {
   CHECK(shaped.furthest_m < 0.1e-3);
 }
 
-/// It leads there for as long as the heat allows, and then comes to what is held.
+/// The model goes there for as long as the heat allows, and then returns to what can be held.
 TEST(Shaping, MuscleStaysWhereItIsHeldForGoodAndItIsSaidWhy) {
   const Held held = held_at(0.027, "");
   CHECK(held.fault == Fault::none);
@@ -116,10 +116,10 @@ TEST(Shaping, IdentifiedMuscleStaysWhereItCanProveThatItAnswers) {
   CHECK(held.fault == Fault::none);
   CHECK(held.by == LimitedBy::unproven);
   DOUBLES_EQUAL(believed_held_m(noisy, true), held.last_m, 0.1e-3);
-  CHECK(held.furthest_m < 0.8e-3);  // the sensor's own noise is in it
+  CHECK(held.furthest_m < 0.8e-3);  // includes the sensor's own noise
 }
 
-/// One that does not do what its model does is no reference's fault, and is found out as ever.
+/// A muscle that does not do what its model does is not the reference's fault, and is still found.
 TEST(Shaping, MuscleThatIsWeakerThanItIsKnownIsStillFoundOut) {
   const Held held = held_at(
       0.027, "plant.force_per_kelvin_N_per_K = 0.0077\nmuscle.force_per_kelvin_N_per_K = 0.0086\n");

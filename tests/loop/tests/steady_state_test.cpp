@@ -69,7 +69,7 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
   CHECK_FALSE(rig().interval_missed);
 }
 
-/// It was told in what the senses were corrected by then.
+/// The reading was taken with the senses as they were corrected at that time.
 TEST(SteadyHeatRead, IsForgottenWhereTheSensesAreComparedAnew) {
   rig().hold_power(1.5, 24.0);
   check(Refusal::none, read(true_rise_K()));
@@ -86,7 +86,7 @@ TEST(SteadyHeatRead, IsForgottenWhereTheSensesAreComparedAnew) {
   CHECK_FALSE(kept->heat.has_reading());
 }
 
-/// It was taken in power that compared senses told.
+/// The reading was taken at a power that compared senses reported.
 TEST(SteadyHeatRead, NarrowsNothingWhereTheSensesAreNotCompared) {
   settings.firmware.channels[0].senses = {};
   const auto hottest_C = [&](const board::ThermalFacts& heat) {

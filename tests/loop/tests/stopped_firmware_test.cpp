@@ -46,7 +46,7 @@ TEST(StoppedFirmware, DuringTheSelfTestLeavesTheSupplyOpen) {
 }
 
 TEST(StoppedFirmware, ThatGoesOnAfterAStallHasAFaultAndDoesNotHeat) {
-  // After seconds the muscle is as cold as only somebody knows who counts them.
+  // After seconds the muscle has cooled, which only a firmware that counts them knows.
   for (const double stall_s : {0.05, 0.5, 5.0}) {
     Rig rig(rough_board());
     bring_to(Situation::pi, rig);
@@ -70,7 +70,7 @@ TEST(StoppedFirmware, ForFewerPeriodsThanAreToleratedKeepsTheTemperatureInItsInt
     rig.arm();
     rig.run(0.2);
     rig.heat(Task::power);
-    // From cold: the hot end leads by little, and must not fall behind.
+    // From cold, the hot end leads by little and must not fall behind.
     for (int i = 0; i < 4000; ++i) {
       if (i % 3 == 0) rig.board.lose_in_tick(3.5e-3);
       rig.tick();

@@ -14,7 +14,7 @@ namespace {
 constexpr double noise_rms_m = 10e-6;
 constexpr int warm_ticks = 40'000;
 
-/// Two alike until one of them is told something else.
+/// Two identical rigs, until one of them gets a different command.
 struct Twins {
   explicit Twins(const RigSettings& settings) : stays(settings), switches(settings) {}
 
@@ -32,7 +32,7 @@ struct Twins {
       rig.heat(task);
     });
   }
-  /// How far apart they get; `ask` is told every tick.
+  /// How far apart they get; `ask` is called every tick.
   double apart_m(int ticks, const std::function<void(Rig&)>& ask) {
     double furthest_m = 0.0;
     for (int i = 0; i < ticks; ++i) {
@@ -56,14 +56,14 @@ void hold(Rig& rig) {
   rig.send(Verb::position, 0.010);
 }
 
-/// What tells an estimator all of the muscle.
+/// Moves the muscle so that an estimator can learn all of it.
 void excite(Rig& rig) {
   const double time_s = rig.time_s();
   rig.send(Verb::power, 2.2 + 0.5 * (std::sin(0.3 * time_s) + std::sin(1.1 * time_s)) +
                             0.5 * (std::sin(3.1 * time_s) + std::sin(9.0 * time_s)));
 }
 
-/// How far the muscle is, within a time after a switch, from where it would have been without.
+/// How far the muscle is, within a time after a switch, from where it would be without the switch.
 double moved_m(int from, int to, bool moving, int ticks) {
   Twins twins(rough_board());
   twins.warm_up(Task::position, from);
@@ -73,7 +73,7 @@ double moved_m(int from, int to, bool moving, int ticks) {
   return twins.apart_m(ticks, moving ? follow : hold);
 }
 
-/// As told next, within a second.
+/// The value published next, within a second.
 double proportional_W_per_m(Rig& rig) {
   const control::GainValue& told = rig.snapshot().gain;
   for (int i = 0; i < 1000 && told.gain != control::Gain::proportional; ++i) {
@@ -126,7 +126,7 @@ TEST(Takeover, FromOpenLoopDoesNotJerkTheMuscle) {
   }
 }
 
-/// Gains that follow from the muscle are those of the one that is known at a controller's start.
+/// Gains derived from the muscle use the one that is known when the controller starts.
 TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
   RigSettings settings = rough_board();
   ChannelSettings& channel = settings.firmware.channels[Rig::tested];
@@ -134,7 +134,7 @@ TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
   channel.controllers[0].kind = control::ControllerKind::adaptive_ff;
   channel.estimators[0] = {};
   channel.estimators[0].kind = control::EstimatorKind::least_squares;
-  channel.supervision.proof_of_response = false;  // asked of a muscle that is known
+  channel.supervision.proof_of_response = false;  // only known muscles must prove it
   settings.board.channels[Rig::tested].plant.stiffness_N_per_m = 14.0;
   Twins twins(settings);
   twins.warm_up(Task::power, 0);
@@ -142,7 +142,7 @@ TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
   twins.apart_m(warm_ticks, excite);
   twins.apart_m(1000, hold);
   CHECK_TRUE(twins.switches.snapshot().trusted);
-  // Always of both: it takes ticks, and they are to stay alike.
+  // Always on both: reading takes ticks, and the twins must stay alike.
   const double before = proportional_W_per_m(twins.switches);
   proportional_W_per_m(twins.stays);
 

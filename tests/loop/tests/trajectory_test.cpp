@@ -75,7 +75,7 @@ TEST_GROUP(TrajectoryOverCan) {
       rig.run(0.1);
     }
   }
-  /// The newest of a node; answers: that answers something.
+  /// The newest frame of a node; answers: only frames that answer something.
   supercoil_trajectory_t told(const Master& who, bool answers = false) const {
     supercoil_trajectory_t newest{};
     for (const hal::CanFrame& frame : rig.trajectories) {
@@ -129,7 +129,7 @@ TEST(TrajectoryOverCan, IsPlayedFollowedAndHeldAtItsEnd) {
   DOUBLES_EQUAL(0.006, rig.loop.channel(0).snapshot().position_m, 0.0003);
   CHECK(ask(master, play_frame(master, ask_only, 0, 0.0)) == Refusal::none);
   LONGS_EQUAL(4, told(master).playback);
-  // The neighbour was told nothing.
+  // The neighbour got nothing.
   CHECK(state(1) == PlaybackState::empty);
 }
 
@@ -166,7 +166,7 @@ TEST(TrajectoryOverCan, TwoChannelsStartInTheTickThatOneSyncTells) {
   }
   CHECK(state() == PlaybackState::playing && state(1) == PlaybackState::playing);
   renew(1.0);
-  // The same part of its way each.
+  // Each has covered the same fraction of its way.
   DOUBLES_EQUAL((reference_m() - 0.005) / 0.001, (reference_m(1) - 0.005) / 0.0005, 1e-6);
 }
 
@@ -183,10 +183,10 @@ TEST(TrajectoryOverCan, ASyncOfAnEarlierProgramStartsNothing) {
   load(second);
   rig.bus.deliver(sync_frame(200, 50.0));
   renew(0.5);
-  // By that one its start would be over.
+  // According to that sync its start would be over.
   CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.3)) == Refusal::none);
   renew(2.0);
-  // And by that one soon.
+  // And according to that sync this one would start soon.
   CHECK(ask(second, play_frame(second, start_at_sync, 200, 5.0)) == Refusal::none);
   renew(0.5);
   CHECK(state() == PlaybackState::loaded && state(1) == PlaybackState::loaded);
@@ -288,7 +288,7 @@ TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
   CHECK(ask(master, first) == Refusal::wrong_counter);
   Master other = master;
   other.session = static_cast<std::uint16_t>(master.session + 1);
-  // Its session is in its checksum alone: to the board the frame is damaged.
+  // Its session enters the checksum alone, so to the board the frame is damaged.
   CHECK(ask(other, knot_frame(other, 1.0, 0.005)) == Refusal::no_such_channel);
   CHECK(ask(other, play_frame(other, start_at_once, 0, 0.1)) == Refusal::not_lease_holder);
   CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
@@ -303,7 +303,7 @@ TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
   CHECK(rig.claim(master) == Refusal::none);
   CHECK(rig.claim(master) == Refusal::none);  // as if the first answer had been lost
   CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);
-  // It does not know yet.
+  // The replaced one does not know it yet.
   for (int i = 0; i < 20; ++i) {
     rig.bus.deliver(knot_frame(replaced, 1.0, 0.005));
     rig.tick();
@@ -343,7 +343,7 @@ TEST(TrajectoryOverCan, SyncMovesNothingByItself) {
   renew(0.5);
   CHECK(rig.state() == State::active);
   CHECK(state() == PlaybackState::empty);
-  // A clock that goes elsewhere is not followed.
+  // A clock that jumps is not followed.
   load(master);
   CHECK(ask(master, play_frame(master, start_at_sync, 44, 0.02)) == Refusal::none);
   rig.bus.deliver(sync_frame(44, 50.0));
@@ -360,11 +360,11 @@ TEST(TrajectoryOverCan, SyncIsNobodysCommand) {
   rig.bus.deliver(sync_frame(1, 50.0));
   renew(0.1);
   CHECK(state() == PlaybackState::playing);
-  // However many come: a command finds room.
+  // However many arrive, a command finds room.
   for (int i = 0; i < 600; ++i)
     rig.bus.deliver(sync_frame(1, 50.0));
   CHECK(rig.command(second, Verb::disarm) == Refusal::none);
-  // They end no row of damaged commands.
+  // They do not interrupt a row of damaged commands.
   renew(0.1);
   for (int i = 0; i < 12; ++i) {
     hal::CanFrame damaged = master.frame(Verb::renew);
@@ -382,7 +382,7 @@ TEST(TrajectoryOverCan, AStartKeepsNoMuscleHot) {
   CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   CHECK(rig.command(master, Verb::renew) == Refusal::none);
   rig.run(0.2);
-  // The master is dead by now, and somebody else tells the time.
+  // The master is dead by now, and another program sends the time.
   rig.bus.deliver(sync_frame(1, 50.0));
   rig.run(0.1);
   CHECK(rig.fault() == Fault::command_timeout);

@@ -115,7 +115,7 @@ TEST(TuningOverCan, AControllerAtWorkTakesItsGainsOverWithoutAJump) {
     const double now_W = rig.loop.channel(0).snapshot().demanded_W;
     furthest_W = std::fmax(furthest_W, std::abs(now_W - before_W));
   }
-  // 10 um of noise times the gain that was: 2000 W/m.
+  // 10 um of noise times the gain before: 2000 W/m.
   CHECK(furthest_W < 0.15);
   follow(2.0);
   DOUBLES_EQUAL(before_m, rig.loop.channel(0).snapshot().position_m, 2e-4);
@@ -127,7 +127,7 @@ TEST(TuningOverCan, TheLawItselfCanBeExchanged) {
   CHECK(rig.write(master, pi_place, "kind", 5.0F) == Refusal::none);
   CHECK(rig.write(master, pi_place, "bandwidth_rad_per_s", 6.1F) == Refusal::none);
   CHECK(rig.tune(master, pi_place) == Refusal::none);
-  // The number that was meant, not the float's own.
+  // The decimal number that was meant, not the float's value.
   DOUBLES_EQUAL(6.1,
                 rig.loop.channel(0).tuner().value(TuningSet::in_use, pi_place,
                                                   tunable("bandwidth_rad_per_s")),
@@ -148,7 +148,7 @@ TEST(TuningOverCan, WhatDoesNotWorkIsRefusedAndChangesNothing) {
   CHECK(rig.write(master, pi_place, "integral_W_per_m_s", 1e7F) == Refusal::none);
   CHECK(rig.tune(master, pi_place) == Refusal::unsuitable);
   STRCMP_CONTAINS("unstable", rig.loop.channel(0).tuner().problem().c_str());
-  // MRAC's proof wants a model of certain poles.
+  // MRAC's proof requires a model with certain poles.
   CHECK(rig.write(master, mrac_place, "reference_model", 1.0F) == Refusal::none);
   CHECK(rig.tune(master, mrac_place) == Refusal::unsuitable);
   CHECK(rig.tune(master, 3) == Refusal::out_of_range);
@@ -200,7 +200,7 @@ TEST(TuningOverCan, WhatIsStoredIsUsedAtTheNextStart) {
   DOUBLES_EQUAL(700.0, value(TuningSet::in_use), 0.0);
   DOUBLES_EQUAL(700.0, value(TuningSet::stored), 0.0);
   DOUBLES_EQUAL(configured, value(TuningSet::configured), 0.0);
-  // Forgotten, it still is in use until the start after.
+  // Once forgotten, it stays in use until the next start.
   next.claim(master);
   CHECK(next.command(master, Verb::store, static_cast<float>(clear_tuning)) == Refusal::none);
   DOUBLES_EQUAL(configured, value(TuningSet::stored), 0.0);
@@ -224,7 +224,7 @@ TEST(TuningOverCan, AnEstimatorBeginsAnewWithItsNewValues) {
   for (int i = 0; i < 4; ++i)
     DOUBLES_EQUAL(1.0, theta()[i] / begins[i], 0.05);
   CHECK((learned - begins).cwiseQuotient(begins).cwiseAbs().maxCoeff() > 0.05);
-  // The muscle is followed all the while.
+  // Meanwhile the muscle still follows.
   follow(5.0);
   DOUBLES_EQUAL(0.012, rig.loop.channel(0).snapshot().position_m, 5e-4);
 

@@ -1,8 +1,8 @@
 """Judges what the program `attacks` saw, and compares it with docs/attacks.md and docs/safety.md.
 
 Each run must stay below the muscle's limit, and the published interval must hold the true temperature, unless
-attacks.cpp says what of the board protects then, or why the interval cannot know. --update writes the tables anew.
---every N does every Nth run and only judges: for sanitizers, which take too long for all.
+attacks.cpp names the part of the board that protects then, or says why the interval cannot know. --update writes the
+tables again. --every N does every Nth run and only judges: for sanitizers, which are too slow for all.
 """
 
 import argparse
@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIMIT_C = 160.0
 # From the crossing of the limit to the heater being off.
 OVERSHOOT_K = 0.5
-# What a reading's rounding may show.
+# Tolerance for the rounding of a reading.
 HELD_K = 0.05
 
 MUSCLES = ("soft", "stiff")
@@ -58,7 +58,7 @@ def by_attack(runs, boards):
 
 
 def summary(runs, boards, faults=False):
-    """boards: two of them, a column each."""
+    """boards: two of them, one column each."""
     yield "| attack | hottest, soft | hottest, stiff | interval | protects |" + (" ends with |" if faults else "")
     yield "|---|---|---|---|---|" + ("---|" if faults else "")
     for attack, group in by_attack(runs, boards).items():
@@ -101,7 +101,7 @@ def table(runs, muscle):
 
 
 def only_while(over):
-    """Where a single activity leads over the limit."""
+    """The activity, when only one leads over the limit."""
     activities = {run.activity for run in over}
     return f", in {activities.pop()} only" if len(activities) == 1 else ""
 

@@ -10,9 +10,9 @@ namespace supercoil::test {
 
 namespace {
 
-/// Until the muscles must be cool, and nothing is refused any more.
+/// By then the muscles must have cooled, and nothing is refused any more.
 constexpr double boot_s = 3.0;
-/// After it the windows of slow detectors hold an ordinary muscle.
+/// After it the windows of slow detectors contain the behaviour of an ordinary muscle.
 constexpr double warming_s = 20.0;
 constexpr double command_every_s = 0.1;
 

@@ -17,12 +17,12 @@ inline constexpr double press_ratio = 1.5;  ///< likewise: more than it can
 inline constexpr double rearm_every_s = 12.0;
 inline constexpr double rest_every_s = 1.0;
 
-/// Judged by the muscles' own temperatures: of the worst muscle.
+/// Of the worst muscle, by the muscles' true temperatures.
 struct Damage {
   double hottest_C = 0.0;
   double outside_K = 0.0;  ///< how far the truth was outside of the published interval
   Fault fault = Fault::none;
-  double fault_s = 0.0;  ///< after the attack; of one that is there from the start, after arming
+  double fault_s = 0.0;  ///< after the attack; when it is there from the start, after arming
 };
 
 /// How a run goes, whatever the attack.
@@ -34,7 +34,7 @@ struct Course {
   double air_sensor_offset_K = 0.0;
 };
 
-/// What the attack is, and what is commanded meanwhile, a derived class says.
+/// A derived class says what the attack is and what is commanded meanwhile.
 class AttackedBoard {
  public:
   AttackedBoard(const AttackedBoard&) = delete;
@@ -42,13 +42,13 @@ class AttackedBoard {
   virtual ~AttackedBoard() = default;
 
   /// Boots, warms the muscles, attacks, and goes on until the time is over or the board has cut the
-  /// heat for good. Once.
+  /// heat for good. To be called once.
   Damage run();
 
  protected:
   using Wiring = std::function<void(board::Devices&)>;
 
-  /// miswire: what is soldered otherwise than the firmware believes.
+  /// miswire: solders something otherwise than the firmware believes.
   AttackedBoard(
       const Course& course, const BoardSettings& firmware,
       const host_sim::SimulatedBoardSettings& simulated,
@@ -58,9 +58,9 @@ class AttackedBoard {
   /// Ten times a second: commands expire after 0.25 s.
   virtual void command() = 0;
 
-  /// To one muscle, from now on.
+  /// Changes one muscle, from now on.
   void harm(std::size_t i, const MuscleHarm& harm);
-  /// Of channel 0: identify or calibrate, once, and after that a power.
+  /// Channel 0 identifies or calibrates, once, and is given a power after that.
   void measure(Verb mode, double then_W);
   bool measure_asked() const { return measure_asked_; }
   /// Disarmed for a moment now and then.
@@ -104,7 +104,7 @@ inline board::Scaling scaling_of(const host_sim::ConverterSettings& converter) {
   return {converter.per_count(), converter.low};
 }
 
-/// Of the text of a configuration's file; one that is not in order ends the program.
+/// Settings from the text of a configuration file; an invalid one ends the program.
 BoardSettings settings_of(const std::string& text);
 
 }  // namespace supercoil::test

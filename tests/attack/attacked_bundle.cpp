@@ -11,7 +11,7 @@ namespace supercoil::test {
 namespace {
 
 constexpr std::size_t bundled = 3;
-/// Nothing but heat ends a run.
+/// So wide that nothing but heat ends a run.
 constexpr double range_m = 0.300;
 
 host_sim::SimulatedBoardSettings simulated_bundle(const Muscle& muscle) {
@@ -59,7 +59,7 @@ std::string bundle_text(const Muscle& muscle) {
          "\n[[bundle]]\nchannels = [1, 2, 3]\n";
 }
 
-/// As a file's defaults leave it. What is soldered is the simulated board's.
+/// As a file's defaults leave it, with the wiring of the simulated board.
 BoardSettings bundle_firmware(const Muscle& muscle,
                               const host_sim::SimulatedBoardSettings& simulated, bool identified) {
   BoardSettings settings = settings_of(bundle_text(muscle));

@@ -13,7 +13,7 @@ namespace supercoil::test {
 namespace {
 
 constexpr double sine_Hz = 0.1;
-/// Of the sensor and of the pulley: nothing but heat ends a run.
+/// Of the sensor and of the pulley; so wide that nothing but heat ends a run.
 constexpr double half_range_m = 0.060;
 
 double duration_s(JointActivity activity) {
@@ -37,7 +37,7 @@ host_sim::SimulatedBoardSettings simulated_joint(const Muscle& muscle) {
   return s;
 }
 
-/// As a file's defaults leave it. What is soldered is the simulated board's.
+/// As a file's defaults leave it, with the wiring of the simulated board.
 BoardSettings joint_firmware(const Muscle& muscle,
                              const host_sim::SimulatedBoardSettings& simulated, bool identified) {
   const double lever_m = simulated.joints[0].plant.lever.zero_radius_m();

@@ -8,7 +8,7 @@ namespace supercoil::test {
 
 class AttackedJoint final : public AttackedBoard {
  public:
-  /// muscle: each of both.
+  /// muscle: each of the two.
   AttackedJoint(const JointAttack& attack, const Muscle& muscle, JointActivity activity);
 
  private:

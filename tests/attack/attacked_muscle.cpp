@@ -38,7 +38,7 @@ host_sim::SimulatedBoardSettings simulated_muscle(const Attack& attack, const Mu
   return s;
 }
 
-/// As a file's defaults leave it. What is soldered is the simulated board's.
+/// As a file's defaults leave it, with the wiring of the simulated board.
 BoardSettings muscle_firmware(const Muscle& muscle,
                               const host_sim::SimulatedBoardSettings& simulated, bool identified) {
   std::string text = small_board;

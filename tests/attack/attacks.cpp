@@ -23,7 +23,7 @@ void add_lying_senses(std::vector<Attack>& attacks) {
     add(gain, 1.0);
   for (const double gain : gains)
     add(1.0, gain);
-  // What their quotient shows, the resistance, is right or nearly so.
+  // Their quotient, the resistance, is right or nearly so.
   for (const double gain : gains)
     add(gain, gain);
   add(0.64, 0.83);
@@ -85,7 +85,7 @@ void add_measured_air(std::vector<Attack>& attacks) {
       add("air at " + text_of(air_C) + " °C, measured", air_C, -1.9, identified);
     add("the wire of the air's sensor is off", 30.0, -200.0, identified);
   }
-  // A lost contact has to be found the sooner.
+  // A lost contact has to be found sooner here.
   for (const double air_C : {40.0, 60.0}) {
     add("blocked, cooling × 0.25, air at " + text_of(air_C) + " °C, measured", air_C, -1.9, true);
     attacks.back().blocked = true;
@@ -96,14 +96,14 @@ void add_measured_air(std::vector<Attack>& attacks) {
   }
 }
 
-/// What the firmware does not withstand, or does not know, on a muscle that it knows.
+/// Repeats on an identified muscle what the firmware does not withstand, or does not know.
 void add_identified(std::vector<Attack>& attacks) {
   const std::vector<Attack> others = attacks;
   for (Attack a : others) {
     if (a.blindness.empty()) continue;
     a.name = "identified, " + a.name;
     a.identified = true;
-    // Compared senses leave the hot end no room for what is hotter than it knows.
+    // Compared senses leave the hot end no margin for air that is hotter than it knows.
     if (a.air_C >= 60.0) a.guard = "thermal fuse";
     attacks.push_back(a);
   }
@@ -121,7 +121,7 @@ std::string leak_text(double percent) {
   return percent < 100.0 ? "switch leaks " + text_of(percent) + " %" : "switch stuck on";
 }
 
-/// A muscle that is known must prove that it answers, but not while it is identified.
+/// An identified muscle must prove that it responds, but not while identify runs.
 std::string_view guard_in(Activity activity, const Attack& attack) {
   const bool proven = attack.identified && attack.blocked && activity != Activity::identify;
   return proven ? std::string_view() : attack.guard;

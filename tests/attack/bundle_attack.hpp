@@ -1,4 +1,4 @@
-// What is done to a bundle of three muscles, while it does what.
+// What an attack does to a bundle of three muscles, and what the bundle is doing meanwhile.
 #pragma once
 
 #include <array>

@@ -10,14 +10,14 @@
 
 namespace supercoil::test {
 
-/// What happens to one muscle, beside a lost cooling.
+/// What happens to one muscle, besides lost cooling.
 struct MuscleHarm {
   double current_gain = 1.0;  ///< what its sense reads, over the truth
   double cooling_ratio = worst_configured_cooling;
   double switch_leak_ratio = 0.0;
   bool torn = false;
   double slack_m = 0.0;
-  bool off = false;  ///< its anchor: heat does not move the load any more, its spring still does
+  bool off = false;  ///< its anchor is off: heat no longer moves the load, its spring still does
 };
 
 struct GroupAttack {
@@ -32,7 +32,7 @@ struct GroupAttack {
   std::string_view blindness;  ///< likewise
 };
 
-/// One that is attacked by itself.
+/// A muscle that is attacked by itself.
 struct NamedMuscle {
   std::size_t place;
   std::string_view name;
@@ -52,7 +52,7 @@ void add_to_each(std::vector<AnyAttack>& attacks, NamedMuscles named, const std:
   }
 }
 
-/// One that is there from the start.
+/// Adds an attack that is there from the start.
 template <class AnyAttack>
 AnyAttack& add_from_start(std::vector<AnyAttack>& attacks, const std::string& name) {
   AnyAttack& a = attacks.emplace_back();
@@ -72,7 +72,7 @@ void add_lying_senses(std::vector<AnyAttack>& attacks, NamedMuscles named) {
     add_from_start(attacks, "supply × " + text_of(gain)).supply_gain = gain;
 }
 
-/// Cooled by so much; worse than configured, if it is.
+/// An attack with this cooling; guarded and blind when that is worse than configured.
 template <class AnyAttack>
 AnyAttack cooled_by(double ratio) {
   AnyAttack a;
@@ -98,7 +98,7 @@ void add_hot_air(std::vector<AnyAttack>& attacks) {
   air.blindness = warmer_air;
 }
 
-/// Once more where the board sees least, and where `also` says so.
+/// Repeats on identified muscles the attacks that the board sees least, and those of `also`.
 template <class AnyAttack>
 void add_identified(
     std::vector<AnyAttack>& attacks,

@@ -1,4 +1,4 @@
-// What is done to a joint of two muscles, while it does what.
+// What an attack does to a joint of two muscles, and what the joint is doing meanwhile.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Every attack on every muscle, on joints of two and bundles of three of them, in every activity, a
-// line each: attack_table.py judges them.
-//   attacks [EVERY]    EVERY: takes every so many only
+// Every attack on every muscle, on joints of two and bundles of three of them, in every activity;
+// prints a line for each, which attack_table.py judges.
+//   attacks [EVERY]    EVERY: takes only every EVERY-th
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -45,7 +45,7 @@ std::string_view guard_in(JointActivity /*activity*/, const JointAttack& attack)
   return attack.guard;
 }
 
-/// of: "", or what stands behind the muscle's name. activities: their names, disarmed first.
+/// of: the suffix of the muscle's name, or "". activities: their names, disarmed first.
 template <class Attacked, class Activity, class AnyAttack>
 void add(std::vector<Case>& cases, const std::string& of, const std::vector<AnyAttack>& attacks,
          std::span<const std::string_view> activities) {

@@ -1,4 +1,4 @@
-// Setup in lockstep: descriptions that are up to half wrong, muscles that nothing was tuned on.
+// Setup in lockstep, from descriptions up to 50 % off, of muscles that nothing was tuned on.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -37,7 +37,7 @@ TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
     CHECK(c.error_m <= c.promised_m);
     CHECK(c.error_m > c.promised_m / 3.0);
     CHECK(c.travel_m > 1e-3);
-    CHECK(c.hottest_rise_K < 105.0);  // 130 °C, from which on power is derated
+    CHECK(c.hottest_rise_K < 105.0);  // 130 °C, where derating begins
     CHECK(c.took_s <= std::max(800.0, 15.0 * muscle.time_constant_s));
   }
 }
@@ -53,7 +53,7 @@ TEST(Commission, AMuscleFarFromLinearFollowsAsPromisedAfterShorterStrokes) {
   }
 }
 
-/// Full strokes leave its theta3 uncertain, as often as they are repeated.
+/// Full strokes leave its theta3 uncertain, however often they are repeated.
 TEST(Commission, AMuscleThatStaysUncertainFollowsAsPromisedAfterShorterStrokes) {
   const Commissioned c = commissioned(1043);
   STRCMP_EQUAL("", c.refused.c_str());
@@ -137,7 +137,7 @@ TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
       c.refused.c_str());
 }
 
-/// A time constant of 56 s, and senses that no meter was compared with: a motion of some 20 um.
+/// A time constant of 56 s, and senses never compared with a meter: a motion of some 20 um.
 TEST(Commission, AMotionThatStandingStillWouldFollowAsWellIsSaid) {
   for (const bool small : {true, false}) {
     HeldOutBoard board(small ? held_out_muscle(2002, error, 5.0) : held_out_muscle(24, error),

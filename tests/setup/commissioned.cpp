@@ -132,8 +132,8 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
 }
 
 Commissioned commission_by_script(const HeldOut& muscle) {
-  // The script is of this board: somebody has read a meter on it before. Where the little power
-  // that the description allows is too little for its senses, the script leaves the step.
+  // The script was made for this board: somebody has read a meter on it before. Where the
+  // description allows too little power for the senses, the script leaves that step out.
   HeldOutBoard first(muscle, "learned_ff", 0.0);
   MeterReader reader(first.link());
   const bool compared = first.steps(reader).compare_senses().has_value();

@@ -27,8 +27,8 @@ class Nobody final : public operating::Operator {
 /// A board in lockstep whose file comes from the description.
 class HeldOutBoard {
  public:
-  /// controller: its kind, which has learned_ff's keys. sense_error_ratio: of a comparison with a
-  /// meter before; 0: there was none. Throws what a wrong test setting says.
+  /// controller: its kind, which has learned_ff's keys. sense_error_ratio: of an earlier comparison
+  /// with a meter; 0: there was none. Throws the problem of a wrong test setting.
   HeldOutBoard(const HeldOut& muscle, const std::string& controller, double sense_error_ratio);
 
   SimulatedLink& link() { return link_; }
@@ -45,26 +45,26 @@ class HeldOutBoard {
 };
 
 struct Commissioned {
-  std::string refused;         ///< what setup said; empty: it came to its end
-  double promised_m = 0.0;     ///< NaN: nothing was
+  std::string refused;         ///< what setup said; empty: it completed
+  double promised_m = 0.0;     ///< NaN: nothing was promised
   double probe_m = 0.0;        ///< part of that
   double pwm_m = 0.0;          ///< likewise
   double unexplained_m = 0.0;  ///< likewise
   double error_m = 0.0;
-  double standing_still_m = 0.0;  ///< the error of a muscle that does
-  double calibrated_s = 0.0;      ///< after which time of the muscle
+  double standing_still_m = 0.0;  ///< the error of a muscle that stands still
+  double calibrated_s = 0.0;      ///< the muscle's time at that moment
   double identified_s = 0.0;      ///< likewise
-  double took_s = 0.0;            ///< likewise, all of it
-  double hottest_rise_K = 0.0;    ///< truly
-  double untold_K = 0.0;          ///< so much hotter than the board told that it may be
-  double travel_m = 0.0;          ///< that it was promised to hold
+  double took_s = 0.0;            ///< likewise, at the end
+  double hottest_rise_K = 0.0;    ///< the true one
+  double untold_K = 0.0;          ///< how far the muscle was above the board's hot end
+  double travel_m = 0.0;          ///< which setup promised it can hold
   Fault fault = Fault::none;
 };
 
 /// As HeldOutBoard. Its senses were compared with a meter before, and nobody answers.
 Commissioned commission(const HeldOut& muscle, const std::string& controller = "learned_ff");
 
-/// All steps that heat, and gains, of a board that was just started; a script answers.
+/// All steps that heat, and gains, on a board that was just started; a script answers.
 Commissioned commission_by_script(const HeldOut& muscle);
 
 }  // namespace supercoil::test

@@ -1,5 +1,5 @@
-// The steps of setup that ask: senses by a meter, the position's scale by a ruler, whether to take
-// another controller; in lockstep.
+// The steps of setup that ask a person: senses by a meter, the position's scale by a ruler, whether
+// to take another controller; in lockstep.
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double supply_V = 12.0;
 
-/// Who has a meter and a ruler, reads them for a second, and tells what they show.
+/// A person with a meter and a ruler, who reads them for a second and tells what they show.
 class Person final : public operating::Operator {
  public:
   explicit Person(SimulatedLink& link) : link_(link) {}
@@ -74,12 +74,12 @@ HeldOut pulled_by(double force_N) {
   return muscle;
 }
 
-/// Of controller 0 on the board, by its name.
+/// A tunable of controller 0 on the board, by its name.
 double tuned(HeldOutBoard& board, std::string_view name, TuningSet set) {
   return board.link().tuning("1", 0, control::tunable_named(name), set).value();
 }
 
-/// What a meter shows at half of that power and at all of it.
+/// What a meter shows at half and at all of that power.
 operating::ScriptedAnswers meter_readings(double power_W, double shown_V = supply_V) {
   operating::ScriptedAnswers script("answers.toml");
   script.add("senses", "power_W", {power_W});
@@ -102,7 +102,7 @@ constexpr auto learned_ff = static_cast<double>(control::ControllerKind::learned
 }  // namespace
 
 TEST_GROUP(GuidedSteps){
-    /// A comparison that comes to nothing; returns when, in s.
+    /// A comparison that comes to nothing; returns the time of its end, in s.
     static double ends_with(const char* why, const std::function<void(Person&)>& change){
         HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
 Person person(board.link());
@@ -194,7 +194,7 @@ TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
   CHECK(board.steps(person).calibrate().has_value());
   STRCMP_CONTAINS(told.c_str(), person.told().c_str());
   LONGS_EQUAL(2, person.asked);
-  // Without one nothing is asked.
+  // Without a fault nothing is asked.
   CHECK(board.steps(person).calibrate().has_value());
   LONGS_EQUAL(2, person.asked);
   for (const double allowed : {0.0, 1.0}) {

@@ -19,7 +19,7 @@ class Dice {
   double between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  /// As likely in each octave.
+  /// Equally likely in each octave.
   double over(double low, double high) { return low * std::pow(high / low, between(0.0, 1.0)); }
 
  private:
@@ -33,7 +33,7 @@ struct Drawn {
   double cold_Ohm = 0.0;
 };
 
-/// Above the air, at which the travel is what a muscle of thread makes for long.
+/// The rise above the air at which a muscle of thread has the travel that it can make for long.
 constexpr double full_K = 80.0;
 constexpr double supply_V = 12.0;
 constexpr double gravity_m_per_s2 = 9.81;
@@ -51,13 +51,13 @@ Drawn drawn_muscle(Dice& dice, double slower) {
   d.travel_m = dice.over(0.003, 0.02);
   m.force_per_kelvin_N_per_K = d.travel_m * m.stiffness_N_per_m / full_K;
   d.max_W = dice.between(1.2, 1.8) * full_K * m.heat_transfer_W_per_K;
-  // At the least supply there is more than the greatest power.
+  // Even the min supply can give more than max_W.
   d.cold_Ohm = dice.between(0.4, 0.7) * supply_V * supply_V / d.max_W;
   return d;
 }
 
 std::string effects_of(Dice& dice, const Drawn& d) {
-  // A softer muscle hangs lower: less than it contracts, or it would be none.
+  // A softer muscle hangs lower, but by less than it contracts: otherwise it would not be a muscle.
   const double hangs_m = d.muscle.moving_mass_kg * gravity_m_per_s2 / d.muscle.stiffness_N_per_m;
   const double softening = std::fmin(0.4, 0.4 * d.travel_m / hangs_m);
   std::ostringstream text;

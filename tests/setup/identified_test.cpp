@@ -1,5 +1,5 @@
-// What identify tells of the muscle that it found: how sure each parameter is, and whether the
-// file's bounds hold it.
+// What identify reports about the muscle that it found: how certain each parameter is, and whether
+// it is within the file's bounds.
 #include "apps/supercoil/setup/identified.hpp"
 
 #include <array>
@@ -27,7 +27,7 @@ using operating::identified_deviations;
 using operating::identified_values;
 using operating::named_deviations;
 
-/// By many muscles whose theta is off at random. scaled: theta1 follows theta3.
+/// From many muscles with random errors of theta. scaled: theta1 follows theta3.
 Values drawn(const PhysicalParameters& muscle, const std::array<double, 4>& ratios, bool scaled) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -75,7 +75,7 @@ TEST(Identified, EachParameterIsAsSureAsManyMusclesOfSuchAThetaShow) {
     DOUBLES_EQUAL(1.0, by_slopes.time_constant / by_draws[4], 0.06);
     DOUBLES_EQUAL(1.0, by_slopes.gain / by_draws[5], 0.06);
     for (std::size_t k = 0; k < by_slopes.parameters.size(); ++k) {
-      // Where theta1 is what was believed, so is each of them.
+      // Where theta1 is kept as believed, so is each of them.
       if (scaled) CHECK_TRUE(std::isnan(by_slopes.parameters[k]));
       if (!scaled) DOUBLES_EQUAL(1.0, by_slopes.parameters[k] / by_draws[k], 0.06);
     }
@@ -110,7 +110,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   STRCMP_CONTAINS("theta1 was kept: each of these rests on the file's values", of_kept.c_str());
   STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % ", of_kept.c_str());
 
-  // A muscle that was stored before its deviations were.
+  // A muscle that was stored before deviations were stored.
   KnownMuscle known = known_of(muscle);
   for (std::size_t i = 0; i < 4; ++i)
     known[known_theta1_deviation + i] = NAN;

@@ -1,4 +1,4 @@
-// The steps of setup on a joint: its agonist's go on with the antagonist; in lockstep.
+// The steps of setup on a joint, in lockstep: those of its agonist go on with the antagonist.
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -21,7 +21,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// slow: of this channel, from 0, the muscle may by its bounds need 20 s until it is cool.
+/// slow: the channel, from 0, whose muscle may by its bounds need 20 s until it is cool.
 config::BoardConfig example(std::optional<std::size_t> slow = std::nullopt) {
   std::ifstream file(SUPERCOIL_EXAMPLES "/joint-as5600-ads1115.toml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -38,7 +38,7 @@ double gain_m_per_W(const nlohmann::ordered_json& found) {
          (value("stiffness_N_per_m") * value("heat_transfer_W_per_K"));
 }
 
-/// Of the antagonist the heater's resistance and the force differ from what the file says.
+/// The antagonist's heater resistance and force differ from what the file says.
 host_sim::Scenario scenario_on(const config::BoardConfig& config) {
   auto scenario = host_sim::parse_scenario(
       "simulation.duration_s = 1e5\noperator.action = 'none'\n[joint]\n"

@@ -18,7 +18,7 @@ using operating::travel_key;
 
 namespace {
 
-/// Who watches the muscle's end, and answers when it is somewhere.
+/// A person who watches the muscle's end, and answers when it has reached a place.
 class Watcher final : public operating::Operator {
  public:
   explicit Watcher(HeldOutBoard& board) : board_(board) {}
@@ -162,7 +162,7 @@ TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
   STRCMP_CONTAINS("let go at 2.0", watcher->told.c_str());
 }
 
-/// A bus on which no position was heard yet.
+/// A bus on which no position has been heard yet.
 class DeafLink final : public SimulatedLink {
  public:
   using SimulatedLink::SimulatedLink;
@@ -197,7 +197,7 @@ TEST(LimitsStep, AnInterruptionEndsTheHeating) {
   CHECK(watcher->truth_m() < 0.0019);
 }
 
-/// Of equal steps of power, of which the later ones bring `ratio` of what the first ones did.
+/// Equal steps of power, of which the later ones bring `ratio` of the first ones' motion.
 TEST(LimitsStep, AStallIsWhatBringsLessThanAFifth) {
   constexpr double noise_m = 10e-6;
   const auto stalls = [](double ratio, double first_m) {
@@ -213,6 +213,6 @@ TEST(LimitsStep, AStallIsWhatBringsLessThanAFifth) {
   CHECK_TRUE(stalls(0.15, 1e-3));
   CHECK_FALSE(stalls(0.25, 1e-3));
   CHECK_FALSE(stalls(0.5, 1e-3));
-  // Steps that the noise could be tell nothing.
+  // Steps that may be noise prove nothing.
   CHECK_FALSE(stalls(0.0, 5.0 * noise_m));
 }

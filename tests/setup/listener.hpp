@@ -10,7 +10,7 @@
 
 namespace supercoil::test {
 
-/// Nobody is there, at most a script, and all that is said is heard.
+/// Nobody is there, at most a script; keeps everything that setup says.
 class Listener final : public operating::Operator {
  public:
   Listener() = default;
@@ -26,7 +26,7 @@ class Listener final : public operating::Operator {
   std::optional<OrWhy> scripted(const operating::Question& question) override {
     return script_.next(question);
   }
-  /// Since the last time.
+  /// What was said since the last call.
   std::string take() { return std::exchange(told_, {}); }
 
  private:

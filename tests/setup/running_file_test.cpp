@@ -1,4 +1,4 @@
-// Whether a board runs with the file that setup goes by.
+// Whether a board runs with the file that setup uses.
 #include "apps/supercoil/setup/running_file.hpp"
 
 #include <cmath>
@@ -39,7 +39,7 @@ host_sim::Scenario scenario_of(const config::BoardConfig& config, const std::str
   return std::move(*scenario);
 }
 
-/// That was started with this text.
+/// A board that was started with this text.
 struct RunningBoard {
   RunningBoard(const std::string& text, const std::string& plant)
       : scenario(scenario_of(config_of(text), plant)) {}
@@ -93,7 +93,7 @@ TEST(RunningFile, WhatTheBoardLearnedOrABusRoundsIsNoDifference) {
   known[2] *= 1.1;
   known[known_cold_resistance] = 9.5;
   CHECK(operating::differences(known, config.settings, 0).empty());
-  // An older board tells less; it cannot be believed to have the file.
+  // An older board reports less, so it cannot be trusted to have the file.
   known[known_max_set_point] = NAN;
   const auto untold = operating::differences(known, config.settings, 0);
   LONGS_EQUAL(1, untold.size());

@@ -1,4 +1,4 @@
-// Setup on muscles that nothing was tuned on, each from a description in a bench's units:
+// Setup of muscles that nothing was tuned on, each from a description in a bench's units:
 //   setup_study [MUSCLES [ERROR_PERCENT [FIRST [SLOWER]]]]
 // The figures of docs/setup.md.
 #include <algorithm>
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
       untold += c.untold_K > 0.0 ? 1 : 0;
       if (!c.refused.empty()) continue;
       ++followed;
-      // What a muscle that stands still would keep is no promise.
+      // A promise that a muscle standing still would keep does not count.
       const bool keeps = ratio <= 1.0 && c.promised_m < c.standing_still_m;
       kept += keeps ? 1 : 0;
       near += keeps && ratio > 1.0 / 3.0 ? 1 : 0;

@@ -11,7 +11,7 @@
 
 namespace supercoil::test {
 
-/// Its time goes on while it is asked or waited for, and at no other moment.
+/// Its time advances while it is asked or waited for, and at no other moment.
 class SimulatedLink : public operating::BoardLink {
  public:
   SimulatedLink(host_sim::Simulation& simulation, double rate_Hz)
@@ -83,7 +83,7 @@ class SimulatedLink : public operating::BoardLink {
   double time_s() const override { return static_cast<double>(simulation_.tick()) / rate_Hz_; }
 
   double hottest_rise_K() const { return hottest_rise_K_; }
-  /// By how much the muscle was hotter than the board told that it may be, while it was waited for.
+  /// How far the muscle was above the board's hot end while it was waited for.
   double untold_K() const { return untold_K_; }
   /// What the muscle truly gets, as a meter shows it.
   double metered_W() const { return metered_W_; }
@@ -92,7 +92,7 @@ class SimulatedLink : public operating::BoardLink {
  private:
   static constexpr double meter_s = 0.1;  ///< over which a meter averages
 
-  /// channel: as in a line.
+  /// channel: its number, as in a line.
   Channel& at(const std::string& channel) {
     return simulation_.loop().channel(std::stoul(channel) - 1);
   }

@@ -1,8 +1,8 @@
 """How late supercoild's loop wakes, beside cyclictest: the ratio of their p99.99; the goal is at most 1.1.
 
-Both run at 1 kHz and the same priority of SCHED_FIFO, in slices that take turns, so that whatever else this machine
-does hits both alike. Needs the right to real-time priorities (root), cyclictest (Debian: rt-tests), and for a result
-that means something a machine that does nothing else.
+Both run at 1 kHz and the same priority of SCHED_FIFO, in alternating slices, so that whatever else this machine does
+affects both alike. Needs the right to real-time priorities (root), cyclictest (Debian: rt-tests), and for a meaningful
+result a machine that does nothing else.
 """
 
 import argparse
@@ -45,12 +45,12 @@ def cyclictest(ticks, options):
                        check=True, stdout=subprocess.DEVNULL)
         thread = json.load(file)["thread"]["0"]
     counts = collections.Counter({int(start): count for start, count in thread["histogram"].items()})
-    # What is beyond the histogram is in no bin of it; adding drops it when there is none.
+    # Wake-ups beyond the histogram are in none of its bins; adding drops the count when there are none.
     return counts + collections.Counter({LONGEST_US - 1: thread["cycles"] - counts.total()})
 
 
 def quantile_us(counts, share):
-    """The end of the bin where so many are counted, for both sides alike."""
+    """The end of the bin that this share of the counts reaches, for both sides alike."""
     wanted = share * counts.total()
     for start in sorted(counts):
         wanted -= counts[start]
@@ -65,7 +65,7 @@ def ratio(pairs):
 
 
 def uncertainty(pairs, times=200):
-    """Where 90 % of the ratios lie when the pairs of slices are drawn anew."""
+    """The interval that holds 90 % of the ratios when the pairs of slices are resampled."""
     draw = random.Random(1)
     ratios = sorted(ratio(draw.choices(pairs, k=len(pairs))) for _ in range(times))
     return ratios[times // 20], ratios[-1 - times // 20]
@@ -83,7 +83,7 @@ def print_table(ours, theirs):
 
 
 def outline(counts):
-    """Each bin as a horizontal line; 0.5 is nothing on a logarithmic axis."""
+    """Each bin as a horizontal line; 0.5 stands for zero on a logarithmic axis."""
     for start in sorted(counts):
         yield from ([] if start - 1 in counts else [(max(start, 0.5), 0.5)])
         yield from ((max(start, 0.5), counts[start]), (start + 1, counts[start]))
@@ -128,7 +128,7 @@ def main():
     pairs = []
     for turn in range(turns):
         sides = [supercoild, cyclictest]
-        # Who begins changes, so that neither always follows the other.
+        # They take turns at beginning, so that neither always follows the other.
         order = sides if turn % 2 == 0 else sides[::-1]
         slices = {side: side(options.slice, options) for side in order}
         pairs.append([slices[side] for side in sides])

@@ -1,4 +1,4 @@
-// A tick of the simulated muscle alone. `real` at 4 substeps is to cost at most three linear ticks.
+// A tick of the simulated muscle alone. `real` at 4 substeps must cost at most three linear ticks.
 #include "plant/plant.hpp"
 
 #include <benchmark/benchmark.h>

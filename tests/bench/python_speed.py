@@ -1,6 +1,6 @@
 """How fast the Python package is. It reports, and judges nothing.
 
-Commands with answers a second over socketcand on loopback, and what part of a core the telemetry of eight nodes takes.
+Commands with answers a second over socketcand on loopback, and the part of a core that the telemetry of eight nodes takes.
 
     SUPERCOIL_SIM=build/release/bin/supercoil-sim .venv/bin/python tests/bench/python_speed.py
 
@@ -27,7 +27,7 @@ SLOT_S = 0.001
 
 
 async def commands(at_once):
-    """A second, of commands that are given by so many tasks."""
+    """Commands a second when this many tasks give them, and the part of a core that this took."""
     async with supercoil.Simulation("bench", deadline_s=60.0) as simulation:
         muscle = simulation.muscle
         await muscle.arm()
@@ -81,7 +81,7 @@ def serve():
 
 
 async def telemetry(address):
-    """Frames a second that were heard of eight nodes, and the part of a core that it took."""
+    """Frames a second received from eight nodes, and the part of a core that this took."""
     muscles = [await supercoil.Muscle(address, node).connect() for node in NODES]
     recordings = [muscle.record().start() for muscle in muscles]
     begin, used = time.monotonic(), time.process_time()

@@ -12,8 +12,8 @@ namespace {
 
 using namespace supercoil::host_sim;
 
-/// The budget at 1 kHz, one channel: 3,000 × real time or more. The boot is simulated as all that
-/// follows, 15 s at whose end the scenario begins.
+/// The budget at 1 kHz, one channel: 3,000 × real time or more. The boot is simulated like the
+/// rest: 15 s, after which the scenario begins.
 void scenario(benchmark::State& state, const std::string& name) {
   const auto read = read_scenario(name);
   if (!read) {

@@ -1,6 +1,6 @@
 """How fast the simulator's programs are as they are started: `run`, its traces, a campaign on one core and on all.
 
-What is compared is run in turn on the same machine; medians are printed beside the goals.
+Programs to compare run in turn on the same machine; medians are printed beside the goals.
 """
 
 import json

@@ -88,7 +88,7 @@ def lemmas(terms, chord):
 
 
 def enclosures(terms):
-    """exp(-x) for a short step, so closely that a counterexample is one of real exponentials as well."""
+    """exp(-x) for a short step, so tight that a counterexample also holds for real exponentials."""
     for transfer, mass, decay in terms:
         x = transfer * GIVEN["step_s"] / mass
         yield z3.And(10 * x <= 1, 1 - x <= decay, decay <= 1 - x + x * x / 2)
@@ -130,7 +130,7 @@ def refute_both_lower_bounds(paths):
     """With the lowest mass in both directions the observer cools too fast. Real exponentials confirm it."""
     both_lower = [(GIVEN["mass_u"], GIVEN["mass_l"])]
     for path in paths:
-        # The bounds still hold the muscle: only the formula forgets the higher one.
+        # The bounds still contain the muscle: only the formula forgets the higher one.
         model = search(path, "highest", replaced=both_lower, more=enclosures)
         if model is None:
             continue

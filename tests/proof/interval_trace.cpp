@@ -13,8 +13,8 @@ using test::Symbol;
 
 namespace {
 
-/// The recursion of one step, from ends called `highest` and `lowest`, however its comparisons turn
-/// out.
+/// The recursion of one step, from ends called `highest` and `lowest`, for any outcome of its
+/// comparisons.
 using SymbolicObserver = control::BasicIntervalObserver<Symbol>;
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -44,7 +44,7 @@ void print_formulas() {
   SymbolicObserver observer(
       {Symbol("mass_l"), Symbol("mass_u"), Symbol("transfer_l"), Symbol("transfer_u")},
       Symbol("step_s"));
-  // After a step each end is a formula of its own, which can be found again in the next one's.
+  // After a step each end becomes a formula of its own, which can be recognised in the next step's.
   observer.reset(Symbol("before"));
   Symbol::path = {};
   observer.step(Symbol("before_min_W"), Symbol("before_max_W"));

@@ -8,7 +8,7 @@
 
 namespace supercoil::test {
 
-/// A comparison of formulas has no value: the path says how each one turns out, and keeps its
+/// A comparison of formulas has no value: the path chooses each outcome, and records its
 /// condition.
 struct Path {
   std::vector<bool> choices;

@@ -20,7 +20,7 @@ hal::CanFrame packed(unsigned id, unsigned length, unsigned node, const Signals&
   return frame;
 }
 
-/// The same, protected: the codec wrote all but the checksum.
+/// The same, protected: the codec writes all but the checksum.
 template <class Signals>
 hal::CanFrame sealed(unsigned id, unsigned length, unsigned node, const Signals& signals,
                      int (*pack)(std::uint8_t*, const Signals*, std::size_t)) {

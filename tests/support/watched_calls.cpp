@@ -19,7 +19,7 @@ namespace {
 
 thread_local supercoil::test::WatchedCalls calls;
 
-/// The function that ours stands in front of.
+/// The original of the function that ours replaces.
 template <class Function>
 Function* next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));

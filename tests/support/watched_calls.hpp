@@ -42,8 +42,8 @@ inline void keep(void* memory) {
   asm volatile("" : : "g"(memory) : "memory");
 }
 
-/// A counter that sees nothing would pass every test: it first has to see each kind. Prints what it
-/// saw; returns how many kinds it missed.
+/// A counter that sees nothing would pass every test, so it first has to see one call of each kind.
+/// Prints what it saw; returns how many kinds it missed.
 int prove_the_counters();
 
 }  // namespace supercoil::test

@@ -1,6 +1,6 @@
-"""On the emulated board, by scripts/python: the package over a CAN controller and by the board's own socket.
+"""Runs on the emulated board, by scripts/python: the package over a CAN controller and by the board's own socket.
 
-Each moves the muscle and plays 2 s of a motion; the references that it was told meanwhile are printed."""
+Each moves the muscle and plays 2 s of a motion; prints the references that it received meanwhile."""
 
 import math
 import sys

@@ -1,4 +1,4 @@
-"""What the firmware's CAN bus heard and told on the emulated board (scripts/can)."""
+"""What was heard and reported on the firmware's CAN bus on the emulated board (scripts/can)."""
 
 import re
 
@@ -9,7 +9,7 @@ SOON_S = 0.1  # a command of the shell, and what it runs
 
 
 def frames(console, log):
-    """(data, seconds) of each that was heard."""
+    """(data, seconds) of each frame that was heard."""
     return [(data, float(time))
             for data, time in re.findall(rf"^{log} frame \w+ \w+ (\w+|-) ([\d.]+)\r?$", console, re.M)]
 
@@ -20,7 +20,7 @@ def states(console, log):
 
 
 def after(told, state, begin_s):
-    """How long after `begin_s` the first of this state or data was told; None: never."""
+    """How long after `begin_s` the first of this state or data was reported; None: never."""
     return next((time - begin_s for what, time in told if what == state and time >= begin_s - 0.01), None)
 
 
@@ -30,7 +30,7 @@ def can(table, run):
             for log, counts in re.findall(r"^(\w+) sent can\d ([\d ]+)\r?$", run.console, re.M)}
     for sender, hearer, way in (("second", "first", "can1 to can0"), ("first", "second", "can0 to can1")):
         ok, busy, gone = sent[sender]
-        # The first byte counts what is sent; who listens begins before or after the other sends.
+        # The first byte counts the frames sent; the listener may begin before or after the sender.
         numbers = [int(data[:2], 16) for data, _ in frames(run.console, hearer)]
         table.row(f"CAN, {way}, both ways at once: heard", len(numbers), 100, ok, "")
         table.row("           left out between them", sum((b - a) % 256 - 1 for a, b in zip(numbers, numbers[1:])), 0, 0, "")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""supercoil doctor on the emulated board: nothing to complain of on a good one, and each of eight faults is named.
+"""supercoil doctor on the emulated board: no complaint about a good one, and each of eight faults is named.
 
-Each fault has a board of its own. What is missing must be told with where it was looked for and what is there instead.
-That doctor heats nothing is what the plant's witness saw, outside of the board. Prints what was found; ends with 1 if
+Each fault has a board of its own. What is missing must be reported with where doctor looked for it and what is there
+instead. The plant's witness, outside of the board, shows that doctor heats nothing. Prints what was found; exits with 1 if
 any of it is wrong, 2 if the board did not do its part.
 
     tests/hil/doctor_test.py [--only FAULT]
@@ -16,12 +16,12 @@ import rig
 import witness
 from table import Table
 
-# Of every board here: the plant comes before the firmware, as its physics must; gpio-sim does not say what pulls.
+# On every board here the plant has priority over the firmware, as physics must; gpio-sim does not report pulls.
 EXPECTED_WARNINGS = {"other programs": r"supercoil-rig-p \(90\) above priority 80",
                      "channel 1, enable released": "low while nobody drives it; its pull is unknown",
                      "channel 2, enable released": "low while nobody drives it; its pull is unknown"}
 
-# Fault: what must be a problem, and how it is told; and what follows from the fault by itself.
+# For each fault: what must be a problem, how it is reported, and what follows from the fault by itself.
 FAULTS = {
     "good": (None, "", {}),
     "no_line": ("stop_circuit",
@@ -38,7 +38,7 @@ FAULTS = {
     "hot_air": ("air", r"45 to 45 .*: must be 13 to 32 ", {}),
     "enable_up": ("channel 2, enable released", r"^high while nobody drives it; its pull is unknown$", {}),
 }
-# And what is told as a warning because of the fault.
+# Warnings because of the fault.
 FOLLOWS = {
     # While the plant stands still, so do the values of its sensors.
     "rail": {"channel 1, position": "the same -?[0-9]+ counts each time"},
@@ -60,7 +60,7 @@ def told(table, label, findings, verdict, expected):
 
 
 def seen(table, fault, looks):
-    """Nothing was heated, also where an enable line rose when it was given up."""
+    """Nothing was heated, even where an enable line rose when it was released."""
     channels = [channel for look in looks for channel in look.channels]
     table.row(f"{fault}: most power that the witness saw", max(c.power_W for c in channels), 0, 0, "W")
     table.row(f"{fault}: highest duty", max(c.duty for c in channels), 0, 0, "")
@@ -96,7 +96,7 @@ def main():
     for fault in FAULTS:
         if args.only not in (None, fault):
             continue
-        # A direct call has 20 us on a real processor; the usual shift is one a fifth as fast.
+        # A direct call has 20 us on a real processor; the usual shift emulates one a fifth as fast.
         settings = rig.Settings(args.architecture, "doctor_test", watchdog=True, can=2 if fault == "can_default" else 0,
                                 time_out_s=600.0, instruction_shift=1)
         run = rig.run(rig.HERE / "scripts" / "doctor", (fault,), settings)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The emulated board itself: its physics answers to the kernel's real drivers, and is answered by them.
+"""The emulated board itself: its physics responds to the kernel's real drivers, and they respond to it.
 
-Works PWM, lines, converters and watchdog of the board by hand (scripts/), and compares what the drivers read with what
-the plant's witness saw. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not work.
+Operates PWM, lines, converters and watchdog of the board by hand (scripts/), and compares what the drivers read with what
+the plant's witness saw. Prints what was measured; exits with 1 if any of it is wrong, 2 if the board did not work.
 
     tests/hil/drivers_test.py [--architecture amd64]
 """
@@ -42,7 +42,7 @@ def drivers(table, run):
     table.row("with both: supply's switch closed", hot.closed, 1, 1, "")
     table.row("           power, 0.25 x (12 V)^2 / 10 Ohm", hot.channels[0].power_W, 3.59, 3.61, "W")
     table.row("           current read", reads["hot_current"] * A_PER_COUNT * 1e3, 295, 305, "mA")
-    # It moves by 5 mm/s, and reading takes time: it must lie between the truth before and after.
+    # The muscle moves by 5 mm/s, and reading takes time: the value must lie between the truth before and after.
     table.row("           position read", reads["hot_position"] * M_PER_COUNT * 1e3,
               hot.channels[0].position_m * 1e3 - 0.05, at("hang", 0.0).channels[0].position_m * 1e3 + 0.05, "mm")
     table.row("           it has moved by", hot.channels[0].position_m * 1e3, 5, 20, "mm")

@@ -2,8 +2,8 @@
 """The firmware on the emulated board: it tracks, and whatever happens to it, the heat goes off in time.
 
 supercoild is the ordinary program with an ordinary configuration (board.toml, 100 Hz), over the kernel's real drivers.
-When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
-measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+The plant's witness, outside of the board, saw when power went off and by which means. Prints what was
+measured; exits with 1 if any of it is wrong, 2 if the board did not do its part.
 
     tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|air|deaths] [--architecture amd64]
 """
@@ -17,11 +17,11 @@ from table import Table
 
 DECAY_MS = 150.0
 TICK_MS = 10.0
-MARK_MS = 10.0  # the board's uptime is told to 10 ms
+MARK_MS = 10.0  # the board's uptime has a resolution of 10 ms
 STEP_MS = 2.0  # of the plant
 
-# What happens, within which time power must be off, and by which means: from the moment at which the board told that it
-# does it, or, where the charge pump is what cuts, from the heartbeat's last edge.
+# What happens, within which time power must be off, and by which means. The time begins when the board reported that it
+# does it, or, where the charge pump cuts, at the heartbeat's last edge.
 DEATHS = (
     ("stop", "stop pressed", 2 * TICK_MS + MARK_MS, "enable"),
     # Its last value stays good for max_age (three ticks here).
@@ -29,7 +29,7 @@ DEATHS = (
     ("busy", "another program takes the processor", DECAY_MS, "supply"),
     ("stopped", "SIGSTOP", DECAY_MS, "supply"),
     ("term", "SIGTERM", 5 * TICK_MS + 20 + MARK_MS, "enable"),
-    # Lines fall by their pulls when the kernel has taken the process apart; the pump would cut soon after.
+    # Lines fall by their pulls once the kernel has torn the process down; the pump would cut soon after.
     ("kill", "SIGKILL", DECAY_MS, "enable"),
 )
 
@@ -64,7 +64,7 @@ def track(table, run, seconds):
     table.row("the plant's latest wake-up", max(s.late_us for s in steps), 0, 1000, "us")
 
 
-# Converters by the kernel's timer, into its buffers.
+# Conversions at the times of the kernel's timer, into its buffers.
 CAPTURED_S = 30
 CALLS_S = 30
 
@@ -82,7 +82,7 @@ def calls(table, run):
     table.row("it ended with", int(re.search(r"^it ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
 
 
-# The air's sensor reads it to 2 K; without it the air is that of board.toml.
+# The air sensor is right within 2 K; without it the air is that of board.toml.
 AIR = (("well", "air of 20 C", 18, 22),
        ("hot", "40 C, above its warmest", 15, 42),
        ("well_again", "20 C again", 18, 22),
@@ -90,7 +90,7 @@ AIR = (("well", "air of 20 C", 18, 22),
 
 
 def air(table, run):
-    """The coldest and the hottest that a cold muscle may be, as the board tells them."""
+    """The coldest and the hottest that a cold muscle may be, as the board reports them."""
     for name, what, coldest_C, hottest_C in AIR:
         told = re.search(rf"^believed {name} (.*)", run.console, re.M)[1].split()
         for which, value_C, right_C in (("coldest", told[7], coldest_C), ("hottest", told[8], hottest_C)):
@@ -111,7 +111,7 @@ def deaths(table, run):
     for mark, what, max_ms, by in DEATHS:
         before = witness.at(looks, marks[mark] - 0.05)
         table.row(f"{what}: power before", before.channels[0].power_W, 1.5, 2.5, "W")
-        # From the mark's own uncertainty on.
+        # Earlier by the mark's own uncertainty.
         off = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
         since_s = off.edge_s if off is not None and by == "supply" else marks[mark]
         after_ms = None if off is None else (off.time_s - since_s) * 1e3

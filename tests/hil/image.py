@@ -1,7 +1,7 @@
 """A copy of the image that toolchain/image made, as a card for the emulated board (rig.Settings.image).
 
 The copy gets the rig's two services and three empty folders, and no login on its console, which is the script's; nothing
-else is changed. So what is tried is the image: its boot loader, kernel, set-up and service. The configuration is put on it
+else is changed. So the test is of the image: its boot loader, kernel, set-up and service. The configuration is put on it
 as on a PC: into its FAT partition.
 """
 
@@ -40,7 +40,7 @@ def prepared(name):
 
 
 def debugfs(file_system, orders):
-    """debugfs ends with 0 whatever happens: what it says beside its own echo is an error."""
+    """debugfs exits with 0 whatever happens: whatever it prints besides its own echo is an error."""
     with tempfile.NamedTemporaryFile("w") as script:
         script.write("\n".join(orders) + "\n")
         script.flush()
@@ -63,7 +63,7 @@ def put_board(card, text):
 
 
 def fill(exchange):
-    """What the board's init brings otherwise: busybox and the drivers of the rig."""
+    """What the board's init would bring otherwise: busybox and the drivers of the rig."""
     tree = rig.BUILD / "initramfs"
     shutil.copy(tree / "bin" / "busybox", exchange)
     shutil.rmtree(exchange / "modules", ignore_errors=True)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The image that toolchain/image makes, on the emulated board: from power-on to a disarmed, reporting board without
-anybody, then on command over CAN to a tracking muscle; and what it says to a wrong key in its text file.
+anybody's help, then by commands over CAN to a tracking muscle; and what it reports for a wrong key in its text file.
 
-Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+Prints what was measured; exits with 1 if any of it is wrong, 2 if the board did not do its part.
 
     .venv/bin/python tests/hil/image_test.py [--track SECONDS] [--only PART]
 """
@@ -23,7 +23,7 @@ POWER_ON_S = 1767225600  # 2026-01-01 UTC, where the board's RTC begins (rig.py)
 
 
 def board_toml():
-    """The rig's board on a CAN bus; its watchdog waits for this processor's starts."""
+    """The rig's board on a CAN bus; its watchdog allows for this processor's slow starts."""
     text = (rig.HERE / "board.toml").read_text()
     text = text.replace('name = "rig"', 'name = "Rig no. 1"').replace("timeout_s = 5.0", "timeout_s = 30.0")
     return f'{text}\n[can]\ninterface = "can0"\nbit_rate = {BIT_RATE}\n'
@@ -39,7 +39,7 @@ def judge_start(table, run, frames):
     date_s, rtc_s, uptime_s = (float(clock) for clock in said(run, r"^clocks (\S+) (\S+) (\S+)")[0])
     kernel_s = rtc_s - POWER_ON_S - uptime_s
     table.row("power-on to the first heartbeat on the bus (RTC: to the second)", kernel_s + status[0][0] - date_s + uptime_s, 1, 120, "s")
-    # U-Boot asks the card over and over until it answers, and QEMU counts that as time of the board.
+    # U-Boot polls the card until it answers, and QEMU counts that as time of the board.
     print(f"          of which until the kernel's start: {kernel_s:.0f} s")
     table.row("    which says disarmed", str(status[0][1]["state"]) == "disarmed", 1, 1, "")
     table.row("    nodes heard", len({node for _, node, message, _ in frames if message.name == "Status"}), 2, 2, "")

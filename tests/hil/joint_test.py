@@ -2,7 +2,7 @@
 """A joint on the emulated board, the example with an AS5600: both muscles are found, it holds, follows, is pulled
 harder, and goes cold when a wire of the antagonist's heater is cut.
 
-Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+Prints what was measured; exits with 1 if any of it is wrong, 2 if the board did not do its part.
 
     tests/hil/joint_test.py [--architecture amd64]
 """
@@ -20,7 +20,7 @@ from table import Table
 EXAMPLE = rig.ROOT / "firmware" / "io" / "config" / "examples" / "joint-as5600-ads1115.toml"
 M_PER_DEG = 0.015 * math.pi / 180.0  # of the example's lever, which is the plant's default too
 SETTLED_S = 8.0  # before a mark
-# A current that is low-passed with 10 ms has to fall below a quarter, and 20 ms pass then; the rest is margin for ticks of 10 ms.
+# The current, low-passed with 10 ms, has to fall below a quarter, then 20 ms pass; the rest is margin for ticks of 10 ms.
 CUT_MS = 100.0
 
 

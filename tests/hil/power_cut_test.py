@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Power cuts while a board stores what it learned: what was stored is there, or what was being stored.
+"""Power cuts while a board stores what it learned: afterwards the disk has what was stored, or what was being stored.
 
 supercoild heats on the emulated board and stores a scale again and again, on ext4 of the board's kernel, while QEMU
 records what is written to the disk. Then the power goes off at random places of that record: what the disk had confirmed
-by a flush is there, of what was written since then any part, and the write under way perhaps torn. On each disk that is
-left the file system is checked as at a start, and the learned files are read. Ends with 1 if any of them lost something,
-2 if the board did not do its part.
+by a flush is there, any part of what was written since then may be, and the write under way may be torn. On each
+resulting disk the file system is checked as at a start, and the learned files are read. Exits with 1 if any of them lost
+something, 2 if the board did not do its part.
 
     tests/hil/power_cut_test.py [--stores N] [--cuts N] [--seed N] [--replay]
 """
@@ -55,7 +55,7 @@ def whole(text):
 
 
 def learned(disk):
-    """(current, previous) versions after the check that a start makes, and what that check could not mend."""
+    """(current, previous) versions after the check that a start makes, and what that check could not repair."""
     checked = subprocess.run(["/sbin/e2fsck", "-p", disk], capture_output=True, text=True)
     damage = "" if checked.returncode <= 1 else f"e2fsck ended with {checked.returncode}: {checked.stdout.strip()}"
     current, previous = (whole(subprocess.run(["/sbin/debugfs", "-R", f"cat /learned-1.toml{suffix}", disk],

@@ -1,7 +1,7 @@
 """The image for the Raspberry Pi 4 in QEMU's machine of that name, over its serial console.
 
-QEMU starts no firmware of the Raspberry Pi: what that would read from the boot partition (config.txt, cmdline.txt) is read
-here. Of the parts that QEMU lacks, those without which Debian's kernel stops are taken out of the device tree, or moved.
+QEMU does not run the Raspberry Pi's firmware: what that would read from the boot partition (config.txt, cmdline.txt) is read
+here. Parts that QEMU lacks, and without which Debian's kernel stops, are taken out of the device tree, or moved.
 """
 
 import contextlib
@@ -25,12 +25,12 @@ NOT_IN_QEMU = (
     "/soc/i2c@7ef04500", "/soc/i2c@7ef09500",
     # The card, and its supply, which the firmware switches. QEMU has its card where a Raspberry Pi 4 has its WLAN.
     "/emmc2bus/mmc@7e340000", "/sd_io_1v8_reg", "/sd_vcc_reg",
-    # The small UART: under a real-time kernel the interrupts of QEMU's leave no time for the card's. Bluetooth's takes its place.
+    # The small UART: with a real-time kernel QEMU's interrupts of it leave no time for the card's. Bluetooth's takes its place.
     "/soc/serial@7e215040")
 BLUETOOTH = "/soc/serial@7e201000/bluetooth"
 CARD = "/soc/mmc@7e300000"
-# What the board file needs and QEMU has elsewhere: the third I2C bus of older Raspberry Pis, and for the PWM registers
-# that swallow what is written (of I2S).
+# What the board file needs and QEMU has elsewhere: the third I2C bus of older Raspberry Pis and, for the PWM, registers
+# that ignore what is written (of I2S).
 MOVED = {"/soc/i2c@7e205600": ("7e805000", "200"), "/soc/pwm@7e20c000": ("7e203000", "28")}
 PWM, PWM_HERE = "fe20c000.pwm", "fe203000.pwm"  # which thus has another name
 
@@ -53,7 +53,7 @@ def from_boot(card, name):
 
 
 def options(card):
-    """QEMU's, for what the firmware would do."""
+    """QEMU's options that do what the firmware would do."""
     config = from_boot(card, "config.txt").read_text()
     tree = from_boot(card, "bcm2711-rpi-4-b.dtb")
     for node in NOT_IN_QEMU:
@@ -97,7 +97,7 @@ class Console:
         return found
 
     def press_enter_until(self, pattern, presses=20, each_s=5.0):
-        """Again and again: what is typed before somebody reads may be thrown away."""
+        """Repeatedly: what is typed before the other end reads may be thrown away."""
         for _ in range(presses):
             self.process.stdin.write(b"\n")
             self.process.stdin.flush()
@@ -108,7 +108,7 @@ class Console:
     def ask(self, command, time_out_s=180):
         """What the command prints there."""
         begin = len(self.text)
-        # The shell's echo of the line has no word of it whole.
+        # The shell's echo of the line contains neither word whole.
         self.process.stdin.write(f"echo =be''gin=; {command}; echo =e''nd=\n".encode())
         self.process.stdin.flush()
         return self.wait_for(r"(?s)=begin=\n(.*?)=end=\n", time_out_s, begin)[1]

@@ -2,7 +2,7 @@
 """The image for the Raspberry Pi 4, in QEMU's machine of that name: it starts by itself, is set up by its text file, finds
 the processor's lines, PWM, watchdog and buses where the example board has them, and names the parts that are not wired.
 
-Prints what was seen; ends with 1 if any of it is wrong, 2 if the board did not do its part. Needs root.
+Prints what was seen; exits with 1 if any of it is wrong, 2 if the board did not do its part. Needs root.
 
     .venv/bin/python tests/hil/raspberry_pi_test.py
 """

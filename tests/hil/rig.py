@@ -1,7 +1,7 @@
 """Boots the emulated board and runs a script on it (boot is the command; tests import this).
 
 The shared folder is /share on the board. In its .rig the host puts what the board needs to begin (command, functions)
-and finds what comes of it: status, console, witness.
+and finds the results: status, console, witness.
 """
 
 import contextlib
@@ -50,11 +50,11 @@ def add_architecture(parser):
 
 @dataclasses.dataclass
 class Settings:
-    """What the board is, beside its script."""
+    """What the board is, besides its script."""
 
     architecture: str = "arm64"
     share: pathlib.Path | str = "share"  # a name is that of a folder in the architecture's own
-    time_out_s: float = 120.0  # of the host's time; of the guest's nothing is known
+    time_out_s: float = 120.0  # host time; the guest's is not known
     watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
     can: int = 0  # controllers on one bus: can0, can1, ...
     system: bool = False  # Debian's systemd from a disk, with supercoild as its service
@@ -97,7 +97,7 @@ def qemu_command(settings):
         "-device", "virtio-9p-pci,fsdev=share,mount_tag=share",
         "-fsdev", f"local,id=programs,path={settings.board.programs},security_model=none,readonly=on",
         "-device", "virtio-9p-pci,fsdev=programs,mount_tag=programs",
-        # Without an event loop between the board's write and the file: it costs the board no waiting,
+        # No event loop between the board's write and the file: the board does not wait for it,
         # and a line that was written is there whatever the board does next.
         "-chardev", f"file,id=witness,path={exchange / 'witness'}",
         "-device", "virtio-serial-pci,ioeventfd=off", "-device", "virtserialport,chardev=witness,name=witness"]
@@ -115,7 +115,7 @@ def qemu_command(settings):
 
 
 def disk_options(disk, write_log):
-    """The board's flushes need not reach this machine's disk: only QEMU's end is survived, which loses nothing."""
+    """The board's flushes need not reach this machine's disk: it only has to survive the end of QEMU, which loses nothing."""
     def file(name, path):
         return ["-blockdev", f"driver=raw,node-name={name},cache.no-flush=on,file.driver=file,file.filename={path}"]
     options = file("content", disk)
@@ -132,7 +132,7 @@ def start_command(settings):
     board = settings.board
     return ["-kernel", str(board.build / "vmlinuz"), "-initrd", str(board.build / "initramfs.cpio"),
             # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
-            # a run costs this machine half, and repeats.
+            # a run costs this machine half the time, and is repeatable.
             "-append", f"console={board.console} quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}"]
 
 

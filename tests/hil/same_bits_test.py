@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Simulations on the emulated board and on this machine: the same to the bit, every value of every tick and every frame.
 
-Prints what was compared; ends with 1 if any of it is wrong, 2 if the board did not do its part. This machine's simulator is
+Prints what was compared; exits with 1 if any of it is wrong, 2 if the board did not do its part. This machine's simulator is
 that of build/release: tests/hil/prepare --architecture amd64.
 
     tests/hil/same_bits_test.py [--architecture amd64]
@@ -17,7 +17,7 @@ import tempfile
 import rig
 from table import Table
 
-# In fixed point, as the firmware of a small board; and in double, in which nobody promises it.
+# In fixed point, as in the firmware of a small board; and in double, where nobody guarantees it.
 SCENARIOS = ("fixed-point", "sine")
 SIMULATOR = rig.ARCHITECTURES["amd64"].programs / "supercoil-sim"
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""supercoild as a service of systemd, on the emulated board with Debian: who it runs as, and what follows its end.
+"""supercoild as a service of systemd, on the emulated board with Debian: which user it runs as, and what follows its end.
 
-It must run as its own user without capabilities, punctually all the same, and whatever ends it, systemd must start it
-again, disarmed. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+It must run as its own user without capabilities and still be punctual, and whatever ends it, systemd must start it
+again, disarmed. Prints what was measured; exits with 1 if any of it is wrong, 2 if the board did not do its part.
 
     tests/hil/service_test.py
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The emulated board for hours of its own time: two muscles follow on a board with CAN, each cycle ends with a fault.
-Time, memory, descriptors, files and tracking must be at the end what they were in the beginning.
+Time, memory, descriptors, files and tracking must be the same at the end as in the beginning.
 
     tests/hil/soak_test.py [--seconds 3600] [--architecture amd64]
 """
@@ -24,7 +24,7 @@ def cycles(console):
 
 
 def swing_m(looks, channel, period_s, end_s):
-    """Largest less smallest true position in the cycle's last periods."""
+    """Largest minus smallest true position in the cycle's last periods."""
     positions = [look.channels[channel].position_m for look in looks if end_s - 4 * period_s <= look.time_s <= end_s - period_s]
     return max(positions) - min(positions)
 

@@ -1,4 +1,4 @@
-"""What was measured, beside what is right."""
+"""What was measured, beside what is expected."""
 
 import dataclasses
 import sys
@@ -15,7 +15,7 @@ class Table:
         print(f"{'ok   ' if right else 'WRONG'} {what:62} {shown:>9} {unit:4} {low:g} to {high:g}")
 
     def judge(self, name, part, run):
-        """Rows by part(self, run). A board that told too little for that ends the program with 2."""
+        """Adds the rows of part(self, run). Ends the program with 2 when the board reported too little for them."""
         try:
             part(self, run)
         except (KeyError, IndexError, TypeError, AttributeError, ValueError, OSError) as error:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """supercoild's CAN bus on the emulated board: telemetry crosses from one controller to another, and a command back.
 
-Every frame must decode by the DBC. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not
+Every frame must decode by the DBC. Prints what was measured; exits with 1 if any of it is wrong, 2 if the board did not
 do its part.
 
     .venv/bin/python tests/hil/telemetry_test.py [--architecture amd64]
@@ -36,7 +36,7 @@ def protocol():
 
 
 def quantities(dbc):
-    """That MuscleRead may ask for."""
+    """How many quantities MuscleRead may ask for."""
     return len(dbc.get_message_by_name("Muscle").get_signal_by_name("quantity").choices)
 
 
@@ -49,7 +49,7 @@ def disarm_frame(dbc):
 
 
 def decoded(dbc, log):
-    """(seconds, node, message's name, signals); a frame that is none of the protocol's raises KeyError."""
+    """(seconds, node, message's name, signals); a frame that is not in the protocol raises KeyError."""
     for time, identifier, data in re.findall(r"^\(([\d.]+)\) \w+ ([0-9A-F]{3})#([0-9A-F]*)", log, re.M):
         node = int(identifier, 16) & 0x3F
         message = dbc.get_message_by_frame_id((int(identifier, 16) & ~0x3F) + 1)
@@ -93,7 +93,7 @@ def judge(table, run, dbc, log):
         table.row(f"supercoil command on can1: {command} ended with", int(re.search(rf"^over can1: {command} (\d+)", run.console, re.M)[1]),
                   status, status, "")
     by_bus = [look.channels[0].power_W for look in witness.looks(run.witness) if marks["by_bus"] <= look.time_s <= marks["by_bus_ended"] - 0.2]
-    # Until the resistance is known better than from one probe, it is up to a tenth more.
+    # Until the resistance is known better than from one probe, power is up to a tenth more.
     table.row("    most power while it held it", max(by_bus), 1.9, 2.25, "W")
     table.row("    power in its last half second", min(by_bus[-50:]), 1.95, 2.05, "W")
     table.row("    and at its end", witness.at(witness.looks(run.witness), marks["by_bus_ended"]).channels[0].power_W, 0, 0, "W")
@@ -106,7 +106,7 @@ def judge(table, run, dbc, log):
 
 
 def judge_crowded(table, run, marks, frames):
-    """A queue that is full, and an interface that vanishes: neither is felt by the loop."""
+    """Neither a full queue nor an interface that vanishes disturbs the loop."""
     looks = witness.looks(run.witness)
     status = int(re.search(r"^over can1: crowded (\d+)", run.console, re.M)[1])
     table.row("full queue: a command that is held ended with", status, 0, 0, "")
@@ -129,7 +129,7 @@ def judge_crowded(table, run, marks, frames):
 
 
 def judge_muscle(table, frames, asked):
-    """What the board goes by of its muscle: as board.toml and the defaults say, as nothing was identified."""
+    """The values that the board uses for its muscle: those of board.toml and the defaults, as nothing was identified."""
     told = [(signals["quantity"], signals["value"]) for _, node, message, signals in frames
             if message.name == "Muscle" and node == FIRST_NODE]
     table.row("questions about the muscle: answered", len(told), asked, asked, "")

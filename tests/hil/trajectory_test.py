@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Two boards on one CAN bus play one motion in step, for a minute; again while the clock of the second is faster by
-100 ppm; then their sender is stopped midway. At last one plays a motion by its own socket.
+100 ppm; then their sender is stopped midway. Finally one plays a motion by its own socket.
 
-Both tick at 1 kHz, by timers of their own; the plants' witness sees them to 1 ms. How far one is behind the other is
-the time by which the true position of one lags, by least squares. Both have the same muscle; what their controllers
-learn at first is told as a lag too. How well their clocks agree is seen by the references that they tell, which know
-nothing of controllers and plants.
-Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did not do their part.
+Both tick at 1 kHz, by timers of their own; the plants' witness sees them to 1 ms. The lag of one behind the other is
+the time by which its true position is late, by least squares. Both have the same muscle; what their controllers learn
+at first appears as a lag too. How well their clocks agree shows in the references that they report, which do not
+depend on controllers and plants.
+Prints what was measured; exits with 1 if any of it is wrong, 2 if the boards did not do their part.
 
     .venv/bin/python tests/hil/trajectory_test.py [--architecture amd64]
 """
@@ -25,7 +25,7 @@ DURATION_S = 60.0
 KNOTS_PER_S = 50
 COMMAND_EXPIRES_MS = 250.0
 DRIFT_PPM = 100.0  # scripts/trajectory: 6 ms in a minute, if nothing brought them together
-CLOCKS_MS = 0.1  # how far they may go apart
+CLOCKS_MS = 0.1  # how far they may drift apart
 LAG_MS = 2.0  # ticks of 1 ms and steps of a plant of 1 ms, each with any phase
 
 
@@ -46,7 +46,7 @@ def true_positions_m(looks, times_s):
 
 
 def lag_ms(first, second, begin_s, end_s):
-    """By how much the second is behind the first."""
+    """How far the second is behind the first."""
     times_s = np.arange(begin_s, end_s, 0.001)
     ahead, behind = true_positions_m(first, times_s), true_positions_m(second, times_s)
     return lag_of_columns_ms(times_s, ahead, behind)
@@ -58,7 +58,7 @@ def lag_of_columns_ms(times_s, ahead, behind):
 
 
 def heard(log, name):
-    """Of the bus's log: time, node and signals of each."""
+    """Time, node and signals of each frame of this message in the bus's log."""
     message = cantools.database.load_file(rig.ROOT / "firmware" / "io" / "can" / "supercoil.dbc").get_message_by_name(name)
     for time, identifier, data in re.findall(r"^\(([\d.]+)\) \w+ ([0-9A-F]{3})#([0-9A-F]*)", log, re.M):
         if int(identifier, 16) & ~0x3F == message.frame_id & ~0x3F:
@@ -66,7 +66,7 @@ def heard(log, name):
 
 
 def reference_lags_ms(log):
-    """For each motion of a minute, every ten seconds: by how much the second's reference is behind the first's."""
+    """For each motion of a minute, every ten seconds: how far the second's reference is behind the first's."""
     told = {5: [], 9: []}
     for time_s, node, signals in heard(log, "Tracking"):
         if node in told:
@@ -83,7 +83,7 @@ def reference_lags_ms(log):
 
 
 def judge_step(table, which, first, second, end_s, lags_ms):
-    """Of a motion that ended then."""
+    """Judges a motion that ended at end_s."""
     times_s = np.arange(end_s - DURATION_S + 1.0, end_s - 1.0, 0.001)
     apart_m = true_positions_m(first, times_s) - true_positions_m(second, times_s)
     moved_mm = 1e3 * np.ptp(true_positions_m(first, times_s))

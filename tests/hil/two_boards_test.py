@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two boards on one CAN bus: each with a supercoild of its own, commanded from a third controller, one of them killed.
 
-Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did not do their part.
+Prints what was measured; exits with 1 if any of it is wrong, 2 if the boards did not do their part.
 
     .venv/bin/python tests/hil/two_boards_test.py [--architecture amd64]
 """

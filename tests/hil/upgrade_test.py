@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The package on the image, while a muscle tracks: upgraded by dpkg, then removed.
 
-Each time supercoild must cool while its heartbeat still beats, and nothing be driven until it is there again, disarmed.
-That is what the plant's witness saw, outside of the board. Prints what was measured; ends with 1 if any of it is wrong, 2
-if the board did not do its part.
+Each time supercoild must cut the heat while its heartbeat still beats, and nothing may be driven until it is back,
+disarmed. The plant's witness sees this from outside of the board. Prints what was measured; exits with 1 if any of it is
+wrong, 2 if the board did not do its part.
 
     tests/hil/upgrade_test.py
 """
@@ -72,7 +72,7 @@ def judge(table, run):
     old, new = re.findall(r"^version (\S+)", console, re.M)
     table.row(f"    {old} is {new}", new == f"{old}.1", 1, 1, "")
     table.row("    dpkg ended well, another process runs", "upgrade ended with 0" in console and "another process" in console, 1, 1, "")
-    # Nobody beats again: until the board is switched off.
+    # No heartbeat follows: judged until the board is switched off.
     end_of(table, "removal", looks, marks["remove"], looks[-1].time_s)
     table.row("    dpkg ended well, programs gone, board.toml kept", "removal ended with 0" in console and "programs gone" in console and
               "board kept" in console, 1, 1, "")

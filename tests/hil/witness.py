@@ -1,4 +1,4 @@
-"""Reads what the plant's witness (plant/witness.hpp has its columns) and a script of the board told.
+"""Reads what the plant's witness (plant/witness.hpp has its columns) and a script of the board reported.
 
 Times are seconds of the board's CLOCK_MONOTONIC.
 """

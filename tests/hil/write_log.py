@@ -1,4 +1,4 @@
-"""What QEMU's blklogwrites recorded of a board's disk: every write in its order, and what a power cut leaves of them.
+"""What QEMU's blklogwrites recorded of a board's disk: every write in order, and what a power cut leaves of them.
 
 The format is that of the kernel's dm-log-writes (Documentation/admin-guide/device-mapper/log-writes.rst).
 """
@@ -26,7 +26,7 @@ def read(path):
         if magic != MAGIC or version != 1:
             raise ValueError(f"{path}: is no log of writes")
         file.seek(size)
-        # The count is written now and then only; a header of zeros ends a log that was cut.
+        # The count is only written now and then; a header of zeros ends a log that was cut.
         while len(header := file.read(size)) == size:
             sector, sectors, flags, _ = struct.unpack_from("<QQQQ", header)
             if sectors == 0 and flags == 0:
@@ -38,10 +38,10 @@ def read(path):
 
 
 def left_by_cut(writes, cut, chance):
-    """What is on the disk when the power goes off before writes[cut], as (offset, data), and how many writes are not.
+    """The writes on the disk when the power goes off before writes[cut], as (offset, data), and how many are lost.
 
-    All before the last flush; of the later ones, which the disk's cache may have written or not, any; the next perhaps in
-    part, sector by sector.
+    All before the last flush are there; any of the later ones may be, as the disk's cache has written them or not; and
+    perhaps a part of the next, sector by sector.
     """
     safe = max((place for place in range(cut) if writes[place].flags & FLUSH), default=0)
     unsafe = writes[safe:cut]

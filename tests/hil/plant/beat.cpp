@@ -1,7 +1,7 @@
 // supercoil-rig-beat: beats the heartbeat as the firmware does, by the kernel's GPIO interface and
-// in real time, holds other lines high, and tells how late it woke. For tests of the rig itself.
+// in real time, holds other lines high, and reports how late it woke. For tests of the rig itself.
 //   supercoil-rig-beat CHIP_LABEL PERIOD_us EDGES [HIGH_LINE...]
-// When it ends, the lines are nobody's: they return to their pulls.
+// When it ends, nobody drives the lines: they return to their pulls.
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // supercoil-rig-can: the firmware's CAN bus on the emulated board, by hand.
 //   supercoil-rig-can INTERFACE SEND_EVERY_MS SEND_ID LISTEN_ID...    (identifiers in hex; 0 ms:
 //   never)
-// Tells "frame INTERFACE ID BYTES SECONDS" (SECONDS: when it was received) and "state INTERFACE
+// Prints "frame INTERFACE ID BYTES SECONDS" (SECONDS: when it was received) and "state INTERFACE
 // STATE SECONDS", on the clock of /proc/uptime; at SIGTERM "sent INTERFACE OK BUSY GONE".
 #include <array>
 #include <csignal>

@@ -51,7 +51,7 @@ void Chip::write_word(std::uint8_t at, std::uint16_t word) const {
 }
 
 int pca9685_high(const std::array<std::uint8_t, 32>& registers, int output) {
-  constexpr int asleep = 0x10;  // in MODE1: its oscillator stands still
+  constexpr int asleep = 0x10;  // in MODE1: its oscillator is stopped
   constexpr int always = 0x10;  // in the upper byte: all of the period
   const std::size_t first = 6 + 4 * static_cast<std::size_t>(output);
   const auto moment = [&](std::size_t at) {

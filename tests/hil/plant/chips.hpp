@@ -26,8 +26,8 @@ class Chip {
   int file_;
 };
 
-/// For how many of the 4096 parts of a period an output is high, by a PCA9685's registers: MODE1
-/// and four of each output (its data sheet's section 7.3).
+/// In how many of the 4096 parts of a period an output is high, by a PCA9685's registers: MODE1 and
+/// four of each output (section 7.3 of its data sheet).
 int pca9685_high(const std::array<std::uint8_t, 32>& registers, int output);
 
 /// A converter whose newest conversion is its register 0, as in an ADS1115.

@@ -1,6 +1,6 @@
-// Preloaded to a program of the board: its CLOCK_MONOTONIC is faster by SUPERCOIL_RIG_DRIFT_PPM, as
-// that of a board with another crystal is. The kernel's stamps are of CLOCK_REALTIME and used as
-// ages of some milliseconds, so they stay as they are.
+// Preloaded into a program of the board: speeds up its CLOCK_MONOTONIC by SUPERCOIL_RIG_DRIFT_PPM,
+// as on a board with another crystal. The kernel's stamps are of CLOCK_REALTIME and used as ages of
+// some milliseconds, so they stay as they are.
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -28,7 +28,7 @@ timespec time_of(std::int64_t ns) {
   return {ns / ns_per_s, ns % ns_per_s};
 }
 
-/// The ratio is small: what a double rounds of its part is below a nanosecond.
+/// The ratio is small, so the double rounds its part by less than a nanosecond.
 std::int64_t to_drifting(std::int64_t ns) {
   return ns + static_cast<std::int64_t>(static_cast<double>(ns) * ratio());
 }

@@ -66,7 +66,7 @@ std::string obey(const std::string& order, host_sim::SimulatedBoard& board, std:
   return understood ? "" : "is not known: see plant/injected_faults.hpp";
 }
 
-// For reading and writing, so that it does not end when an orderer closes it.
+// For reading and writing, so that the FIFO does not end when a writer closes it.
 Orders::Orders(const std::string& path)
     : file_(open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) {
   if (file_ < 0) throw std::system_error(errno, std::generic_category(), path);

@@ -1,6 +1,6 @@
 // supercoil-rig-plant: the muscles and the power stage of the emulated board. It runs on the
-// board's own processor, above everything else there, and so takes time from the firmware: the
-// witness tells how much (S lines).
+// board's own processor, at a higher priority than everything else there, and so takes time from
+// the firmware: the witness reports how much (S lines).
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>

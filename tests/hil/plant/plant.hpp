@@ -1,5 +1,5 @@
-// The physics between the firmware's outputs and its inputs: the simulated board's own, only that
-// duties and levels come from the kernel's drivers and counts go to them.
+// The physics between the firmware's outputs and its inputs: that of the simulated board, except
+// that duties and levels come from the kernel's drivers and counts go to them.
 #pragma once
 
 #include <cstdint>
@@ -31,16 +31,16 @@ class Plant {
  public:
   explicit Plant(const PlantSettings& settings);
 
-  /// The muscles move on to `now` with what was latched before, the converters show it, and the
-  /// firmware's outputs are latched anew. `slow`: also the supply's converter and the
-  /// lines that are not urgent.
+  /// The muscles move on to `now` with what was latched before, the converters show the result, and
+  /// the firmware's outputs are latched again. `slow`: also the supply's converter and the lines
+  /// that are not urgent.
   void step(hal::Time now, bool slow);
 
   host_sim::SimulatedBoard& board() { return board_; }
   const host_sim::SimulatedBoard& board() const { return board_; }
   std::size_t channels() const { return enable_lines_.size(); }
 
-  // What is latched, beside what the board itself tells.
+  // What is latched, besides what the board itself reports.
   bool stop_closed() const { return stop_closed_; }
   bool light() const { return light_; }
   int duty_4096(std::size_t channel) const { return duties_[channel]; }

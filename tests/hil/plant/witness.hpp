@@ -2,22 +2,25 @@
 // board would die with its kernel. Integers, separated by one space; the first word says what a
 // line is.
 //
-//   # text                                what was started, with its settings
-//   T time_us text                        an injected fault; or refused, then with the
-//   reason S time_us steps missed mean_us max_us late_us
+//   # text            what was started, with its settings
+//   T time_us text    an injected fault; or `refused`, then with the reason
+//   S time_us steps missed mean_us max_us late_us
 //       of the plant itself, once a second: steps since the last line, steps that were left out,
 //       how long a step took, and how late the latest woke
 //   W time_us edges edge_us stop light closed  then for each channel
 //             enable duty power_mW position_um rise_mK current_mA
-//       at every change of stop, light, closed, an enable, or a duty from or to 0, else every 10
-//       ms: time_us      CLOCK_MONOTONIC of the board, when outputs were read edges        of the
-//       heartbeat so far, as the charge pump got them (none while stop is 0) edge_us      when the
-//       last of them was seen, at most a step late; 0: none yet stop         1: the stop circuit is
-//       closed. Read every 10 ms, as is light closed       1: the charge pump holds the supply's
-//       switch closed enable       level of the channel's enable line duty         parts of 4096
-//       that the PWM chip's registers stand for power_mW     true heat in the muscle position_um
-//       true contraction rise_mK      true temperature over the air's current_mA   true current, of
-//       all that the switch carries
+//       at every change of stop, light, closed, an enable, or a duty from or to 0, else every 10 ms
+//       time_us      CLOCK_MONOTONIC of the board, when outputs were read
+//       edges        of the heartbeat so far, as the charge pump got them (none while stop is 0)
+//       edge_us      when the last of them was seen, at most a step late; 0: none yet
+//       stop         1: the stop circuit is closed. Read every 10 ms, as is light
+//       closed       1: the charge pump holds the supply's switch closed
+//       enable       level of the channel's enable line
+//       duty         parts of 4096 that the PWM chip's registers stand for
+//       power_mW     true heat in the muscle
+//       position_um  true contraction
+//       rise_mK      true temperature above the air's
+//       current_mA   true current, of all that the switch carries
 #pragma once
 
 #include <cstdint>

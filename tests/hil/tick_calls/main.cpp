@@ -1,6 +1,6 @@
-// The loop of supercoild over the board's real devices, with what each of its ticks calls counted.
+// Runs supercoild's loop over the board's real devices, and counts what each of its ticks calls.
 //   supercoil-rig-tick-calls CONFIG TICKS
-// Arms channel 1 and lets it follow positions; what else happens to the board is the script's.
+// Arms channel 1 and lets it follow positions; the script does everything else to the board.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -92,7 +92,7 @@ int main(int count, char** arguments) {
 
   for (std::size_t i = 0; i < state_names.size(); ++i)
     std::printf("counted %s %ld\n", std::string(state_names.at(i)).c_str(), seen.in_state.at(i));
-  // A tick writes once, and to no disk: the watchdog is fed by it.
+  // A tick writes only once, to feed the watchdog, and never to a disk.
   const long feedings = config->wiring.watchdog ? seen.ticks : 0;
   std::printf(
       "counted ticks %ld\ncounted malloc %ld\ncounted new %ld\ncounted locks %ld\n"

@@ -3,7 +3,7 @@
 // line is.
 //
 //   # text            what was started, with its settings
-//   T time_us text    an injected fault; or `refused`, then with the reason
+//   T time_us text    an injected fault; when it was refused, also the reason
 //   S time_us steps missed mean_us max_us late_us
 //       of the plant itself, once a second: steps since the last line, steps that were left out,
 //       how long a step took, and how late the latest woke

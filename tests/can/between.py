@@ -49,7 +49,7 @@ def pass_on(source, sink, alter):
 
 
 def altered(element, alter):
-    """< send 41 2 A B > of a program, < frame 41 23.424242 0A0B > of the board; all else as it is."""
+    """< send 41 2 A B > of a program, < frame 41 23.424242 0A0B > of the board; everything else unchanged."""
     words = element.decode().strip("<> ").split()
     if words[0] not in ("send", "frame"):
         return element

@@ -1,4 +1,4 @@
-"""A master that knows docs/can-protocol.md alone moves the simulated board's muscle: its tables, rules and frames are enough."""
+"""A master that knows only docs/can-protocol.md moves the simulated board's muscle: its tables, rules and frames are enough."""
 
 import pathlib
 import re
@@ -74,7 +74,7 @@ OPCODES, REFUSALS, STATES = names("opcode"), names("refusal"), names("state")
 
 
 class Commander:
-    """What the page says of a session."""
+    """A session as the page describes it."""
 
     def __init__(self, bus):
         self.bus, self.counter, self.session = bus, 0, 0x1234
@@ -162,7 +162,7 @@ class FromThePageAlone(unittest.TestCase):
                 return False
             told = master.hear(REFUSED)
             self.assertEqual((told["value"], told["nearest"]), (1.0, 0.0))
-        # Until it must be cold from before.
+        # Until it must have cooled from before.
         if self.ask_until(master, "arm", 0.0, {"not_ready"}, lambda refusal: refusal == "none"):
             def there(_):
                 return abs(master.hear(MEASUREMENT)["position_m"] - 0.005) < 2e-4
@@ -171,7 +171,7 @@ class FromThePageAlone(unittest.TestCase):
         return False
 
     def ask_until(self, master, opcode, value, bearable, done):
-        """Again every 10 ms or so; False when it was refused for another reason than is bearable."""
+        """Repeats about every 10 ms; False when it was refused for a reason that is not bearable."""
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end:
             refusal, _ = master.ask(opcode, value)

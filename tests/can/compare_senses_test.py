@@ -36,7 +36,7 @@ class CompareSenses(unittest.TestCase):
                               timeout=DEADLINE_S, **options)
 
     def doctor(self, answers, *arguments):
-        """Again where the machine kept a program from running for so long that the board let go of the muscle."""
+        """Repeats when the machine kept a program from running for so long that the board let go of the muscle."""
         for _ in range(TRIES):
             self.supercoil("command", "1", "reset")
             done = self.supercoil("doctor", "--compare-senses", "--power", str(POWER_W), "--config", EXAMPLE,

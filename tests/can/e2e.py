@@ -1,4 +1,4 @@
-"""AUTOSAR E2E Profile 2, as docs/can.md says it, independently of the firmware's code."""
+"""AUTOSAR E2E Profile 2, as docs/can.md describes it, independently of the firmware's code."""
 
 CRC_POLYNOMIAL = 0x2F
 

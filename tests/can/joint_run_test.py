@@ -1,4 +1,4 @@
-"""Joint in can.log of a simulated joint: cantools decodes it, and what it reads is what the run was."""
+"""Joint in can.log of a simulated joint: cantools decodes it, and its values are those of the run."""
 
 import csv
 import math
@@ -20,7 +20,7 @@ LEVER_M = 0.015
 DURATION_S = 6.0
 AMBIENT_C = 25.0
 SCENARIO = f"simulation.duration_s = {DURATION_S}\n[joint]\nlever_m = {LEVER_M}\n"
-# Signals, and the columns of the trace that they show; of temperatures it has the rise.
+# Signals, and the columns of the trace that they show; the trace has temperatures as a rise.
 COLUMNS = {"reference_deg": "reference_m", "effort_W": "power_W", "agonist_coldest_C": "coldest_K", "agonist_hottest_C": "hottest_K",
            "agonist_applied_W": "applied_power_W", "antagonist_coldest_C": "antagonist_coldest_K",
            "antagonist_hottest_C": "antagonist_hottest_K", "antagonist_applied_W": "antagonist_applied_power_W"}
@@ -51,7 +51,7 @@ class OfTwoMuscles(unittest.TestCase):
         cls.told = [(tick, JOINT.decode(data)) for tick, identifier, data in cls.frames if identifier == JOINT.frame_id]
 
     def assert_shows(self, signal, value, tick):
-        """In this tick or the one before: frames wait for each other."""
+        """The trace's value in this tick or the one before: frames wait for each other."""
         signal = JOINT.get_signal_by_name(signal)
         column = COLUMNS.get(signal.name, "measured_m")
         truths = [TO_SIGNAL[signal.unit](float(self.trace[at][column])) for at in (tick, max(0, tick - 1))]

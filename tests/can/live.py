@@ -1,7 +1,7 @@
 """A simulated board in real time, and masters that command it over socketcand.
 
-Nothing here judges by the clock on the wall: a busy machine may stop any of the programs for a second. A command may
-then expire, or a lease end; masters notice and begin anew.
+Nothing here is judged by wall-clock time: a busy machine may stop any of the programs for a second. A command may
+then expire, or a lease end; masters notice and begin again.
 """
 
 import contextlib
@@ -23,10 +23,10 @@ COMMAND = PROTOCOL.get_message_by_name("Command")
 SETTING_WRITE = PROTOCOL.get_message_by_name("SettingWrite")
 SETTING_READ = PROTOCOL.get_message_by_name("SettingRead")
 FROM_BOARD = {message.frame_id: message for message in PROTOCOL.messages if "Board" in message.senders}
-DEADLINE_S = 120.0  # for whatever takes a second on a machine that has nothing else to do
+DEADLINE_S = 120.0  # for what takes a second on an idle machine
 TRIES = 5
 can.log.setLevel("CRITICAL")  # it warns of each frame that TCP brings in two parts
-with contextlib.suppress(PermissionError):  # root, as in a container: the fewer commands expire the sooner it is done
+with contextlib.suppress(PermissionError):  # root, as in a container: fewer commands expire, so it ends sooner
     os.setpriority(os.PRIO_PROCESS, 0, -15)
 
 
@@ -41,7 +41,7 @@ class Simulator:
         self.port = int(re.fullmatch(r"serving can0 on 127\.0\.0\.1:(\d+) by the socketcand protocol\n", first)[1])
 
     def end(self, how=signal.SIGINT):
-        """Its exit status; a second call only says it again."""
+        """Its exit status; a second call only returns it again."""
         if self.process.returncode is None:
             self.process.send_signal(how)
             self.process.communicate(timeout=DEADLINE_S)
@@ -49,8 +49,8 @@ class Simulator:
 
 
 def join(port):
-    """A bus. python-can wants < ok > alone, and fails where it was kept from reading it for too long; and a simulator
-    that serves as many as it may notices a moment later that one has gone."""
+    """A bus. python-can needs < ok > alone, and fails when it was kept from reading it for too long; and a simulator
+    that serves the max number of programs notices a moment later that one has gone."""
     for _ in range(TRIES):
         try:
             return can.Bus(interface="socketcand", host="127.0.0.1", port=port, channel="can0")
@@ -77,7 +77,7 @@ class Master:
         self.faults = []
 
     def data(self, opcode, value=0.0):
-        """Of the next command."""
+        """The data of the next command."""
         self.counter = (self.counter + 1) % 16
         self.asked += 1
         return e2e.protected(COMMAND.frame_id, COMMAND.encode(
@@ -113,7 +113,7 @@ class Master:
         raise AssertionError("never heard")
 
     def hear_next(self, message, count=1):
-        """The board sends them at known rates, so to count them is to wait by its clock."""
+        """The board sends them at known rates, so counting them is waiting by its clock."""
         for _ in range(count):
             heard = self.hear_until(lambda heard: heard.message == message)
         return heard

@@ -53,7 +53,7 @@ class Recorder(threading.Thread):
 
 
 def way(time_s):
-    """Of 1 mm, there and back, in 3 s."""
+    """A way of 1 mm, there and back, in 3 s."""
     return 0.0005 * (1.0 - np.cos(2.0 * np.pi * time_s / 3.0))
 
 
@@ -77,14 +77,14 @@ class PlayCase(unittest.TestCase):
 
 
 class Refused(unittest.TestCase):
-    """By a board's own socket, as supercoild answers."""
+    """Refusals by a board's own socket, as supercoil reports them."""
 
     ANSWERS = {"position": "refused: out_of_range; 0.025 would be obeyed", "muscle": " ".join(["1", *["nan"] * 34, "-0.01", "0.025"]) + "\n",
                "knot": "refused: out_of_range; 0.024 would be obeyed", "playback": "1 empty 100 0 0\n", "position 0.003": "ok"}
 
     def setUp(self):
         self.folder = self.enterContext(tempfile.TemporaryDirectory())
-        self.answers = dict(self.ANSWERS)  # of several each is given once, but for the last
+        self.answers = dict(self.ANSWERS)  # of several, each but the last is given once
         self.socket = f"{self.folder}/commands"
         self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.addCleanup(self.listener.close)
@@ -131,7 +131,7 @@ class Refused(unittest.TestCase):
             done = self.program(*held, *options)
             self.assertEqual(done.stderr, f"supercoil: 1 position 0.02: {fault}\n")
         self.assertEqual(json.loads(done.stdout), {"command": "1 position 0.02", "answer": "refused: wrong_state", "cause": fault})
-        # Of a channel without a fault nothing is made up.
+        # For a channel without a fault no cause is made up.
         self.answers |= {"position": "refused: wrong_state", "status": "1 disarmed none -\n"}
         self.assertIn("refused: wrong_state: arm it first", self.told(*held))
 
@@ -200,7 +200,7 @@ class Play(PlayCase):
                 self.assertLess(time.monotonic(), end)
 
     def play(self, *arguments, wanted=None):
-        """Again where the machine was too busy for a motion in real time, unless it says what is wanted."""
+        """Repeats when the machine was too busy for a motion in real time, unless it says what is wanted."""
         for _ in range(TRIES):
             self.arm()
             done = self.supercoil("play", *arguments)
@@ -230,7 +230,7 @@ class Play(PlayCase):
         times, first = ways[1]
         second = np.interp(times, *ways[2])
         self.assertGreater(np.ptp(first), 0.0009)
-        # A tick is 10 ms, in which it goes 10 um at most.
+        # A tick is 10 ms, in which the reference moves 10 um at most.
         np.testing.assert_allclose(first, second, atol=3e-5)
 
     def test_what_a_muscle_cannot_do_is_refused_with_its_time(self):
@@ -260,13 +260,13 @@ class Play(PlayCase):
             return data
 
         def hide(room_once_at_rest):
-            """That there is room for the third, until the muscle is at rest or for good."""
+            """Hides that there is room for the third, until the muscle is at rest or for good."""
             def change(identifier, data):
                 told = TRAJECTORY.decode(data, decode_choices=False) if identifier == TRAJECTORY.frame_id else None
                 if told is None or len(knots) < 2:
                     return data
                 if room_once_at_rest and told["playback"] == ENDED:
-                    if told["answers"] == TO_PLAY:  # it hears of the end by the next knot's answer only
+                    if told["answers"] == TO_PLAY:  # it learns of the end only from the next knot's answer
                         told["playback"] = PLAYING
                 else:
                     told["room"] = 0
@@ -297,7 +297,7 @@ class Play(PlayCase):
             self.addCleanup(process.communicate)
             self.addCleanup(process.kill)
             time.sleep(2.5)
-            played = process.poll() is None  # else the machine was too busy for it
+            played = process.poll() is None  # otherwise the machine was too busy for it
             process.send_signal(signal.SIGKILL)
             if played:
                 break

@@ -1,5 +1,5 @@
-"""The DBC is the single source of the CAN protocol: what is generated from it is up to date, what it calls numbers is
-what the firmware calls them, and it keeps its own rules."""
+"""The DBC is the single source of the CAN protocol: what is generated from it is up to date, its names for numbers are
+those of the firmware, and it keeps its own rules."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""can.log of a simulated run: cantools decodes every frame, and what it reads is what the firmware had in that tick, to
+"""can.log of a simulated run: cantools decodes every frame, and its values are those that the firmware had in that tick, to
 half a quantum: every signal of every message that the flight recording or the trace has."""
 
 import csv
@@ -33,7 +33,7 @@ power.max_W = 1.0
 at_s = 12.0
 injected_fault.heater_open = true
 """
-# Told by least squares only, one a tick in turn: what is sent of them is at most so many ticks old.
+# Only least squares reports these, one per tick in turn: a value is at most this many ticks old when it is sent.
 MULTIPLEXED = {"bias_W": "bias", "theta1_deviation": "theta1_deviation", "theta2_deviation": "theta2_deviation",
           "theta3_deviation": "theta3_deviation", "theta4_deviation": "theta4_deviation", "bias_deviation_W": "bias_deviation"}
 MOST_TICKS = 13
@@ -117,7 +117,7 @@ class Run(unittest.TestCase):
             data = bytes.fromhex(data)
             if len(data) != message.length:
                 raise AssertionError(f"{message.name}: {len(data)} bytes")
-            # A frame is on the wire for 0.3 ms at most, and of one channel there are at most three in a tick.
+            # A frame is on the wire for 0.3 ms at most, and one channel sends at most three in a tick.
             tick = (int(seconds) - EPOCH_S) * 1000 + int(microseconds) // 1000
             yield tick, message.name, message.decode(data), message.decode(data, scaling=False, decode_choices=False)
 
@@ -226,7 +226,7 @@ class Run(unittest.TestCase):
                 else:
                     self.assertAlmostEqual(values[name] / truth[name], 1.0, 3, f"tick {tick}: {name}")
                 seen.add((name, math.isnan(values[name])))
-        self.assertEqual(len(seen), 8)  # each, as a number and as none
+        self.assertEqual(len(seen), 8)  # each, as a number and as NaN
 
     def test_the_fault_is_an_emergency_at_once(self):
         (tick, _, values, _), = [frame for frame in self.frames if frame[1] == "Emergency"]

@@ -23,11 +23,11 @@ class SetupOfABoard(SetupCase):
 
     def test_a_board_that_does_not_run_the_file_is_neither_heated_nor_taught(self):
         self.describe()
-        simulator = Simulator(self.path, "bench")  # whose muscle is another one
+        simulator = Simulator(self.path, "bench")  # with a different muscle
         self.addCleanup(simulator.end)
         bus = f"socketcand:{simulator.port}"
         start = f"supercoil-sim run bench --board {self.board} --real-time --learned learned --can {bus}"
-        self.record.write_text("{}")  # all but the file is to be done
+        self.record.write_text("{}")  # everything but the file is to be done
 
         def command(*words):
             return subprocess.run([SUPERCOIL, "command", *words, "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
@@ -79,7 +79,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn("start the board with", done.stderr)
 
     def interrupted_at(self, line, *arguments):
-        """The lines until one begins so; the program is ended then."""
+        """The lines up to one that begins with `line`; then ends the program."""
         told = []
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, *arguments], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
@@ -110,7 +110,7 @@ class SetupOfABoard(SetupCase):
         self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
-        # It hangs at its zero: no scale makes 5 mm of that.
+        # The muscle hangs at its zero: no scale turns that into 5 mm.
         done = self.setup_program("scale", "--can", bus, input="5\n")
         self.assertEqual(done.returncode, 1)
         self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
@@ -183,7 +183,7 @@ class SetupOfABoard(SetupCase):
                     try:
                         terminal.until(shown)
                     except AssertionError:
-                        # What is shown is asked here, and not whether a busy machine renews in time.
+                        # This tests what is shown, not whether a busy machine renews in time.
                         if not any(why in terminal.told for why in (*STARVED, "command_timeout")):
                             raise
                         continue

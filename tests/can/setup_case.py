@@ -26,7 +26,7 @@ STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready"
 
 
 class Terminal:
-    """supercoil setup, or another command, on a terminal of its own; what it tells is one text, as somebody sees it come."""
+    """supercoil setup, or another command, on a terminal of its own; its output is one text, as a person sees it come."""
 
     def __init__(self, *arguments, command="setup"):
         terminal, self.end = pty.openpty()
@@ -56,7 +56,7 @@ class Terminal:
             return False
 
     def until(self, text, patience_s=DEADLINE_S):
-        """text: also that of a regular expression."""
+        """text: may be a regular expression."""
         end_s = time.monotonic() + patience_s
         while not re.search(text, self.told):
             if not self.read() or time.monotonic() > end_s:
@@ -66,7 +66,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def answer(self, text):
-        """Of the question that comes after those that were answered."""
+        """Answers the question that follows those answered before."""
         self.answers += 1
         self.until(r"(?s)([)\]]: .*){%d}$" % self.answers)
         self.type(text + "\n")
@@ -91,7 +91,7 @@ class SetupCase(unittest.TestCase):
         self.record = self.path / "board.toml.setup.json"
 
     def describe(self, *script):
-        """Up to where the board has to be started with the file."""
+        """Runs setup up to where the board has to be started with the file."""
         done = self.setup_program(*(script or self.script()))
         self.assertEqual((done.returncode, done.stderr), (RESTART, ""))
         return done
@@ -101,7 +101,7 @@ class SetupCase(unittest.TestCase):
                               timeout=DEADLINE_S, **options)
 
     def patiently(self, run, status=0):
-        """Again while this program was kept from the processor for so long that its lease ended."""
+        """Repeats while this program was kept from the processor for so long that its lease ended."""
         for _ in range(TRIES):
             done = run()
             if done.returncode == status or not any(why in done.stderr for why in STARVED):

@@ -30,13 +30,13 @@ class SetupProgram(SetupCase):
         done = self.setup_program(*self.script(), "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (RESTART, True))
         self.assertIn("start the board with it, and run setup again to go on", done.stderr)
-        # A step that is named is all that was asked for.
+        # When a step is named, only that one is run.
         done = self.setup_program("describe", *self.script(), "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (0, False))
 
     def test_asks_what_no_script_answers_and_asks_again_after_a_slip(self):
         lines = [str(value) for value in ANSWERS.values()]
-        questions = ["", "10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer in place of the weight
+        questions = ["", "10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer instead of the weight
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Resistance of the cold muscle by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)

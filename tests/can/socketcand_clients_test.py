@@ -20,7 +20,7 @@ FLOOD = b"< send 7ff 0 >" * 4096
 
 
 class Client:
-    """What speaks the protocol by hand."""
+    """A client that speaks the protocol by hand."""
 
     def __init__(self, port):
         self.socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
@@ -66,7 +66,7 @@ class HostileClients(unittest.TestCase):
         return client
 
     def assert_goes_on(self):
-        """The board is heard by a program that joins now, without a frame lost."""
+        """A program that joins now hears the board, without a frame lost."""
         master = Master(self.simulator.port)
         counters = [master.hear_next("Status").signals["counter"] for _ in range(3)]
         master.bus.shutdown()
@@ -131,7 +131,7 @@ class HostileClients(unittest.TestCase):
                     statuses.append(int(element[-6:-4], 16))
         listening = threading.Thread(target=listen, daemon=True)
         listening.start()
-        # What the kernel holds for a connection, and the simulator's mebibyte, are less than this makes.
+        # This is more than the kernel holds for a connection and the simulator's mebibyte.
         for _ in range(100):
             loud.send(FLOOD)
         self.assertEqual(loud.ask("< echo done >"), "echo done")
@@ -173,7 +173,7 @@ class Usage(unittest.TestCase):
         self.path = pathlib.Path(folder.name)
 
     def assert_wrong(self, *options):
-        """Ends with 2 and writes nothing; what it says."""
+        """Exits with 2 and writes nothing; returns what it says."""
         done = subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "bench", *options, "--out", "out"], cwd=self.path,
                               capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual((done.returncode, done.stdout), (2, ""))

@@ -42,7 +42,7 @@ class OnTheBus(unittest.TestCase):
         return master
 
     def while_leased(self, ask):
-        """What ask() gives while the master has the lease; it may end where this program is starved for a second."""
+        """What ask() returns while the master has the lease; that may end when this program is starved for a second."""
         for _ in range(TRIES):
             self.master.claim()
             session = self.master.session
@@ -56,7 +56,7 @@ class OnTheBus(unittest.TestCase):
         self.assertLessEqual(set(self.master.faults), {"command_timeout"})
 
     def example_without(self, message):
-        """The example, with the protocol of before this message."""
+        """The example, with the protocol from before this message."""
         folder = pathlib.Path(self.simulator.out).with_name("old")
         folder.mkdir()
         (folder / EXAMPLE.name).write_text(EXAMPLE.read_text())
@@ -88,7 +88,7 @@ class OnTheBus(unittest.TestCase):
 
 class Commanded(OnTheBus):
     def end_row_of_damaged(self):
-        """Ten ticks in a row with damaged commands are a fault; a tick with an obeyed one alone ends the row."""
+        """Ten ticks in a row with damaged commands are a fault; only a tick with an obeyed one ends the row."""
         for _ in range(2):
             self.master.steer_until(TARGET_M, lambda m: True)
 

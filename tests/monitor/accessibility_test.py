@@ -1,6 +1,6 @@
 """The live page is for everybody: axe-core finds nothing in light, dark and on a phone, and nothing overlaps at any width.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import pathlib

@@ -1,6 +1,6 @@
 """docs/monitor-api.json is OpenAPI, has every path that the monitor serves and no other, and says what it answers.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import contextlib
@@ -68,7 +68,7 @@ class Answers(OnSimulatedBoard):
             return answer.status, json.loads(text) if "json" in answer.headers.get("Content-Type", "") else text
 
     def check(self, method, path, expected, asked=None, **options):
-        """Its status is one that the document has, and its body of the schema there. asked: path with values."""
+        """The status is one that the document has, and the body fits its schema there. asked: path with values."""
         status, said = self.ask(method, asked or path, **options)
         self.assertEqual(status, expected, said)
         answers = DOCUMENT["paths"][path][method]["responses"]

@@ -42,8 +42,8 @@ class Browser:
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
     def text(self, selector):
-        """Of the element, or "" while there is none."""
-        # A page that is drawn anew may replace it between finding and reading.
+        """The text of the element, or "" while there is none."""
+        # A page that is redrawn may replace it between finding and reading.
         while True:
             found = self.driver.find_elements(By.CSS_SELECTOR, selector)
             try:
@@ -61,12 +61,12 @@ class Browser:
         self.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
 
     def requests(self):
-        """Addresses of all that pages asked for since this was last asked."""
+        """Addresses of everything that pages requested since the last call."""
         for entry in self.driver.get_log("performance"):
             message = json.loads(entry["message"])["message"]
             if message["method"] == "Network.requestWillBeSent":
                 yield message["params"]["request"]["url"]
 
     def errors(self):
-        """What the console was told as an error since this was last asked."""
+        """Errors that the console received since the last call."""
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]

@@ -1,6 +1,6 @@
-"""Three muscles that pull together, with a heater each: commanded by the node that leads, and what the page says of the others.
+"""Three muscles that pull together, each with its own heater: commanded by the leader's node, and what the page says of the rest.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import json

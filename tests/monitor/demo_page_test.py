@@ -1,6 +1,6 @@
 """toolchain/demo --page, and supercoil-sim page: one command to a page whose muscle moves; nothing is left when it is ended.
 
-Programs: environment SUPERCOIL, and supercoil-sim beside it, else those of build/release.
+Programs: environment SUPERCOIL, and supercoil-sim beside it, otherwise those of build/release.
 """
 
 import pathlib

@@ -27,7 +27,7 @@ INFEASIBLE = {"limits": ["minimum", "maximum", "temperature", "cooling", "unprov
 
 
 def value(signal, time_s, node, turn):
-    """A motion with a tremble; what comes round comes round."""
+    """A motion with a tremble; parameters and counters go round."""
     if signal in ("parameter", "counter"):
         return turn % PARAMETERS
     if signal in CONSTANT:
@@ -36,7 +36,7 @@ def value(signal, time_s, node, turn):
 
 
 def batch(from_s, to_s):
-    """All messages with a rhythm, each at its own."""
+    """All periodic messages, each at its own period."""
     nodes = {}
     for node, message in itertools.product(NODES, DATABASE.messages):
         if not message.cycle_time or (message.name == "Timing" and node != NODES[0]):
@@ -69,7 +69,7 @@ class HourSource(http.server.ThreadingHTTPServer):
         self.batches.put(json.dumps(batch(from_s, to_s)), timeout=30)
 
     def handle_error(self, *_):
-        """A browser that was closed is no error."""
+        """A browser that was closed is not an error."""
 
 
 class Handler(http.server.BaseHTTPRequestHandler):

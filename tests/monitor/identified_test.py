@@ -1,6 +1,6 @@
-"""The page tells what a board goes by of its muscle, and since when.
+"""The page shows which parameters a board uses for its muscle, and since when.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import unittest

@@ -2,7 +2,7 @@
 
     joint_test.py --picture     takes the picture of docs/joints.md instead
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import json
@@ -170,7 +170,7 @@ class OnThePage(OfJoint):
 
 
 class OfFreeJoint(OfJoint):
-    """That nobody else commands."""
+    """A joint that nobody else commands."""
 
     keys = ""
 
@@ -277,7 +277,7 @@ class ByALeverTable(OfFreeJoint):
 
 
 class Picture(OfJoint):
-    """Of a joint that moves; no test finds it by itself."""
+    """The picture of a joint that moves; a test run does not find it."""
 
     def take(self):
         page = self.page()

@@ -1,6 +1,6 @@
 """How much memory the page takes for an hour of four muscles at 100 Hz, and whether it stays smooth. Not run by itself.
 
-An hour is fed in a minute or two, through the same stream as ever; then it goes on in real time while frames are counted.
+An hour is fed in a minute or two, through the usual stream; then it goes on in real time while frames are counted.
 """
 
 import pathlib
@@ -11,7 +11,7 @@ from browser import Browser
 from hour_source import HourSource
 
 HOUR_S = 3600.0
-# The ring begins to move on: more does not come.
+# By then the ring moves on: it takes no more than this.
 FED_S = HOUR_S + 120.0
 PIECE_S = 2.0
 LIVE_S = 0.05
@@ -33,7 +33,7 @@ MEMORY = "const [resolve] = arguments; performance.measureUserAgentSpecificMemor
 
 
 def renderer_MB():
-    """Private memory of the greatest renderer among our own children: the page's."""
+    """Private memory of the largest renderer among our own children: the page's."""
     def parent(pid):
         return int((pathlib.Path("/proc") / pid / "stat").read_text().rpartition(")")[2].split()[1])
 

@@ -1,4 +1,4 @@
-"""A browser in which the page's modules are tried one by one."""
+"""A browser in which the page's modules are tested one by one."""
 
 import json
 import unittest

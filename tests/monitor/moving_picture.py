@@ -1,6 +1,6 @@
 """Takes docs/pictures/monitor.gif, the README's moving picture: a person moves a simulated muscle on the live page.
 
-No test: it shows what page_test.py tests. Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+No test: it shows what page_test.py tests. Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import io
@@ -12,11 +12,11 @@ from PIL import Image
 from programs import monitor, simulated_board
 
 WIDTH, HEIGHT = 1200, 690
-SHOWN_WIDTH = 900  # what a Git host gives a picture
+SHOWN_WIDTH = 900  # the width that a Git host gives a picture
 COLOURS = 64
 TRIES = 6
 PERIOD_S = 0.35
-# From which second on the muscle is moved to where; it is cold before the first.
+# The second from which on the muscle is moved, and where to; it is cold before the first.
 MOVES_MM = {0.5: 8.0, 5.0: 14.0, 9.5: 5.0}
 DURATION_S = 14.0
 
@@ -31,7 +31,7 @@ def frames(page):
 
 
 def taken(page):
-    """A machine that stalls for 0.25 s makes the command expire, as it has to: then once more."""
+    """Repeats when the machine stalls for 0.25 s: then the command expires, as it must."""
     for _ in range(TRIES):
         page.arm()
         try:

@@ -1,4 +1,4 @@
-"""The page says in words what was in the time that it shows."""
+"""The page says in words what happened in the time that it shows."""
 
 import unittest
 

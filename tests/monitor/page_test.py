@@ -2,7 +2,7 @@
 
     page_test.py                the tests
     page_test.py --pictures     takes the pictures of docs/monitor.md instead
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import pathlib
@@ -18,7 +18,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 PICTURES = ROOT / "docs" / "pictures"
-# What the page promises is a second; the machine of a test does other work.
+# The page promises a second; the machine of a test does other work.
 FIRST_PLOT_S = 20.0
 STOP_S = 1.0
 # A board waits until its muscle must have cooled before it can be armed.
@@ -57,7 +57,7 @@ class Page(Browser):
             .find((dt) => dt.textContent === '{name}').nextSibling.textContent"""))
 
     def arm(self):
-        """From whatever state it is in."""
+        """Arms from any state."""
         def armed():
             state = self.state()
             if state in ("disarmed", "fault"):
@@ -79,7 +79,7 @@ class Page(Browser):
         return self.state() == "active"
 
     def bring_to(self, position_mm):
-        """Arms and moves. A machine that stalls for 0.25 s makes the command expire, as it has to: then once more."""
+        """Arms and moves. Repeats when the machine stalls for 0.25 s: then the command expires, as it must."""
         for _ in range(TRIES):
             self.arm()
             self.move(position_mm)
@@ -233,7 +233,7 @@ class PageTest(PageCase):
         page = self.page()
         page.arm()
         page.move(TARGET_MM)
-        # A page that hangs, as one that sleeps, says nothing for longer than the monitor waits.
+        # A page that hangs, like one that sleeps, says nothing for longer than the monitor waits.
         page.run("const end_ms = performance.now() + 3500; while (performance.now() < end_ms);")
         page.wait(lambda: "command expired" in page.text(".notice"), 10.0, "the page says that it was away")
         page.wait(lambda: page.state() != "active", 2.0, "not active")
@@ -358,7 +358,7 @@ class PageTest(PageCase):
 
 
 class Pictures(PageCase):
-    """Pictures of a muscle that has something to show; no test finds them by itself."""
+    """Pictures of a muscle that has something to show; a test run does not find them."""
 
     def runTest(self):
         page = self.page()

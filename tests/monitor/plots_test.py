@@ -1,6 +1,6 @@
 """The page's plots as the user wants them: chosen quantities, another run below, marks at events, pictures of them.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import pathlib

@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-with contextlib.suppress(PermissionError):  # root, as in a container: the fewer commands expire the sooner it is done
+with contextlib.suppress(PermissionError):  # root, as in a container: fewer commands expire, so it ends sooner
     os.setpriority(os.PRIO_PROCESS, 0, -15)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = ROOT / "build" / "release" / "bin"
@@ -35,8 +35,8 @@ def command(source, *words):
 
 
 def free_ports():
-    """Two ports in a row that nobody listens at: the page's and the stop's. They stay free until they are used, and after:
-    from below those that the kernel gives to whoever connects, as other tests do by the thousand meanwhile."""
+    """Two consecutive ports that nobody listens on: the page's and the stop's. They stay free until used, and after that:
+    they are below those that the kernel gives to programs that connect, as other tests do by the thousand meanwhile."""
     first_given = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
     while True:
         port = random.randrange(10000, max(first_given, 12000) - 1)
@@ -126,5 +126,5 @@ def monitor(source, *options, prepare=None):
 
 
 def trickle(port, count=1000):
-    """So many connections to the port that never end a request."""
+    """This many connections to the port that never end a request."""
     return Program([sys.executable, ROOT / "tests" / "monitor" / "trickle.py", port, count], "trickling")

@@ -1,6 +1,6 @@
 """supercoil command and supercoil setting over a bus, as scripts use them.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import json
@@ -75,7 +75,7 @@ class Scripts(OnSimulatedBoard):
             self.assertIn(told, done.stderr)
 
     def test_a_script_is_told_how_calibrate_ended(self):
-        for words in (("--for", "60"), ()):  # by itself it is renewed until it ends
+        for words in (("--for", "60"), ()):  # without a time it is renewed until it ends
             self.arm_by_script()
             done = self.command("1", "calibrate", "--json", *words)
             self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
@@ -97,7 +97,7 @@ class Scripts(OnSimulatedBoard):
         self.assertIn("calibration: interrupted", self.command("state").stdout)
 
     def identify_by_script(self, *words, meanwhile=lambda program: None):
-        """Status and texts."""
+        """The exit status and the texts."""
         self.arm_by_script()
         program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -138,7 +138,7 @@ class Scripts(OnSimulatedBoard):
                            (("1", "reset"), "wrong_state: it has no fault"),
                            (("1", "rest"), "wrong_state: it rests already, or is off")):
             self.assertEqual(self.command(*words).stderr, f"supercoil: {' '.join(words)}: refused: {why}\n")
-        # Programs have its name alone.
+        # Programs get only its name.
         self.assertEqual(json.loads(self.command("1", "reset", "--json").stdout)["answer"], "refused: wrong_state")
 
     def test_a_script_reads_and_writes_settings_over_the_bus(self):

@@ -1,6 +1,6 @@
-"""The monitor's server as a page, a script or somebody who means harm meets it.
+"""The monitor's server as a page, a script or an attacker meets it.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import contextlib
@@ -26,7 +26,7 @@ PAGE_TIMEOUT_S = 1.5
 
 class Live(OnServedBoard):
     def arm(self, served):
-        """Of whatever was before."""
+        """Arms from any state."""
         served.command("disarm")
         served.command("reset")
         until(lambda: served.command("arm")[1] == {"refusal": "none"} or served.state()[0] == "armed", 30.0)
@@ -53,7 +53,7 @@ class Live(OnServedBoard):
                 self.assertEqual(served.post(path, order, **wrong)[0], 403, (path, wrong))
         self.assertEqual(served.post("/stop", "", served.stop_port(), origin="http://example.org")[0], 403)
         self.assertEqual(served.post("/api/command", order)[0], 200)
-        # A name that leads here by somebody else's DNS.
+        # A name that somebody else's DNS directs here.
         self.assertEqual(served.ask("GET", "/api/history", Host="example.org")[0], 403)
         self.assertEqual(served.ask("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
 
@@ -61,7 +61,7 @@ class Live(OnServedBoard):
         served = self.serve()
         order = json.dumps({"node": 1, "opcode": "arm"})
         bearer = {"Authorization": f"Bearer {served.token}"}
-        # Whoever is on this machine may stop it, but no page of another server.
+        # Any program on this machine may stop it, but no page of another server.
         for browser in ({"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
             self.assertEqual(served.ask("POST", "/stop", "", served.stop_port(), **browser)[0], 403, browser)
         self.assertEqual(served.ask("POST", "/stop", "", served.stop_port())[0], 200)
@@ -71,7 +71,7 @@ class Live(OnServedBoard):
                       {**bearer, "Sec-Fetch-Site": "cross-site"},
                       {**bearer, "Host": "example.org"}):
             self.assertEqual(served.ask("POST", "/api/command", order, **wrong)[0], 403, wrong)
-        # In an address it is in logs and histories: good for looking only.
+        # A token in an address ends up in logs and histories: it allows watching only.
         status, said = served.ask("POST", f"/api/command?token={served.token}", order)
         self.assertEqual(status, 403)
         self.assertIn("Authorization: Bearer TOKEN", said)
@@ -104,7 +104,7 @@ class Live(OnServedBoard):
         until(lambda: served.state()[1] == 0.0)
 
     def move_and_leave(self, served):
-        """Why the muscle cooled, and how long after the page's last word."""
+        """Why the muscle cooled, and how long after the page's last message."""
         self.arm(served)
         # Busy while the probe of arming runs.
         until(lambda: served.command("position", 0.004) == (200, {"refusal": "none"}))
@@ -129,7 +129,7 @@ class Live(OnServedBoard):
             for _ in range(24):
                 until(one_more)
             until(lambda: not one_more())
-            # Nobody is left to serve the page: these say nothing and stay.
+            # These say nothing and stay, so that nobody is left to serve the page.
             for _ in range(64):
                 crowd.enter_context(socket.create_connection(("127.0.0.1", served.port)))
             begin_s = time.monotonic()

@@ -49,7 +49,7 @@ class Wizard(Page):
         return self.step(name)
 
     def asked(self):
-        """The key of what is asked now."""
+        """The key of the current question."""
         return self.run("""return document.querySelector("#setup form input")?.id.slice(6) ?? "" """)
 
     def in_view(self, place):
@@ -119,7 +119,7 @@ class SetupCase(unittest.TestCase):
         return json.loads(self.file.with_name("board.toml.setup.json").read_text())["channel-1"]
 
     def run_step(self, page, name, after_begin=lambda: None):
-        """Again where the machine stalls so long that a command expires, as it has to."""
+        """Repeats when the machine stalls so long that a command expires, as it must."""
         for _ in range(TRIES):
             command(self.source, "1", "reset")
             page.begin(name)
@@ -135,11 +135,11 @@ class SetupCase(unittest.TestCase):
         raise AssertionError(f"{name} did not end well in {TRIES} tries")
 
     def audit(self, page, view):
-        """Of the dialog as it is now, with all that can be opened."""
+        """Audits the dialog as it is now, with everything that can be opened."""
         if not page.run("return 'axe' in window"):
             page.run(accessibility_test.AXE)
         page.run("for (const details of document.querySelectorAll('#setup details')) details.open = true")
-        # axe looks at nothing that is scrolled out of view: a screen on which all has room.
+        # axe ignores what is scrolled out of view, so the screen has room for everything.
         page.run("for (const lines of document.querySelectorAll('#setup .lines')) lines.style.maxHeight = 'none'")
         for width, scheme in ((1440, "light"), (1440, "dark"), (390, "light"), (390, "dark")):
             accessibility_test.AccessibilityTest.settle(self, page, width, 5000, scheme, width < 600)

@@ -2,7 +2,7 @@
 
     setup_test.py                the tests
     setup_test.py --pictures     takes the pictures of docs/setup.md instead
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import json
@@ -76,7 +76,7 @@ class SetupTest(SetupCase):
             page.wait(lambda: any(float(at) > 8.0 for at in re.findall(r"([\d.]+) mm at", " ".join(page.step("limits")["lines"]))),
                       STEP_S, "it pulls")
             see(page, "limits")
-            # Each line draws the question anew, so that an element that was found may be gone when it is used.
+            # Each line redraws the question, so an element that was found may be gone when it is used.
             page.run("""document.querySelector("#setup form input").value = "1" """)
             lines = len(page.step("limits")["lines"])
             page.wait(lambda: len(page.step("limits")["lines"]) > lines, STEP_S, "another line")
@@ -111,7 +111,7 @@ class SetupTest(SetupCase):
         self.assertEqual(page.errors(), [])
 
     def in_use_as_told(self, page, lines):
-        """The card of the muscle in use has the deviations that the step told."""
+        """The card of the muscle in use has the deviations that the step reported."""
         def deviation(title):
             return page.run(f"""return [...document.querySelectorAll("section[aria-label='muscle in use, node 1'] tbody tr")]
                 .find((row) => row.firstChild.textContent === "{title}").children[3].textContent""")
@@ -137,7 +137,7 @@ class SetupTest(SetupCase):
 
     def test_an_answer_that_comes_late_takes_nothing_that_was_typed(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")
-        # What the page asked for before the step began is answered after the question is there.
+        # A request from before the step began is answered after the question is shown.
         page.run("""const now = window.fetch;
             window.fetch = async (...request) => {
               const answer = await now(...request);
@@ -259,7 +259,7 @@ class SetupTest(SetupCase):
 
 
 class Pictures(SetupTest):
-    """The sequence of docs/setup.md; no test finds it by itself."""
+    """The sequence of docs/setup.md; a test run does not find it."""
 
     def runTest(self):
         def see(page, name):

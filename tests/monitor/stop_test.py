@@ -1,6 +1,6 @@
-"""STOP while somebody wants to keep it out, or nothing answers: its port as a program meets it, and the page in a real browser.
+"""STOP while somebody tries to block it, or nothing answers: its port as a program meets it, and the page in a real browser.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import contextlib

@@ -52,7 +52,7 @@ class Answers(threading.Thread):
 
 
 def measure(page, answers):
-    """Milliseconds from a click to its effect. A command that a stall of this machine let expire before is given again."""
+    """Milliseconds from a click to its effect. Repeats when a stall of this machine let the command expire before."""
     while True:
         page.arm()
         page.move(TARGET_MM)

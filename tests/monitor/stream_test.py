@@ -1,6 +1,6 @@
 """The stream of the monitor's server: what is new, what a reader missed, and readers that never read.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import contextlib
@@ -79,7 +79,7 @@ class Stream(OnServedBoard):
             for _ in range(24):
                 until(lambda: one_more(receive_bytes=2048))
             self.assertFalse(one_more())
-            # Nobody has gone; all that is left is that they are dropped.
+            # No reader has gone, so the server has to drop them.
             until(one_more, patience_s=10 * SLACK_S)
 
 

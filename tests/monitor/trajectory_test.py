@@ -1,6 +1,6 @@
-"""Trajectories over the monitor's server: knots with their answers, and that whatever ends what heats ends them.
+"""Trajectories over the monitor's server: knots with their answers, and that whatever ends heating ends them.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import functools
@@ -22,7 +22,7 @@ def knots(count, from_m=FIRST_M, rise_m=0.0, begins=True):
 
 
 def unless_it_expires(test):
-    """A machine that stalls for 0.25 s makes the command expire, as it has to: then once more."""
+    """Repeats when the machine stalls for 0.25 s: then the command expires, as it must."""
     @functools.wraps(test)
     def tried(self):
         for _ in range(2):
@@ -53,7 +53,7 @@ class Trajectories(OnServedBoard):
         until(lambda: served.command("position", FIRST_M) == (200, {"refusal": "none"}))
 
     def playback(self):
-        """Of a page that lives."""
+        """Its state, as for a page that is alive."""
         self.served.post("/api/alive", {"node": 1})
         return self.play()["playback"]
 

@@ -1,4 +1,4 @@
-"""Connections to a port that send a byte now and then and never end a request, opened anew when they are closed.
+"""Connections to a port that send a byte now and then and never end a request, reopened when they are closed.
 
     trickle.py PORT COUNT       until it is killed; prints "trickling" when all were begun and have had time to open
 """
@@ -15,7 +15,7 @@ BYTE_EVERY_S = 0.1
 
 
 class Trickle:
-    """Never waits for its peer: whoever has no room for more connections lets those that knock wait for seconds."""
+    """Never waits for its peer: a server without room for more connections lets new ones wait for seconds."""
 
     def __init__(self, port):
         self.port = port
@@ -49,7 +49,7 @@ class Trickle:
 
 def main(port, count):
     if os.getpriority(os.PRIO_PROCESS, 0) < 0:
-        os.setpriority(os.PRIO_PROCESS, 0, 0)  # connections are what is tried, not who gets the processor
+        os.setpriority(os.PRIO_PROCESS, 0, 0)  # this tests connections, not who gets the processor
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
     trickles = [Trickle(port) for _ in range(count)]

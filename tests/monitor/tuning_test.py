@@ -1,6 +1,6 @@
 """A controller is tuned while the board runs: by `supercoil tune` over a bus, and on the live page in a real browser.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import json
@@ -43,7 +43,7 @@ class ByCommand(PageCase):
         changed = self.values("gain_6=90", "lambda_1=44", "p0_rad_per_s=4.5", "model_pole_1_rad_per_s=4.5", "freeze_when_limited=false")
         self.assertEqual([changed[name]["in_use"] for name in ("gain_6", "lambda_1", "p0_rad_per_s", "freeze_when_limited")],
                          [90.0, 44.0, 4.5, False])
-        # The proof of its stability is for a model of the same poles.
+        # The proof of its stability requires a model with the same poles.
         self.assertIn("unsuitable", self.tune("p0_rad_per_s=5").stderr)
         self.assertIn("unsuitable", self.tune("gain_1=1", "damping=-1").stderr)
 

@@ -1,6 +1,6 @@
-"""Waveforms that the page plays to a muscle: what they are, and that they end as anything that heats does.
+"""Waveforms that the page plays to a muscle: what they are, and that they end as everything that heats does.
 
-Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, otherwise those of build/release.
 """
 
 import pathlib
@@ -108,7 +108,7 @@ class OnThePage(PageCase):
 
     def opened(self):
         page = self.shared
-        page.driver.get("about:blank")  # else only what stands behind the # of the address would change
+        page.driver.get("about:blank")  # otherwise only the part after the # of the address would change
         page.open(self.address)
         page.click(f"{CARD} summary")
         page.wait(lambda: page.find(".manual .value input").get_attribute("max") == "39.96", SLACK_S, "the bench's travel is told")
@@ -122,7 +122,7 @@ class OnThePage(PageCase):
         page.click(f"{CARD} [type=submit]")
 
     def play(self, page, **values):
-        """As often as the machine lets a command expire, again."""
+        """Repeats when the machine lets a command expire."""
         for _ in range(3):
             page.arm()
             self.start(page, **values)
@@ -135,7 +135,7 @@ class OnThePage(PageCase):
         return page.text(f"{CARD} .answer")
 
     def play_ahead(self, page, until=r"ahead on the board", **values):
-        """A trajectory, until the page tells so. As often as play()."""
+        """Plays a trajectory until the page says so; repeats as play() does."""
         for _ in range(3):
             self.play(page, **values)
             page.wait(lambda: re.search(until, self.answer(page)) or page.state() != "active", ARRIVES_S, until)
@@ -145,11 +145,11 @@ class OnThePage(PageCase):
         raise AssertionError("is not played after three tries")
 
     def references(self, page):
-        """Of the newest 2 s, in mm, as the board tells them each 10 ms."""
+        """References of the newest 2 s, in mm, as the board reports them every 10 ms."""
         return [1e3 * told for told in page.run("return fetch('/api/history?from_s=-2').then((answer) => answer.json())")["nodes"]["1"]["Tracking"]["reference_m"]]
 
     def requests(self, page):
-        """So many commands and knots the page has sent. The browser keeps the newest 250 requests unless it is told otherwise."""
+        """How many commands and knots the page has sent. The browser keeps the newest 250 requests unless told otherwise."""
         return page.run("return performance.getEntriesByType('resource').filter(({ name }) => /command|trajectory/.test(name)).length")
 
     def stop(self, page):

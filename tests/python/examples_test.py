@@ -32,7 +32,7 @@ class Examples(unittest.TestCase):
         self.path = pathlib.Path(folder.name)
 
     def run_example(self, name, *arguments):
-        """What it prints. Starved, its command expires; then it begins anew."""
+        """What it prints. Begins again when it was starved and its command expired."""
         for _ in range(TRIES):
             done = subprocess.run([sys.executable, EXAMPLES / name, *map(str, arguments)], capture_output=True,
                                   text=True, timeout=DEADLINE_S)

@@ -1,4 +1,4 @@
-"""What a session does where a board is not as it should be: another version, damaged or no answers, lost leases."""
+"""What a session does when a board misbehaves: another version, damaged or no answers, lost leases."""
 
 import asyncio
 import threading

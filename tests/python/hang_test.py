@@ -56,7 +56,7 @@ class Hang(unittest.TestCase):
             time.sleep(0.01)
 
     def running(self, program, seen):
-        """Its process, when what it does with the muscle is seen."""
+        """Its process, once its effect on the muscle is seen."""
         for _ in range(TRIES):
             process = subprocess.Popen([sys.executable, "-c", program, self.simulation.address], stderr=subprocess.PIPE,
                                        text=True)

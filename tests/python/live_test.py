@@ -53,7 +53,7 @@ class OnOneBoard(unittest.TestCase):
         cls.observer = cls.simulation.muscle  # never commands
 
     def observe(self, wanted):
-        """Until what the board tells is so."""
+        """Waits until what the board reports is as wanted."""
         end = time.monotonic() + DEADLINE_S
         while not wanted(self.observer):
             self.assertLess(time.monotonic(), end, "never seen")

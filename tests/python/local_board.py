@@ -63,7 +63,7 @@ class Watch(threading.Thread):
 
 
 def apart_m(seen, rests_m, scale):
-    """Of the second's way, times this, from the first's, while both move; and how far the first comes."""
+    """How far the second's way, times `scale`, is from the first's while both move; and how far the first comes."""
     ways = [(first - rests_m, second - rests_m) for first, second in seen]
     apart = [abs(first - scale * second) for first, second in ways if first > 1e-5 and second > 1e-5]
     return max(apart), max(first for first, _ in ways)

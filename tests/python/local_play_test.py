@@ -14,7 +14,7 @@ from local_board import DEADLINE_S, LocalBoard, Watch, apart_m
 SUPERCOIL = os.environ["SUPERCOIL"]
 TRIES = 5
 REST_M = 0.003
-# What a busy machine does to whoever commands in real time.
+# What a busy machine does to any master in real time.
 STARVED = ("the board stopped it", "ran dry", "was told something else", "has not started", "not_ready", "busy",
            "out_of_range", "wrong_state", "does not answer")
 
@@ -48,7 +48,7 @@ class LocalPlay(unittest.TestCase):
                 self.assertLess(time.monotonic(), end)
 
     def play(self, *arguments, wanted=None):
-        """And what was seen meanwhile. Again where the machine was too busy, unless it says what is wanted."""
+        """Also what was seen meanwhile. Repeats when the machine was too busy, unless it says what is wanted."""
         for _ in range(TRIES):
             self.arm()
             with Watch(self.path) as watch:

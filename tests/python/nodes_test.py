@@ -48,7 +48,7 @@ class ThreeNodes(unittest.TestCase):
             time.sleep(0.01)
 
     def supercoil(self, *words):
-        """What it prints. A lease that ended meanwhile is claimed anew."""
+        """What it prints. A lease that ended meanwhile is claimed again."""
         for _ in range(TRIES):
             done = subprocess.run([SUPERCOIL, *words, "--can", self.address], capture_output=True, text=True,
                                   timeout=DEADLINE_S)
@@ -100,7 +100,7 @@ class ThreeNodes(unittest.TestCase):
         self.assertEqual([one["Status"]["fault"] for one in told], ["none", "none", "command_timeout"])
 
     def on_terminal(self, *words):
-        """What is seen until it says how long it will take yet; empty where it ended before."""
+        """What is seen until it says how much longer it will take; empty when it ended before that."""
         screen, terminal = pty.openpty()
         running = subprocess.Popen([SUPERCOIL, "command", *words, "--can", self.address], stderr=terminal)
         os.close(terminal)

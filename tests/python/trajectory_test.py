@@ -68,7 +68,7 @@ class Trajectories(unittest.TestCase):
         return asyncio.run(on_one())
 
     async def under_way(self, muscle, playback):
-        """A motion, as soon as the board tells that it is so far."""
+        """A motion, once the board reports that it has come this far."""
         playing = asyncio.create_task(muscle.play(TIMES_S, way(TIMES_S), settle_s=0.0))
         end = time.monotonic() + DEADLINE_S
         while not playing.done() and ((told := muscle.telemetry.newest(messages.Trajectory)) is None

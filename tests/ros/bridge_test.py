@@ -82,7 +82,7 @@ class Live(Bridged):
             return False
         self.wait(send)
         self.assertAlmostEqual(self.observers["finger"].telemetry.tracking.reference_m, 0.002, delta=1e-6)
-        writers.clear()  # as a program that ends
+        writers.clear()  # as when a program ends
         self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
 
     def test_a_trajectory_that_cannot_be_is_refused_whole(self):
@@ -112,7 +112,7 @@ class Live(Bridged):
             self.assertNotIn(State.active, [one.state for one in self.observers.values()])
 
     def test_while_the_stop_is_set_what_others_arm_is_disarmed(self):
-        # One that has commanded nothing yet holds no lease, so that others may.
+        # A bridge that has commanded nothing yet holds no lease, so others may.
         self.end_bridge()
         self.start_bridge()
         self.wait(lambda: self.commands.matched())
@@ -156,7 +156,7 @@ class Live(Bridged):
             while any(one.state == State.active for one in self.observers.values()):
                 self.assertLess(time.monotonic(), end, "still heats")
                 time.sleep(0.01)
-            # One that heated until then has the fault; one whose command had ended rests.
+            # A muscle that heated until then has the fault; one whose command had ended rests.
             self.assertTrue({one.fault for one in self.observers.values()} <= {Fault.command_timeout, Fault.none})
             if number == signal.SIGSTOP:
                 self.bridge.send_signal(signal.SIGCONT)

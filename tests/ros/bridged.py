@@ -1,6 +1,6 @@
-"""supercoil-ros as a process of its own between simulated boards and peers on DDS, for tests of it.
+"""supercoil-ros as a process of its own between simulated boards and peers on DDS, for its tests.
 
-A busy machine may let a command expire: then the muscle is armed anew, and what is waited for comes later."""
+A busy machine may let a command expire: then the muscle is armed again, and what is waited for comes later."""
 
 import contextlib
 import os
@@ -56,7 +56,7 @@ class Bridged(unittest.TestCase):
         cls.bridge.communicate()
 
     def another_bridge(self, address, name, *words):
-        """Beside the one that all tests share, of the joint of that name."""
+        """A bridge beside the one that all tests share, for the joint of that name."""
         bridge = subprocess.Popen(
             [sys.executable, "-m", "supercoil.ros", address, "--name", name, "--states", f"{name}_states", "--domain",
              str(self.domain), *words], env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
@@ -73,7 +73,7 @@ class Bridged(unittest.TestCase):
         self.wait(lambda: self.all_are(State.disarmed))
 
     def wait(self, wanted, meanwhile=lambda: None):
-        """Until it is true, and gives that."""
+        """Waits until `wanted` returns something true, and returns that."""
         end = time.monotonic() + DEADLINE_S
         while not (seen := wanted()):
             self.assertIsNone(self.bridge.poll(), "the bridge has ended")
@@ -118,7 +118,7 @@ class Bridged(unittest.TestCase):
             other.arm()
 
     def told(self, of):
-        """The newest that is said of it; None: nothing new."""
+        """The newest diagnosis of it; None: nothing new."""
         found = [status for array in self.diagnostics.take() for status in array.status
                  if status.name == f"supercoil: {of}"]
         return found[-1] if found else None

@@ -18,7 +18,7 @@ WITHIN_S = 30.0
 
 
 class Muscle:
-    """In place of supercoil.Muscle."""
+    """A stand-in for supercoil.Muscle."""
 
     PAIRS: ClassVar = {}  # by node
 

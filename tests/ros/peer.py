@@ -94,7 +94,7 @@ class Reader:
 
 
 class Peer:
-    """What it writes to and reads from stays until it ends, as with a node: nothing is made and deleted by the way."""
+    """Its writers and readers stay until it ends, as with a node: none is made or deleted on the way."""
 
     def __init__(self, domain, release="ROS2_JAZZY"):
         os.environ["CYCLONEDDS_URI"] = LOOPBACK

@@ -54,7 +54,7 @@ class Turning(Bridged):
         return self.wait(newest)
 
     def diagnosed_with(self, of, judge, meanwhile):
-        """What is said of it once its values are as the judge wants them."""
+        """The diagnosis of it once `judge` accepts its values."""
         def as_wanted():
             told = self.told(of)
             return told if told and judge({value.key: value.value for value in told.values}) else None
@@ -103,7 +103,7 @@ class Turning(Bridged):
         self.diagnosis_of("elbow", "a command of nan rad is left out", self.again({"elbow": math.nan}))
 
     def test_the_muscle_that_turns_it_back_is_no_joint_also_where_it_is_named(self):
-        # One that has commanded nothing yet holds no lease, so that another one may.
+        # A bridge that has commanded nothing yet holds no lease, so another master may.
         self.end_bridge()
         self.start_bridge()
         both = subprocess.Popen(

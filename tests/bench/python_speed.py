@@ -1,6 +1,6 @@
 """How fast the Python package is. It reports, and judges nothing.
 
-Commands with answers a second over socketcand on loopback, and the part of a core that the telemetry of eight nodes takes.
+Commands with answers a second over socketcand on loopback, and the part of a core that telemetry of eight nodes takes.
 
     SUPERCOIL_SIM=build/release/bin/supercoil-sim .venv/bin/python tests/bench/python_speed.py
 

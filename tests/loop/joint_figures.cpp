@@ -77,7 +77,7 @@ struct Motion {
   double duration_s;
   double (*reference_deg)(double time_s);
   bool (*counts)(double time_s);
-  double pull_at_s;  ///< both muscles pull twice as hard from here on
+  double pull_at_s;  ///< both muscles pull twice as hard from then on
 };
 
 constexpr double never_s = 1e9;

@@ -40,7 +40,7 @@ void calibrate_in_vain(Rig& rig, Seen& seen) {
   run(rig, 1.0, seen);
 }
 
-/// Provokes every refusal.
+/// Commands that are not obeyed, each for another reason.
 void ask_in_vain(Rig& rig, Seen& seen) {
   rig.send(Verb::none);
   rig.send(Verb::position, std::nan(""));

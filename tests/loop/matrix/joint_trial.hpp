@@ -7,7 +7,7 @@
 
 namespace supercoil::test {
 
-/// What went wrong; empty: nothing. situation: the single channel's that is like that of both.
+/// What went wrong; empty: nothing. situation: that of a single channel that is like what both do.
 std::string try_joint(const FaultCase& fault_case, Situation situation);
 
 }  // namespace supercoil::test

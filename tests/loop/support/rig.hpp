@@ -64,7 +64,7 @@ class Rig {
   host_sim::MuscleChannel& muscle() { return board.channel(tested); }
   double time_s() const { return hal::seconds(board.true_time()); }
   double period_s() const { return period_s_; }
-  /// Of the last command that was not obeyed, by any channel but the neighbour.
+  /// Of the last command that was not obeyed, except those to the neighbour.
   Refusal last_refusal = Refusal::none;
   double last_nearest = NAN;              ///< the nearest value in that answer
   std::array<Refusal, 2> last_answers{};  ///< to the last command to each channel

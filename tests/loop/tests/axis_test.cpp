@@ -45,7 +45,7 @@ TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
   }
 }
 
-/// Whatever else is stored goes with it.
+/// And stores it again with whatever else is stored.
 TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
   for (const double stored : {0.0, 0.25}) {
     settings.firmware.channels[0].unexplained_ratio = stored;

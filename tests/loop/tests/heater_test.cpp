@@ -46,7 +46,7 @@ TEST(Heater, TellsHowOldItsResistanceIs) {
 }
 
 TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
-  // As with a bus. Probes end with a falling duty, after which no current flows.
+  // As with a converter on a bus. Probes end with a falling duty, after which no current flows.
   const auto fault_with = [](double short_ticks) {
     RigSettings slow = rough_board(100.0);
     host_sim::MuscleChannelSettings& simulated = slow.board.channels[0];

@@ -1,4 +1,4 @@
-// Whether a muscle of a joint is slack is told, and avoided where it can be.
+// A slack muscle of a joint is reported, and avoided where it can be.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ TEST_GROUP_BASE(JointSlack, JointCase) {
     std::array<bool, 2> told{};
     std::array<double, 2> pull_N{};
   };
-  /// The load, in N at the lever, grows step by step and turns the joint to positive positions.
+  /// The load, in N at the lever, grows gradually and turns the joint to positive positions.
   static Held held(const RigSettings& settings, double position_m, double load_N) {
     Rig fresh(settings);
     begin(fresh);

@@ -180,7 +180,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundThoughItRestsAgainAndAgain) {
   }
 }
 
-/// The heating is always shorter than a dither.
+/// The heating always ends before a dither does.
 TEST(LostContact, OfASlowMuscleThatRestsAgainAndAgainIsFoundOrItIsHeldToTheSafePower) {
   LostContact muscle(slow_board());
   muscle.start(Verb::power, always(4.0));

@@ -38,7 +38,7 @@ class Between(threading.Thread):
 
 
 def pass_on(source, sink, alter):
-    """Until either end is closed."""
+    """Passes data on until either end is closed."""
     rest = b""
     with source, sink, contextlib.suppress(OSError):
         while heard := source.recv(65536):

@@ -1,7 +1,7 @@
 """A copy of the image that toolchain/image made, as a card for the emulated board (rig.Settings.image).
 
 The copy gets the rig's two services and three empty folders, and no login on its console, which is the script's; nothing
-else is changed. So the test is of the image: its boot loader, kernel, set-up and service. The configuration is put on it
+else is changed. So what is tested is the image: its boot loader, kernel, set-up and service. The configuration is put on it
 as on a PC: into its FAT partition.
 """
 

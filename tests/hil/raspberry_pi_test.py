@@ -65,7 +65,7 @@ def hertz(console):
 
 
 def judge_missing(table, console):
-    """What is not wired is named; all else is in its place."""
+    """What is not wired is named; everything else is in its place."""
     console.ask("systemctl stop supercoild")
     journal = console.ask("journalctl -b -u supercoild -o cat")
     table.row("supercoild names the converters that are missing",

@@ -25,7 +25,7 @@ def test(about, script, judge, prepare=lambda share: None, **settings):
 
 
 def looks(run, share):
-    """Of the first board's witness, and of the second's."""
+    """The looks of the first board's witness, and of the second's."""
     return witness.looks(run.witness), witness.looks((share / "witness-2").read_text().splitlines())
 
 

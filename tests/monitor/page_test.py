@@ -89,7 +89,7 @@ class Page(Browser):
         raise AssertionError(f"did not arrive in {TRIES} tries")
 
     def identify(self):
-        """Until the board has identified its muscle; as often as bring_to() tries."""
+        """Identifies the muscle; tries as often as bring_to()."""
         for _ in range(TRIES):
             self.arm()
             self.click("input[value=identify] + span")
@@ -116,7 +116,7 @@ class Page(Browser):
         raise AssertionError(f"was not stopped in {TRIES} tries")
 
     def stop_is_told(self):
-        """By STOP's own port, or by the other way when this machine is busy for half a second."""
+        """Whether STOP is confirmed, by its own port or by the other way when this machine is busy for half a second."""
         return self.text("#stop-notice").startswith(("stopped node", "disarmed each node"))
 
     def stop_port(self):

@@ -23,7 +23,7 @@ class FakeBoard:
         self.tuned = []
         self.refuse_tuning = 0
         self.damage_answers = False
-        # Knot or Play -> what Trajectory tells, or None: no answer.
+        # Knot or Play -> what Trajectory reports, or None: no answer.
         self.playback = lambda *_: None
         self.trajectory = []
         self.synced = []

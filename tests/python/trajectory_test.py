@@ -17,7 +17,7 @@ NODES = (1, 2)
 LENGTH_S = 3.0
 TIMES_S = np.linspace(0.0, LENGTH_S, 151)
 FIRST_M = 0.003
-# Of a tick of 10 ms, in which the reference goes 10 um at most.
+# In a tick of 10 ms the reference moves 10 um at most.
 NEAR_M = 3e-5
 
 

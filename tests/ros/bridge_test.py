@@ -52,7 +52,7 @@ class Live(Bridged):
         self.assertEqual((told.level, told.hardware_id), (WARN, f"{self.simulation.address} node 1"))
         self.assertEqual({value.key: value.value for value in told.values}["state"], "disarmed")
         self.arm()
-        # A controller's stream, of which ten in a row would be a fault on the board.
+        # As a controller streams it: ten in a row would be a fault on the board.
         self.diagnosis_of("thumb", "m is in", self.again({"thumb": 3.0}))
         self.diagnosis_of("thumb", "a command of nan m is left out", self.again({"thumb": float("nan")}))
         self.assertIn(self.observers["thumb"].fault, (Fault.none, Fault.command_timeout))

@@ -107,7 +107,7 @@ class Bridged(unittest.TestCase):
         return once
 
     def stop(self, stop, reliable=True):
-        """Until it is diagnosed: a bridge that has just begun may not hear the first of them."""
+        """Sends it until it is diagnosed: a bridge that has just begun may not hear the first of them."""
         writer = self.peer.writer("rt/supercoil/emergency_stop", STOP_TYPE, reliable)
         self.wait(writer.matched)
         self.wait(lambda: self.diagnosed("emergency stop") == (ERROR if stop else OK),

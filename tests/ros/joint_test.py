@@ -186,7 +186,7 @@ class JointAlone(Connected):
 
 
 class JointOfTwo(Connected):
-    """Of a muscle that another one turns back, at a lever that depends on the angle."""
+    """A joint that another muscle turns back, at a lever that depends on the angle."""
 
     TABLE = pairs.LeverTable(-30.0, 30.0, (0.012, 0.015, 0.011))
 

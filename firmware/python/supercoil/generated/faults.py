@@ -484,9 +484,9 @@ identified, unless the file has the configuration's own parameters). This is dec
    held, and 1.7 s if 1.7 W were. (A muscle of 2 J/K has 7 s if 4.5 W were held and the senses were compared with a meter, and 2.8 s at the 2.8 W that
    it may have until then.) Nothing from before the dither is used.
 3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. If the position has fallen by less
-   than 0.17 of the model's fall when the model has fallen by twice `responding_min_m`, the fault trips. A muscle that falls is intact, and friction or
-   hysteresis hides its response to the dither: from then on only its own motion proves it. If its motion does not prove it within three quarters of the
-   time in 2., for example because it is at rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have
+   than 0.17 of the model's fall when the model has fallen by twice `responding_min_m`, or after 3 s, the fault trips. A muscle that falls is intact,
+   and friction or hysteresis hides its response to the dither: from then on only its own motion proves it. If its motion does not prove it within three
+   quarters of the time in 2., for example because it is at rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have
    cooled (below).
 4. If nothing is decided within three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel gets at most the safe power
    until there is a response. Then a missing response counts only after a motion or a time as in 3., because hysteresis hides the beginning of a motion
@@ -494,10 +494,10 @@ identified, unless the file has the configuration's own parameters). This is dec
    `responding_min_m` rms in a block, for any reason, is unlikely to come from a dead sensor: the decision waits, but no longer than 5. allows.
 5. Neither a rest, nor less power, nor arming again restores time that was used without a response. From each response on, the firmware computes the
    maximum temperature of a muscle that lost contact at that moment and has had a quarter of the lowest heat transfer since, with the power that really
-   acted, also at rest. The shares of the time to the limit in 2. to 4. are used up by the clock, which restarts after any moment of less power, or by
-   that heat, whichever comes first. So a muscle that was at the safe power for long has less time when it is given more. A muscle that was limited to
-   the safe power, or whose power was taken away, gets the safe power after a rest until it responds (at rest its fall is a response), or until there is
-   again enough time to decide a dither: at rest, 8 s on the paper's muscle.
+   acted, also at rest. The shares of the time to the limit in 2. to 4. are used up by the clock, which restarts after any moment of less power and
+   while the position moves by itself (4.), or by that heat, whichever comes first. So a muscle that was at the safe power for long has less time when it
+   is given more. A muscle that was limited to the safe power, or whose power was taken away, gets the safe power after a rest until it responds (at rest
+   its fall is a response), or until there is again enough time to decide a dither: at rest, 8 s on the paper's muscle.
 
 | | |
 |---|---|

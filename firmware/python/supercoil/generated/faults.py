@@ -483,11 +483,11 @@ identified, unless the file has the configuration's own parameters). This is dec
    end, with its maximum power, the lowest mass and a quarter of the lowest heat transfer, reaches `trip_C`. Half of that time is 0.6 s if 4.5 W were
    held, and 1.7 s if 1.7 W were. (A muscle of 2 J/K has 7 s if 4.5 W were held and the senses were compared with a meter, and 2.8 s at the 2.8 W that
    it may have until then.) Nothing from before the dither is used.
-3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. If the position has fallen by less
-   than 0.17 of the model's fall when the model has fallen by twice `responding_min_m`, or after 3 s, the fault trips. A muscle that falls is intact,
-   and friction or hysteresis hides its response to the dither: from then on only its own motion proves it. If its motion does not prove it within three
-   quarters of the time in 2., for example because it is at rest, it gets at most the safe power until it rests or is disarmed, and then until it responds or must have
-   cooled (below).
+3. If there is no response, the power is taken away (limited by: `unproven`), and an intact muscle must now fall. If the position has fallen by less than
+   0.17 of the model's fall when the model has fallen by twice `responding_min_m`, or after 3 s, the fault trips. A muscle that falls is intact, and
+   friction or hysteresis hides its response to the dither: from then on only its own motion proves it. If its motion does not prove it within three
+   quarters of the time in 2., for example because it is at rest, it gets at most the safe power until it rests or is disarmed, and then until it
+   responds or must have cooled (below).
 4. If nothing is decided within three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel gets at most the safe power
    until there is a response. Then a missing response counts only after a motion or a time as in 3., because hysteresis hides the beginning of a motion
    that reverses. The dither goes on at the safe power, so that a muscle at rest can respond. A position that moves by more than 0.1 of

@@ -48,7 +48,7 @@ void MracLaw::check_fit(FixedPointFit& fit, const Settings& s, const LawContext&
   constexpr double state = FixedPointFit::state;
   fit.at_most("lambda", std::max(std::abs(s.lambda[0]), std::abs(s.lambda[1])), state);
   fit.at_most("alpha", std::max(s.alpha[0], s.alpha[1]), state);
-  // The largest values of ω1 and ω2 for a signal of peak_W: at rest, and at the filter's middle.
+  // The largest values for a signal of peak_W: of ω2 at rest, and of ω1 at the filter's middle.
   fit.at_most("alpha", peak_W * std::abs(s.alpha[1] / s.lambda[0]), signal);
   fit.at_most("alpha", peak_W * std::abs(s.alpha[0] / s.lambda[1]), signal);
   for (const double gain : s.scaled_gain())

@@ -23,8 +23,9 @@ struct Parts {
   Span unseen;
 };
 
-/// The unseen part begins when the muscle is last heated out of rest, if that happens at least
-/// twice and the last time is after three tenths of the recording; otherwise it is the last third.
+/// The unseen part begins when the muscle is last heated after a second almost without power, if
+/// that happens at least twice (a start with heat counts) and the last time is after three tenths
+/// of the recording and before its last tenth; otherwise it is the last third.
 Parts default_parts(const Samples& samples);
 
 struct Comparison {
@@ -41,9 +42,10 @@ struct Comparison {
 };
 
 /// Adds at most four effects, one at a time: the one that lowers the error on data that was not
-/// fitted the most, while it does by a tenth and by 0.1 % of the stroke. Then removes those that
-/// are no longer worth as much. That error is the unseen part's rms and the fitted part's
-/// cross-validated one, added in squares.
+/// fitted the most, while it does by a tenth and by 0.1 % of the stroke, and the rms of both parts
+/// is above 0.1 % of the stroke and falls by 3 %. Then removes effects that are no longer worth as
+/// much, down to one. That error is the unseen part's rms and the fitted part's cross-validated
+/// one, added in squares.
 Comparison compare(const Samples& samples, const Parts& parts);
 
 /// What a linear controller can use of a model: the linear model and what moves the rest length.

@@ -12,7 +12,7 @@ struct Accuracy {
 
 /// The residuals of a model that is not exact are not white noise: they are correlated over
 /// seconds. So two covariances are added:
-/// - the delete-a-block jackknife, linearised: how far the solution moves when each of ten
+/// - twice the delete-a-block jackknife, linearised: how far the solution moves when each of five
 ///   stretches of the recording is left out;
 /// - the least-squares covariance, with the residuals' variance counted once for each stretch over
 ///   which they are correlated, and the prior deviations.

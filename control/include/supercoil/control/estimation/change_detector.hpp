@@ -23,9 +23,11 @@ inline double slowness(const Theta& theta) {
 /// residual's power the change explains. Model error also leaves residuals, but those recur with
 /// the motion: g must exceed a multiple of its largest earlier value.
 ///
-/// 3 false changes in 24 runs of 1000 s of random steps over twelve kinds of simulated muscles
-/// (docs/muscles.md), two of them where heat transfer alone depends on temperature. With a ratio of
-/// 6 a softening by a quarter is missed at two of eight phases on the hardest muscle.
+/// First trials with these settings: 3 false changes in 24 runs of 1000 s of random steps over
+/// twelve kinds of simulated muscles (docs/muscles.md), two of them where heat transfer alone
+/// depends on temperature. With a ratio of 6 a softening by a quarter was missed at two of eight
+/// phases on the hardest muscle. What the laws report: docs/control-theory.md,
+/// docs/estimation-theory.md.
 template <int Directions>
 class ChangeDetector {
  public:

@@ -30,7 +30,7 @@ class JointAllocation {
   /// Each muscle gives half of the effort, around co_contraction_W >= 0, at which both pull alike:
   /// P₁ = c + v/2, g P₂ = c − v/2. What one muscle cannot give is left to the other. Both powers
   /// are within their ranges; the effort is the demanded one, or the nearest that the ranges allow.
-  /// An effort that is NaN gives NaN.
+  /// An effort that is not finite gives NaN.
   PairPower divide(double effort_W, double co_contraction_W, const Ranges& ranges) const {
     if (!std::isfinite(effort_W)) return {NAN, NAN};
     const PowerRange against{gain_ratio_ * ranges.antagonist.min_W,

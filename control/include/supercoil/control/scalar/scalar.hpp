@@ -1,4 +1,4 @@
-// What the control library requires of a scalar type, and the three types it is built for.
+// What the control library requires of its scalar types: double, float and Q8_24.
 #pragma once
 
 #include <cmath>

@@ -12,8 +12,9 @@
 namespace supercoil::control {
 
 /// Bounds on η while the rise is between from_K and to_K. Below from_K η may be smaller, above to_K
-/// larger, as the cube root of the rise. Free convection never changes faster, nor does radiation
-/// with it while that is less than a third (docs/safety.md). η never falls with the rise.
+/// larger, as the cube root of the rise. Free convection never changes faster, nor do convection
+/// and radiation together while radiation is less than a third of convection (docs/safety.md). η
+/// never falls with the rise.
 struct TransferSpan {
   double min_W_per_K = 0.0;
   double max_W_per_K = INFINITY;

@@ -64,7 +64,7 @@ class AdaptiveFeedforward {
   }
 
   /// Starts with the muscle moving like its model. To hold a power, the integral becomes that power
-  /// less the rest.
+  /// less the rest; otherwise zero.
   void start(const LawStart<Scalar>& at) {
     pid_.start(at);
     motion_ = Parameters::Zero();

@@ -23,7 +23,8 @@ class Controller {
   /// same muscle again changes nothing that was learned since. theta: in its own units. Call before
   /// start(), not while it runs.
   void retune(const Theta& theta);
-  /// What is known of the muscle, each tick before step(); used only by laws with a model of it.
+  /// What is known of the muscle, each tick before step(); used by laws with a model of it, and by
+  /// every law for shaping its reference.
   void learn(const Estimate& estimate);
   /// The reference model's motion, in metres; zero in open loop.
   ModelMotion<double> motion() const;

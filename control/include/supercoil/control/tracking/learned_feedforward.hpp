@@ -61,7 +61,7 @@ class LearnedFeedforward {
   void retune(const Theta& theta);
 
   /// Starts with the muscle moving like its model. To hold a power, the integral becomes that power
-  /// less the rest.
+  /// less the rest; otherwise zero.
   void start(const LawStart<Scalar>& at);
 
   void slow_down() {

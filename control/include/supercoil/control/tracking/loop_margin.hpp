@@ -39,7 +39,8 @@ WorstCorner worst_corner_adapted(const ControllerSettings& settings,
                                  const PhysicalParameters& nominal, double span, double step_s,
                                  double delay_s);
 
-/// The largest span, to 1 %, up to which all corners are stable; at most 0.9.
+/// The largest span, to 1 %, up to which all corners are stable; at most 0.9, and 0 when the
+/// nominal muscle's loop is unstable.
 double tolerated_span(const FixedLaw& law, const PhysicalParameters& nominal, double step_s,
                       double delay_s);
 

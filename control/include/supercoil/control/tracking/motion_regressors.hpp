@@ -10,9 +10,9 @@
 namespace supercoil::control {
 
 /// The regressors of P = wᵀψ, all in watts. x, v, a, j are position, velocity, acceleration and
-/// jerk, each times its θ, so that the linear muscle has w = [1 1 1 1 θ5 0 …]; m is the largest
-/// power. Squares and cubes model force, stiffness and heat transfer that depend on temperature;
-/// two plays of the position, each with its rate, model hysteresis.
+/// jerk, each times its θ, so that the linear muscle has w = [1 1 1 1 θ5 0 …]. Squares and cubes
+/// model force, stiffness and heat transfer that depend on temperature; two plays of the position,
+/// each with its rate, model hysteresis.
 class MotionRegressors {
  public:
   enum : int {

@@ -9,7 +9,7 @@
 
 namespace supercoil::control {
 
-/// The premises of Ioannou & Fidan 2006, Sec. 5.3, each with what it was computed from.
+/// Which premises of Ioannou & Fidan 2006, Sec. 5.3, hold.
 struct MracPremises {
   bool lambda_hurwitz;        ///< λ(s) is Hurwitz
   bool poles_positive;        ///< p0, p1, q0 > 0

@@ -7,7 +7,7 @@
 
 namespace supercoil::control {
 
-/// Detects a sustained oscillation of the tracking error: ten half periods in a row, alike in
+/// Detects a sustained oscillation of the tracking error: `half_periods` in a row, alike in
 /// length within 30 % and in amplitude within a factor of two, faster than `slow` and slower than
 /// `fast`, while the reference model moves by less than half as much at such frequencies. Noise is
 /// not that regular; a reference that oscillates moves the model.
@@ -37,8 +37,8 @@ class OscillationDetector {
     start_counting();
   }
 
-  /// One tick: tracking error, and position of the reference model. True once for every ten half
-  /// periods of an oscillation.
+  /// One tick: tracking error, and position of the reference model. True once for every
+  /// `half_periods` of an oscillation.
   bool step(double error_m, double model_m) {
     const double error = error_.step(error_m, fast_share_, slow_share_);
     const double model = model_.step(model_m, fast_share_, slow_share_);

@@ -23,7 +23,7 @@ class Pi {
         proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
         integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
 
-  /// To hold a power, the integral becomes that power less the proportional term.
+  /// To hold a power, the integral becomes that power less the proportional term; otherwise zero.
   void start(const LawStart<Scalar>& at) {
     demanded_ = at.hold ? at.power : Scalar{};
     integral_ = Accumulator<Scalar>(demanded_ - (at.model.position - at.position) * proportional_);

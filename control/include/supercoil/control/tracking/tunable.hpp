@@ -49,7 +49,8 @@ struct Tunable {
   void set(ControllerSettings& settings, double to) const;
   /// The same for an estimator.
   void set(EstimatorSettings& settings, double to) const;
-  /// False for NaN, and for a fraction of a flag. Which kinds of estimators exist is not checked.
+  /// False for NaN, and for a fraction of a flag, kind or model. Which kinds of estimators exist is
+  /// not checked.
   bool in_range(double value) const;
   bool controllers_have() const;  ///< of some kind
   bool estimators_have() const;

@@ -120,7 +120,8 @@ struct StoredTuning {
   friend bool operator==(const StoredTuning&, const StoredTuning&) = default;
 };
 
-/// One whole set: parameters and calibration belong together, as one was found under the other.
+/// One whole set. Parameters and calibration belong together: identify measures calibrated
+/// positions.
 struct Learned {
   control::PhysicalParameters muscle;
   Calibration calibration;
@@ -142,7 +143,7 @@ struct Learned {
 /// From a channel to the storage worker; empty: forget the muscle.
 using LearnedUpdate = std::optional<Learned>;
 
-/// The same muscle, calibration and senses, in any version.
+/// Equal in everything but the version.
 bool same_content(const Learned& a, const Learned& b);
 
 /// The first quantity that is NaN or out of its range; the muscle's ranges are control::check's.

@@ -22,7 +22,8 @@ struct Scaling {
   double offset = 0.0;
 };
 
-/// max_age_s > 0. A conversion from the future (a clock that went wrong) is absent as well.
+/// max_age_s > 0. A conversion further in the future than that (a clock went wrong) is absent as
+/// well.
 /// The result is written in place: it is read again within nanoseconds.
 inline void measure(const hal::Sample& sample, const Scaling& scaling, hal::Time now,
                     double max_age_s, Measured& result) {

@@ -91,7 +91,8 @@ ModeResult Axis::keep_fitted(const control::PhysicalParameters& muscle, double u
   return kept;
 }
 
-/// Stores them for the next start. Facts that cannot be stored hold until then.
+/// Stores them for the next start. What identify found is used until then even if it cannot be
+/// stored.
 Refusal Axis::store_thermal_facts(const board::ThermalFacts& facts) {
   board::Learned learned = known();
   learned.heat = facts;

@@ -47,7 +47,8 @@ class Channel {
   void supervise(const BoardTick& board);
   void estimate() { axis_.estimate(); }
   void control();
-  void limit() { axis_.limit(axis_.demanded_W()); }  ///< in a joint Joint::limit() does this
+  /// In a joint or bundle, Joint::limit() or Bundle::limit() does this.
+  void limit() { axis_.limit(axis_.demanded_W()); }
   void drive() { axis_.drive(); }
   const Snapshot& publish(const BoardTick& board, const Verdict& board_verdict);
 

@@ -10,7 +10,7 @@
 namespace supercoil {
 
 /// The agonist's axis follows the joint's position, and its controller's demand is the effort of
-/// both muscles. States, faults and commands remain with the channels (Channel::join).
+/// both muscles. States, faults and commands remain with the channels (Channel::lead_joint).
 class Joint {
  public:
   /// Both axes outlive the joint.

@@ -192,7 +192,7 @@ struct BoardSettings {
   const BundleSettings* bundle_of(std::size_t channel) const;
 };
 
-/// The maximum co-contraction that both heaters can give, for the muscles as configured.
+/// The maximum co-contraction that both heaters can give, for the muscles as configured or learned.
 double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint);
 
 /// The board must have both channels. No proof of response is asked of them: it needs a muscle that

@@ -85,7 +85,7 @@ struct Snapshot {
   control::Theta deviation = control::Theta::Zero();  ///< standard deviation of theta
   double bias_deviation_W = 0.0;
   std::uint8_t multiplexed_selector =
-      0;                  ///< in turn: place in multiplexed_names, each within 13 ticks
+      0;                  ///< in turn: place in multiplexed_names, each within 8 ticks
   float progress = 0.0F;  ///< of identify and calibrate, 0 to 1
   ModeResult result = ModeResult::none;
   std::uint8_t identify_notes = 0;  ///< bits of IdentifyNote, of the last identify that ended

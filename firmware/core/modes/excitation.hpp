@@ -56,7 +56,7 @@ class Excitation {
   }
 
   bool done() const { return cycle_ >= (goes_on_ ? 2 : 1) * cycles || too_still_; }
-  /// The muscle has moved by less than is needed, and no more power is allowed.
+  /// The search ended with less motion than is needed.
   bool too_little_motion() const { return too_still_; }
   /// As too_little_motion(), and it moved at least that far, against the direction of heating.
   bool moved_backwards() const { return too_still_ && reach_m_ <= -min_m(); }

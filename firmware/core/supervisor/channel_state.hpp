@@ -29,7 +29,7 @@ enum class Refusal : std::uint8_t {
   none = 0,
   wrong_state = 1,     ///< this state does not allow it
   cause_persists = 2,  ///< reset: a detector still trips
-  no_edge = 3,         ///< reset: already requested; it needs a rising edge
+  no_edge = 3,         ///< reset: requested already, in this tick or the last one
   not_ready = 4,       ///< blocked by the self-test, a fault of the board or a missing reading
   busy = 5,            ///< a probe, identification or calibration is under way
   out_of_range = 6,    ///< the command's value
@@ -40,7 +40,7 @@ enum class Refusal : std::uint8_t {
   queue_full = 11,         ///< more commands than a tick can take
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
   protocol_mismatch = 13,  ///< over CAN: another version of the protocol
-  unsuitable = 14,         ///< a prepared controller that is unstable; the scale of a joint
+  unsuitable = 14,  ///< an invalid prepared controller or estimator; a joint's or follower's scale
   infeasible = 15,  ///< a knot: the muscle cannot move there that fast, or would have to be cooled
 };
 

@@ -21,7 +21,7 @@ constexpr std::array halves_s{0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 3.5, 6.0};
 constexpr double usual_half_s = 1.2;
 /// Max motion, over the max answer, if friction lets go of the muscle during a long half.
 constexpr double max_unheld_ratio = 4.0;
-/// The longest run of a dither, in halves.
+/// The longest run of a dither, in halves of at least usual_half_s.
 constexpr double max_halves = 2.5;
 
 /// For the longest half at 149 Hz, in steps of 6.7 ms.

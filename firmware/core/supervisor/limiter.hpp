@@ -15,7 +15,7 @@ enum class LimitedBy : std::uint8_t {
   maximum = 2,      ///< the channel's maximum power
   slew = 3,         ///< power may not rise faster
   temperature = 4,  ///< derated: the muscle is near its limit
-  invalid = 5,      ///< the demanded power was not a number; none is given
+  invalid = 5,      ///< the demand is not finite, or the temperature NaN; no power is given
   cooling = 6,      ///< the reference falls faster than the muscle cools, and was shaped
   unproven = 7,     ///< more is not safe for a muscle that has not proven that it answers
 };

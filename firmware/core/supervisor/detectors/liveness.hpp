@@ -62,8 +62,8 @@ class CommandTimeout final : public Detector {
   double age_s_ = 0.0;
 };
 
-/// Trips when the controller's demand is NaN, or has exceeded the applied power for max_s without a
-/// gap: the controller is lost.
+/// Trips when the controller's demand is not finite, or has exceeded the applied power for max_s
+/// without a gap: the controller is lost.
 class ControllerSaturated final : public Detector {
  public:
   ControllerSaturated(double max_s, double step_s) : more_(max_s, step_s) {}

@@ -58,8 +58,8 @@ class Frozen final : public Detector {
   double anchor_ = INFINITY;
 };
 
-/// Trips when fresh readings differ by more than a muscle can move between them, twice running: one
-/// jump can be a glitch, and coming back from it is a jump as well.
+/// Trips when two fresh readings in a row differ from the last good one by more than a muscle can
+/// move between readings: a single one can be a glitch, and coming back from it is no jump.
 class Jump final : public Detector {
  public:
   struct Settings {

@@ -17,7 +17,7 @@ class IioAdc final : public hal::AdcChannel {
   static Result<std::unique_ptr<IioAdc>> open(const ConverterLocation& place);
   explicit IioAdc(Attribute raw) : raw_(std::move(raw)) {}
 
-  /// The time is that before the read: a conversion is never younger than it seems.
+  /// The time is that before the read: a conversion made on request is never older than it seems.
   hal::Sample latest() override;
 
  private:

@@ -9,8 +9,9 @@
 namespace supercoil {
 
 /// The words in their order. Numbers are NaN when not known; notes are "-" when there are none. The
-/// next two describe the active controller, and the last one is "slack" for a joint's muscle that
-/// is slack, "-" otherwise; an older board omits these.
+/// next two are the place and the kind ("-" when not known) of the active controller, and the last
+/// one is "slack" for a joint's muscle that is slack, "-" otherwise; an older board omits these
+/// three.
 inline constexpr std::array<std::string_view, 16> state_words{
     "channel",         "state",     "mode",      "fault",    "reference", "model_m", "position_m",
     "applied_W",       "coldest_C", "hottest_C", "progress", "result",    "notes",   "controller",

@@ -23,7 +23,7 @@ namespace {
 /// As many as a board may have channels, each with its own player, and some more.
 constexpr std::size_t max_clients = 20;
 constexpr int backlog = 4;
-/// Longer lines are truncated, so they do not parse as commands.
+/// Longer lines are truncated.
 constexpr std::size_t max_line = 200;
 
 void answer(int client, const std::string& text) {

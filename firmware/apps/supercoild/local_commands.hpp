@@ -14,10 +14,11 @@
 
 namespace supercoil::daemon {
 
-/// A socket of packets (SOCK_SEQPACKET): each packet is one line of command_text.hpp, or "state",
-/// and gets one packet as its answer, in order. Users who may open the file may command: the
-/// folder's permissions decide. A command to heat expires as everywhere, so a client that dies lets
-/// the muscle cool. Used by one thread.
+/// A socket of packets (SOCK_SEQPACKET): each packet is one line of command_text.hpp, a request
+/// about tuning (local_tuning.hpp), or "state", "status", "senses", "muscle" or "playback". It gets
+/// one packet as its answer; commands are answered in order, by the loop. Users who may open the
+/// file may command: the folder's permissions decide. A command to heat expires as everywhere, so a
+/// client that dies lets the muscle cool. Used by one thread.
 class LocalCommands {
  public:
   /// Replaces a file left over from an earlier run: the lock is held already.

@@ -11,6 +11,7 @@ namespace supercoil::can::e2e {
 
 /// Byte 0 of the frame: CRC-8H2F over all other bytes and then the data id. All 16 data ids are the
 /// low byte of the frame's identifier, so a frame that reaches another node counts as damaged.
+/// Messages whose identifiers differ by a multiple of 0x100 have the same data ids.
 ///
 /// Not Profile 1: its CRC-8 of SAE J1850 misses 198 of the 41664 possible 3-bit errors in 8 bytes,
 /// this one none (counted on 2026-11-21; commands_test tries them all).

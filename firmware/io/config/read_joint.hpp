@@ -1,4 +1,5 @@
-// [[joint]]: two channels whose muscles pull one lever against each other.
+// [[joint]]: two channels whose muscles pull one lever against each other, or one channel whose
+// muscle pulls against a spring or gravity.
 #pragma once
 
 #include <cstddef>

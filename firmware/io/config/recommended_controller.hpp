@@ -24,7 +24,7 @@ struct RecommendedController {
   std::string model_literal() const;
   /// The given controller with these values; everything else is kept.
   control::ControllerSettings in_place_of(control::ControllerSettings controller) const;
-  /// Whether it is the same law with that bandwidth, or less.
+  /// Whether it is the same law with at most 1.1 times that bandwidth.
   bool has_bandwidth_of(const control::ControllerSettings& controller) const;
   /// Whether law or shaping differ, or the bandwidth or a pole is more than a tenth off.
   bool differs_from(const control::ControllerSettings& controller) const;

@@ -15,7 +15,8 @@
 
 namespace supercoil::telemetry {
 
-/// Used by one thread, never the loop's. Nothing blocks, and nothing allocates after construction.
+/// Used by one thread, never the loop's. Nothing blocks, and only set_rates() allocates after
+/// construction.
 /// Frames that the bus does not take wait for the next poll; when the queue is full, the oldest is
 /// dropped and counted. When the bus is lost, waiting frames are dropped: they are outdated when it
 /// is back.

@@ -59,8 +59,8 @@ class LeverTable(NamedTuple):
 
 class Joint(NamedTuple):
     """lever_m: at the angle 0; negative for the muscle that turns the joint to negative angles, whose positions have
-    the opposite sign. other_node: of the muscle that turns it back; None: a spring does. table: for a lever that
-    depends on the angle."""
+    the opposite sign. other_node: of the muscle that turns it back; None: a spring or a weight does. table: for a
+    lever that depends on the angle."""
 
     lever_m: float
     other_node: int | None

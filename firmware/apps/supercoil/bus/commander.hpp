@@ -18,8 +18,9 @@ class Commander {
  public:
   Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node);
 
-  /// Waits at most half a second for the answer, and repeats renewals meanwhile. Claims the lease
-  /// when it has run out. The error says that there was no answer, or that the bus is gone.
+  /// Waits at most half a second for the answer; meanwhile repeats renewals, positions, powers and
+  /// disarms. Claims the lease when it has run out, except for a disarm. The error says that there
+  /// was no answer, or that the bus is gone.
   Result<Refusal> ask(Verb verb, double value);
   /// After an answer out_of_range: the nearest value that the board would have obeyed. NaN: none
   /// exists, or the board does not report it.

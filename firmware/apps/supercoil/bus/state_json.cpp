@@ -22,7 +22,7 @@ Json value_json(const can::SignalInfo& signal, double value) {
 
 Json state_json(const FrameHistory& frame_history) {
   std::map<int, Json> nodes;
-  // Every message is sent at least once within this time.
+  // At its default rate every message is sent within this time; at a lower one it may be missing.
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     const auto decoded = can::decode(frame);

@@ -72,7 +72,7 @@ std::string margin_text(const Newest& node) {
 /// By node number.
 std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
   std::map<int, Newest> nodes;
-  // Every message is sent at least once within this time.
+  // At its default rate every message is sent within this time; at a lower one it may be missing.
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     if (const auto decoded = can::decode(frame))

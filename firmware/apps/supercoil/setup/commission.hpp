@@ -17,7 +17,8 @@
 
 namespace supercoil::operating {
 
-/// What a step found, for people as lines and for programs; the error says what to do.
+/// What a step found, for programs; people get it as lines of the Operator. The error says why the
+/// step failed.
 using StepResult = Result<nlohmann::ordered_json>;
 
 class Commission {

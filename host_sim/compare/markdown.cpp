@@ -19,7 +19,7 @@ std::vector<std::string> distinct(const std::vector<TableRow>& table,
   return names;
 }
 
-/// Two digits at least, no more than a tenth.
+/// Two decimals below 9.95, one below 99.5, otherwise none.
 std::string shown(double value) {
   if (std::isinf(value)) return "∞";
   std::array<char, 32> text{};

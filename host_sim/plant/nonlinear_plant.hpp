@@ -19,7 +19,7 @@ struct SlowSteps {
 /// Position is zero for the new, cold muscle that carries its load.
 ///
 /// The slow effects (heat, hysteresis, creep, wear) take one second-order step a tick, or as many
-/// as keep it below 1 ms. Spring and force are linear over that step, in which the mechanics take
+/// as keep it to 1 ms. Spring and force are linear over that step, in which the mechanics take
 /// `substeps` exact ones. Without hysteresis and friction the result is within 1e-6 of the
 /// equations' solution.
 class NonlinearPlant {

@@ -20,7 +20,7 @@ ConverterSettings converter_of(const PositionSensorSettings& s) {
 /// In counts: less noise than this does not show in every reading.
 constexpr double shown_noise = 0.3;
 
-/// Three ticks or conversions, and never less than a slow machine's hiccup.
+/// Three ticks or two and a half conversions, and never less than a slow machine's hiccup.
 double max_age_s(const Scenario& scenario, const ConverterSettings& converter) {
   return std::max({0.01, 3.0 * scenario.step_s(), 2.5 * converter.period_s});
 }

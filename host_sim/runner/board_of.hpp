@@ -17,7 +17,8 @@ MuscleChannelSettings companion_channel_of(const Scenario& scenario, const Condi
                                            std::size_t place);
 SimulatedJointSettings simulated_joint_of(const Conditions& conditions);
 
-/// Has one channel, a joint's two, or a bundle's. Its controllers and estimators are those of the
+/// The scenario's board file with the simulated converters' scaling; without a file, a board with
+/// one channel, a joint's two, or a bundle's, whose controllers and estimators are those of the
 /// start and of each event that names one, in that order.
 BoardSettings firmware_of(const Scenario& scenario);
 /// The same, with what the simulation knows of the first channel's muscle: for the forecast of a

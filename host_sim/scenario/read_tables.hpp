@@ -60,7 +60,7 @@ struct BelievedMuscles {
 /// [bundle].
 BelievedMuscles read_muscles(const toml::table& document, config::Diagnostics& diagnostics);
 
-/// All tables other than [simulation] and [[event]]; also finds keys that no table has.
+/// All tables other than [simulation], [muscle] and [[event]]; also finds keys that no table has.
 Conditions read_conditions(const toml::table& document, const BelievedMuscles& believed,
                            double step_s, config::Diagnostics& diagnostics);
 

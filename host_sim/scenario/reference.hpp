@@ -38,7 +38,7 @@ struct Reference {
   /// The minimum and the maximum that it can take.
   double lowest() const;
   double highest() const;
-  /// The shortest time in which a part of it repeats or changes; infinite: nothing does.
+  /// The hold of `steps`, or the shortest period of the terms; infinite for `step`.
   double shortest_s() const;
 };
 

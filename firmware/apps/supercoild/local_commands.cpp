@@ -23,7 +23,7 @@ namespace {
 /// As many as a board may have channels, each with its own player, and some more.
 constexpr std::size_t max_clients = 20;
 constexpr int backlog = 4;
-/// Longer lines are truncated.
+/// Longer lines are refused.
 constexpr std::size_t max_line = 200;
 
 void answer(int client, const std::string& text) {
@@ -135,9 +135,16 @@ void LocalCommands::accept_one() {
 bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
                                 const NewestRows& rows) {
   std::array<char, max_line> line{};
-  const ssize_t size = ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT);
+  const ssize_t size =
+      ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT | MSG_TRUNC);
   if (size <= 0) return size < 0 && (errno == EAGAIN || errno == EINTR);
-  std::string_view text(line.data(), static_cast<std::size_t>(size));
+  const auto length = static_cast<std::size_t>(size);
+  if (length > line.size()) {
+    // The rest may change what the beginning says, such as an exponent.
+    answer(client.number(), "wrong: longer than " + std::to_string(max_line) + " bytes");
+    return true;
+  }
+  std::string_view text(line.data(), length);
   while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
     text.remove_suffix(1);
   if (text == "state") {
@@ -183,7 +190,7 @@ void LocalCommands::pass(const Answer& given, const Loop& loop) {
   const auto asked = waiting_.find(given.command.id);
   if (asked == waiting_.end()) return;  // from a client that is gone, or not from this socket
   std::string text = answer_text(given.refusal, given.nearest);
-  if (given.refusal == Refusal::unsuitable)
+  if (given.refusal == Refusal::unsuitable && given.command.verb == Verb::tune)
     text += ": " + loop.channel(given.command.channel).tuner().problem();
   answer(asked->second, text);
   // The loop answers in order: earlier commands that still wait have lost their answers.

@@ -130,6 +130,29 @@ TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrd
   STRCMP_EQUAL("", busy.heard().c_str());
 }
 
+TEST(LocalCommands, AreRefusedWhereTheirEndWouldBeLost) {
+  const Client one = client();
+  const std::string longest = "1 power 4.5" + std::string(186, '0') + "e-3";
+  LONGS_EQUAL(200, longest.size());
+  STRCMP_EQUAL("", answer_to(one, longest).c_str());
+  // Cut after 200 bytes it would ask for 4.5 W instead of 4.5 mW.
+  STRCMP_EQUAL("wrong: longer than 200 bytes",
+               answer_to(one, "1 power 4.5" + std::string(189, '0') + "e-3").c_str());
+  STRCMP_CONTAINS("channel 1", answer_to(one, "state").c_str());
+}
+
+/// Only a set of values that cannot be used has a reason.
+TEST(LocalCommands, AnUnsuitableScaleIsNotExplainedByTuning) {
+  const Client one = client();
+  STRCMP_EQUAL("", answer_to(one, "1 scale 0.01").c_str());
+  rig.executive.run_tick();
+  Answer answer;
+  CHECK(rig.loop.answer(answer));
+  answer.refusal = Refusal::unsuitable;
+  commands.pass(answer, rig.loop);
+  STRCMP_EQUAL("refused: unsuitable", one.heard().c_str());
+}
+
 TEST(LocalCommands, AControllerIsTuned) {
   const Client one = client();
   const auto in_use = [&] { return answer_to(one, "tuning 1 0 integral_W_per_m_s in_use"); };

@@ -1,4 +1,4 @@
-// What every fuzz target is made of.
+// What all fuzz targets share.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-/// libFuzzer calls it with one input after another, and takes an abort for a finding.
+/// libFuzzer calls this with one input after another and treats an abort as a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace supercoil::fuzz {
@@ -16,7 +16,7 @@ inline std::string_view text(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A property that holds whatever the input is.
+/// A property that must hold for every input.
 inline void require(bool holds, const char* property) {
   if (holds) return;
   std::fprintf(stderr, "not so: %s\n", property);

@@ -1,4 +1,4 @@
-// A board's configuration: read or refused by name, and what was read can be run and described.
+// A board's configuration: either every mistake is named, or the board can be run and described.
 #include <string>
 
 #include "config/board_config.hpp"

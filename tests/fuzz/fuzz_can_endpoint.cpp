@@ -1,5 +1,5 @@
-// Frames from the bus, and the whole firmware behind them: heat only ever follows the lease
-// holder's command.
+// Frames from the bus, received by the whole firmware: only a command of the lease holder may cause
+// heat.
 #include "fuzz/steps.hpp"
 #include "loop/support/can_rig.hpp"
 
@@ -9,18 +9,18 @@ using fuzz::require;
 
 namespace {
 
-/// Half of a command's time to live, and the ticks in which it comes through.
+/// Half of a command's time to live, plus the ticks until it takes effect.
 constexpr double slack_s = 0.1;
 
 test::RigSettings quick_board() {
   test::RigSettings settings = test::rough_board(100.0);
-  // Cold from the first tick: what an input does happens after the boot.
+  // Cold from the first tick: each input acts on a board that has finished its boot.
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.thermal.boot_rise_K = 0.0;
   return settings;
 }
 
-/// A booted board, and who commanded it last.
+/// A booted board, and when each channel was last commanded.
 class Board {
  public:
   Board() : rig_(quick_board()), model_(rig_.can.lease_s) {
@@ -32,7 +32,7 @@ class Board {
     const hal::CanFrame frame = frame_of(step, model_);
     if (model_.from_holder(frame, now()))
       commanded_[static_cast<std::size_t>(LeaseModel::channel_of(frame))] = now();
-    // Of a trajectory's frames a knot alone renews.
+    // Of the trajectory frames, only knots renew.
     const int moved = model_.heard_trajectory(frame, now());
     if (moved >= 0 && LeaseModel::channel_of(frame, LeaseModel::knot_base) >= 0)
       commanded_[static_cast<std::size_t>(moved)] = now();

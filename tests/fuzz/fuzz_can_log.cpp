@@ -1,4 +1,4 @@
-// A log of CAN frames, and what is read out of its frames.
+// A log of CAN frames, and what is decoded from those frames.
 #include <algorithm>
 #include <cmath>
 

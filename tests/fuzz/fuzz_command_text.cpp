@@ -1,4 +1,4 @@
-// A command as text, from a socket that every program of the board may write to.
+// A command as text, from a socket that every program on the board may write to.
 #include <cmath>
 
 #include "fuzz/fuzz.hpp"

@@ -1,5 +1,5 @@
-// Frames from the bus: what becomes a command has its E2E intact and is the lease holder's, or it
-// is a stop.
+// Frames from the bus: a frame becomes a command only if its E2E protection is intact and it is
+// from the lease holder, or if it is a stop.
 #include <bit>
 #include <deque>
 #include <random>
@@ -18,8 +18,8 @@ struct Meant {
   float value;
 };
 
-/// Of an opcode that is not the lease's. Opcode 0 is three verbs: kelvins above 1000, amperes below
-/// 0, volts between. The controller's is two: a place above 1000 is tuned.
+/// For every opcode but the lease's. Opcode 0 is three verbs: kelvins above 1000, amperes below 0,
+/// volts between. The controller's opcode is two verbs: a value above 1000 tunes.
 Meant meant_by(const supercoil_command_t& asked) {
   const bool tunes = asked.opcode == static_cast<std::uint8_t>(Verb::controller);
   if (tunes && asked.value >= 1000.0F) return {Verb::tune, asked.value - 1000.0F};
@@ -76,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     model.heard(frame, now);
     if (taken.answer) model.answered(*taken.answer, now);
     if (taken.command) handed_on.push_back(*taken.command);
-    // The loop answers some of them, loses an answer now and then, and has no room for others.
+    // The loop answers some commands, now and then loses an answer, and has no room for others.
     if (taken.command && step.wait % 4 == 1) {
       commands.not_taken();
       handed_on.pop_back();

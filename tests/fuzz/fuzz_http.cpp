@@ -1,4 +1,4 @@
-// What comes to the monitor's page over HTTP: the whole server, a connection for each input.
+// HTTP requests to the monitor: the whole server, one connection for each input.
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,7 @@ using namespace supercoil::operating;
 
 namespace {
 
-/// A page without a board: every command that is let through asks for its bus.
+/// A page without a board: every command that is let through tries to open the bus.
 class Page {
  public:
   Page()
@@ -40,7 +40,7 @@ class Page {
     thread_ = std::make_unique<ServerThread>(server_);
   }
 
-  /// The answer's first bytes.
+  /// The first bytes of the answer.
   std::string ask(std::string_view request) const {
     const int file = connected();
     ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
@@ -57,8 +57,8 @@ class Page {
   bool was_asked() const { return asked_; }
 
  private:
-  /// libFuzzer's own timer interrupts a connection now and then, and thousands a second may use up
-  /// the ports for a while.
+  /// Retries: libFuzzer's own timer sometimes interrupts a connection, and thousands of connections
+  /// a second may use up the ports for a while.
   int connected() const {
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -67,7 +67,7 @@ class Page {
     int error = 0;
     for (int tries = 0; tries < 30; ++tries) {
       const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-      // Closed at once, not lingering.
+      // Close at once, without lingering.
       const linger none{1, 0};
       ::setsockopt(file, SOL_SOCKET, SO_LINGER, &none, sizeof(none));
       if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0)

@@ -1,4 +1,4 @@
-// A flight recording, read by whoever looks for the cause of a fault.
+// A flight recording, as read by whoever looks for the cause of a fault.
 #include <algorithm>
 #include <string>
 
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes = fuzz::text(data, size);
   read(bytes);
   if (size < sizeof(Row)) return 0;
-  // Behind a header that belongs to it, or chance would have to guess two CRC-32.
+  // Behind a header with the right CRCs: the fuzzer would hardly ever guess two CRC-32.
   recorder::Header header;
   header.rows = size / sizeof(Row);
   header.channels = 1 + data[0] % 16;

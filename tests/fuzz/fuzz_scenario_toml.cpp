@@ -1,4 +1,4 @@
-// A scenario: read or refused by name, and what was read makes a board whose firmware would start.
+// A scenario: either every mistake is named, or it makes a board whose firmware would start.
 #include <cmath>
 #include <string>
 

@@ -1,4 +1,4 @@
-// The stream of a socketcand, from whoever is at the other end of it.
+// The stream of a socketcand connection, whoever is at the other end.
 #include <string>
 #include <vector>
 
@@ -9,7 +9,7 @@ using namespace supercoil;
 using namespace supercoil::can_client;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // The stream comes in two parts, cut where its first byte says.
+  // The stream comes in two parts; its first byte says where it is cut.
   if (size == 0) return 0;
   const std::string_view stream = fuzz::text(data + 1, size - 1);
   const std::size_t cut = stream.empty() ? 0 : data[0] % stream.size();

@@ -25,7 +25,7 @@ void read(std::string_view file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::text(data, size);
   read(text);
-  // Behind a whole envelope, or chance would have to guess a CRC-32.
+  // Behind a valid envelope: the fuzzer would hardly ever guess a CRC-32.
   const std::string sealed = storage::seal(text);
   const auto unsealed = storage::unseal(sealed);
   fuzz::require(!unsealed || unsealed->body == text, "an envelope gives back what is in it");

@@ -1,5 +1,5 @@
-// Who may command, told anew from what is on the bus alone: what the firmware does is compared with
-// it.
+// Who may command, derived independently from the frames on the bus alone; the firmware is compared
+// with it.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace supercoil::fuzz {
 
-/// CRC-8H2F as AUTOSAR describes it, bit by bit. behind: what follows the data id.
+/// CRC-8H2F as AUTOSAR describes it, bit by bit. behind: bytes that follow the data id.
 inline std::uint8_t crc_of(const hal::CanFrame& frame,
                            std::initializer_list<unsigned> behind = {}) {
   unsigned crc = 0xFF;
@@ -50,12 +50,12 @@ class LeaseModel {
 
   explicit LeaseModel(double lease_s) : lease_(hal::duration_from(lease_s)) {}
 
-  /// From 0; -1: the frame is for somebody else. base: of its message.
+  /// Counted from 0; -1: the frame is for another node. base: the base identifier of its message.
   static int channel_of(const hal::CanFrame& frame, unsigned base = command_base) {
     const int channel = frame.id - static_cast<int>(base) - first_node;
     return channel >= 0 && channel < channels ? channel : -1;
   }
-  /// The channel that a frame of a trajectory moves, by the session that it has; -1: none.
+  /// The channel that a trajectory frame moves, according to the session it carries; -1: none.
   int moves(const hal::CanFrame& frame) const {
     const int knot = channel_of(frame, knot_base);
     if (knot >= 0) return frame.data[0] == knot_crc(frame, knot) ? knot : -1;
@@ -77,11 +77,11 @@ class LeaseModel {
     supercoil_command_unpack(&m, frame.data.data(), frame.length);
     return m;
   }
-  /// A disarm that is obeyed from everybody.
+  /// A disarm is obeyed from any node.
   static bool stops(const supercoil_command_t& m) {
     return m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
   }
-  /// The frame is the holder's, in time.
+  /// The frame is from the lease holder, and its lease has not expired.
   bool from_holder(const hal::CanFrame& frame, hal::Time now) const {
     const int channel = channel_of(frame);
     if (channel < 0 || !intact(frame)) return false;
@@ -89,7 +89,7 @@ class LeaseModel {
     return lease.session != 0 && command_in(frame).session == lease.session &&
            now - lease.last <= lease_;
   }
-  /// And at most three of its frames were lost before.
+  /// At most three of its frames were lost before this one.
   bool in_sequence(const hal::CanFrame& frame) const {
     const unsigned ahead = (command_in(frame).counter - lease_of(frame).counter) & 15U;
     return ahead >= 1 && ahead <= 4;
@@ -97,20 +97,20 @@ class LeaseModel {
   const Lease& lease_of(const hal::CanFrame& frame) const {
     return leases_[static_cast<std::size_t>(channel_of(frame))];
   }
-  /// That the board told last.
+  /// The nonce that the board last sent.
   std::uint16_t nonce_of(const hal::CanFrame& frame) const {
     return nonces_[static_cast<std::size_t>(channel_of(frame))];
   }
   const Lease& lease(int channel) const { return leases_[static_cast<std::size_t>(channel)]; }
 
-  /// A frame that was judged: the holder's counter goes on from it, in_sequence also its lease.
+  /// After each judged frame: updates the holder's counter and, if in_sequence, renews the lease.
   void heard(const hal::CanFrame& frame, hal::Time now) {
     if (!from_holder(frame, now)) return;
     Lease& lease = leases_[static_cast<std::size_t>(channel_of(frame))];
     if (in_sequence(frame)) lease.last = now;
     lease.counter = command_in(frame).counter;
   }
-  /// The same of a frame of a trajectory; the channel that it moves, -1: none.
+  /// The same for a trajectory frame; returns the channel that it moves, -1: none.
   int heard_trajectory(const hal::CanFrame& frame, hal::Time now) {
     const int moved = moves(frame);
     if (moved < 0) return moved;
@@ -122,7 +122,7 @@ class LeaseModel {
     if (live) lease.counter = static_cast<std::uint8_t>(counter);
     return moved;
   }
-  /// An answer of the board: it grants a lease, or tells that one was released.
+  /// An answer of the board: it grants a lease or reports that one was released.
   void answered(const hal::CanFrame& frame, hal::Time now) {
     const int channel = frame.id - static_cast<int>(acknowledge_base) - first_node;
     if (channel < 0 || channel >= channels || frame.length != SUPERCOIL_ACKNOWLEDGE_LENGTH) return;
@@ -134,7 +134,7 @@ class LeaseModel {
     if (m.refusal != static_cast<std::uint8_t>(Refusal::none)) return;
     Lease& lease = leases_[static_cast<std::size_t>(channel)];
     if (m.opcode != telemetry::Opcode::lease) return;
-    // Nothing is granted by giving it back.
+    // Giving a lease back grants nothing.
     lease = m.granted != 0 ? Lease{m.granted, m.counter, now} : Lease{};
   }
 

@@ -1,4 +1,4 @@
-// What holds for the mistakes that are found in any file.
+// What must hold for the mistakes found in any file.
 #pragma once
 
 #include <algorithm>

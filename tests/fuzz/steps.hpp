@@ -1,4 +1,4 @@
-// An input as frames that come to a board, and how long it waits before each.
+// Decodes a fuzz input into frames that reach a board, and the time to wait at each.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace supercoil::fuzz {
 
-/// As it lies in an input; tests/fuzz/seeds.py writes the same.
+/// The layout of a step in an input; tests/fuzz/seeds.py writes the same.
 struct Step {
-  static constexpr std::uint8_t to_channel = 1;    ///< id: of a channel of this board
-  static constexpr std::uint8_t with_session = 2;  ///< the lease's
-  static constexpr std::uint8_t with_counter = 4;  ///< the next one
-  static constexpr std::uint8_t sealed = 8;        ///< its CRC is right: chance finds one in 256
+  static constexpr std::uint8_t to_channel = 1;    ///< id: one of this board's channels
+  static constexpr std::uint8_t with_session = 2;  ///< the session of the lease
+  static constexpr std::uint8_t with_counter = 4;  ///< the next counter
+  static constexpr std::uint8_t sealed = 8;        ///< with the right CRC; chance finds 1 in 256
   static constexpr std::uint8_t whole = 16;        ///< 8 bytes long
-  static constexpr std::uint8_t with_nonce = 32;   ///< its value is what the board told last
-  static constexpr std::uint8_t knot = 64;         ///< to_channel: a knot, and no command
-  static constexpr std::uint8_t play = 128;        ///< to_channel: Play, and no command
+  static constexpr std::uint8_t with_nonce = 32;   ///< its value is the board's last nonce
+  static constexpr std::uint8_t knot = 64;         ///< with to_channel: a knot, not a command
+  static constexpr std::uint8_t play = 128;        ///< with to_channel: Play, not a command
 
   std::uint8_t how;
   std::uint8_t wait;
@@ -36,7 +36,7 @@ void for_each_step(const std::uint8_t* data, std::size_t size, Use use) {
   }
 }
 
-/// The frame of a step, by somebody who hears all that is on the bus.
+/// The frame of a step, as sent by a node that hears everything on the bus.
 inline hal::CanFrame frame_of(const Step& step, const LeaseModel& model) {
   hal::CanFrame frame;
   frame.id =

@@ -1,5 +1,5 @@
-// What most files of the firmware and its tests include, and no mutant changes.
-#ifdef EIGEN_DONT_VECTORIZE  // of the targets that use control
+// Headers that most files of the firmware and its tests include and that no mutant changes.
+#ifdef EIGEN_DONT_VECTORIZE  // defined for the targets that use control
 #include <algorithm>
 #include <array>
 #include <atomic>

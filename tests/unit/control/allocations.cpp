@@ -1,4 +1,4 @@
-// Counts what the control library allocates while it steps: nothing is allowed to.
+// Counts what the control library allocates while it steps: it must not allocate at all.
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -33,7 +33,7 @@ void check_controllers() {
       settings.kind = kind;
       settings.arithmetic = arithmetic;
       settings.mrac = MracSettings{}.scaled(10.0);
-      // Every option on, so that every branch runs.
+      // All options are on, so that every branch runs.
       settings.mrac.bounds = Box<double, 6>{MracSettings::Parameters::Constant(-50.0),
                                             MracSettings::Parameters::Constant(50.0)};
       settings.mrac.sigma_modification = 1e-4;

@@ -1,8 +1,8 @@
 // Runs everything that has a q8.24 variant in closed loop and prints a hash of its outputs. The
 // test fixed_point_same_bits compares the hashes of different compilers and optimisations.
 //
-// Only the library is under test: positions come to it already rounded to a nanometre and inputs
-// are built without the maths library, so that the muscle's own double arithmetic cannot differ.
+// Only the library is under test: positions are rounded to a nanometre first and inputs are built
+// without the maths library, so that the muscle's own double arithmetic cannot differ.
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double step_s = 1e-3;
 
-/// FNV-1a over the bytes of doubles; those of the library's outputs hold its raw numbers exactly.
+/// FNV-1a over the bytes of doubles; the library's outputs as doubles hold its raw numbers exactly.
 class Hash {
  public:
   void add(double value) {
@@ -40,8 +40,8 @@ double reference_m(double time_s) {
   return levels[static_cast<int>(time_s / 10.0) % 4];
 }
 
-/// Laws and estimator by themselves: Controller and Estimator would bring every arithmetic along,
-/// whose compilation takes longer than all the rest.
+/// The laws and the estimator by themselves: Controller and Estimator would pull in every
+/// arithmetic, which takes longer to compile than all the rest.
 template <class Law>
 void print(const char* name, Law law) {
   const ControllerSettings settings;
@@ -70,7 +70,7 @@ void print(const char* name, Law law) {
     limited = applied_W != out.demanded_power_W;
     muscle.step(applied_W);
   }
-  // The values show at a glance that the loop did something.
+  // The values show at a glance that the loop ran.
   std::printf("%-11s %016" PRIx64 " position %.9f m theta4 %.6f\n", name, hash.value(), position_m,
               estimator.theta()[3]);
 }

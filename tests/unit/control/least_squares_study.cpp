@@ -1,5 +1,5 @@
-// Least squares over many seeds: how soon it knows, how far off it stays, whether it says so. Fails
-// where a figure of docs/estimation-theory.md no longer holds.
+// Least squares over many seeds: how fast it converges, how far off it stays, and whether its
+// deviations are honest. Fails when a figure in docs/estimation-theory.md no longer holds.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ void expect_at_most(const std::string& what, double value, double most) {
   if (!(value <= most)) ++failures;
 }
 
-/// Smallest time that 95 % of 40 seeds need.
+/// The shortest time within which 95 % of 40 seeds are done.
 template <class Time>
 double in_95_percent(Time time_of) {
   std::vector<double> times_s;
@@ -54,9 +54,9 @@ void after_a_change(double at_s, double max_s) {
                  max_s);
 }
 
-/// Scatter at a time over 200 seeds, how near that is to the Cramér–Rao bound of a steady window of
-/// twice the forgetting time (the same unknowns: θ, bias, motion), and the published deviations
-/// (rms) over it.
+/// Over 200 seeds: the scatter at a time, its ratio to the Cramér–Rao bound of a steady window of
+/// twice the forgetting time (the same unknowns: θ, bias, motion), and the ratio of the published
+/// deviations (rms) to it.
 void scatter(double at_s, const std::array<double, 4>& max_percent) {
   constexpr int seeds = 200;
   Vector<double, 5> squares = Vector<double, 5>::Zero();
@@ -74,7 +74,7 @@ void scatter(double at_s, const std::array<double, 4>& max_percent) {
                              std::to_string(std::lround(at_s)) + " s";
     expect_at_most(what, 100.0 * std::sqrt(squares[i]), max_percent[static_cast<std::size_t>(i)]);
     expect_at_most("  over its Cramer-Rao bound", std::sqrt(squares[i]) / bound[i], 1.5);
-    // So many seeds tell a deviation to 5 %.
+    // With this many seeds a deviation is known to 5 %.
     const double ratio = std::sqrt(published[i] / squares[i]);
     expect_at_most("  published over seen", ratio, 1.3);
     expect_at_most("  seen over published", 1.0 / ratio, 1.3);

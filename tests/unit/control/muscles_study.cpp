@@ -1,5 +1,5 @@
-// Least squares over many muscles that are not its own model: false changes, and whether its
-// deviations and its trust are honest. Fails where a figure of estimation-theory.md is wrong now.
+// Least squares over many muscles that differ from its model: false changes, and whether its
+// deviations and its trust are honest. Fails when a figure in estimation-theory.md no longer holds.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -48,7 +48,7 @@ std::vector<FollowedMuscle> muscles() {
                                      {&PlantEffects::friction_ratio, 0.02}}) {
     FollowedMuscle muscle;
     muscle.effects.*effect.member = effect.value;
-    muscle.effects.hanging_mass_kg = 0.03;  // 0.09 would lengthen the softening one as it gets warm
+    muscle.effects.hanging_mass_kg = 0.03;  // 0.09 would lengthen the softening one as it warms
     list.push_back(muscle);
   }
   return list;
@@ -74,8 +74,8 @@ void false_changes() {
                 1.0);
 }
 
-/// From the change on until the error has stayed for 5 s below 0.2 mm, or below the largest before
-/// the change where that is more.
+/// Time from the change until the error has stayed for 5 s below 0.2 mm, or below its maximum
+/// before the change if that is larger.
 double settled_s(const FollowedMuscle& muscle) {
   constexpr double stays_s = 5.0;
   double max_m = 200e-6;
@@ -94,7 +94,7 @@ double settled_s(const FollowedMuscle& muscle) {
   return outside_s;
 }
 
-/// The slowest against the same muscle with an estimator that only forgets.
+/// The slowest run, relative to the same muscle with an estimator that only forgets.
 void settling(const char* what, host_sim::MusclePreset preset, double most) {
   constexpr int phases = 8;
   double worst = 0.0;
@@ -107,7 +107,7 @@ void settling(const char* what, host_sim::MusclePreset preset, double most) {
         muscle.change_at_s = 140.0 + (motion == Course::sine ? 25.132741 : 80.0) * i / phases;
         if (loaded) {
           muscle.load_N = 0.1;
-          if (motion != Course::sine) muscle.max_m = 0.015;  // 4.5 W hold 19 mm then
+          if (motion != Course::sine) muscle.max_m = 0.015;  // 4.5 W hold 19 mm with the load
         } else {
           muscle.stiffness_ratio = 0.75;
         }
@@ -120,7 +120,7 @@ void settling(const char* what, host_sim::MusclePreset preset, double most) {
   expect_within(what, worst, 0.0, most);
 }
 
-/// Linear if odd. What a maker of muscles might sell: no two alike.
+/// Linear if odd. What a maker of muscles might sell: no two are alike.
 FollowedMuscle random_muscle(unsigned seed) {
   boost::random::mt19937 source(seed * 7919);
   boost::random::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -160,7 +160,7 @@ FollowedMuscle random_muscle(unsigned seed) {
   return m;
 }
 
-/// What was told at a time, and the regressions of the minute after it.
+/// What the estimator reported at a time, and the regressions of the minute after it.
 struct Outcome {
   Parameters told;
   Square covariance;
@@ -197,7 +197,7 @@ Outcome outcome_of(const FollowedMuscle& muscle, double at_s) {
   return outcome;
 }
 
-/// How far off, in deviations (rms over the directions that are known to a quarter), and of θ.
+/// The error in deviations (rms over the directions that are known to a quarter), and in θ.
 struct Off {
   double deviations = 0.0;
   double theta = 0.0;
@@ -214,7 +214,7 @@ Off off_of(const Outcome& o, const FollowedMuscle& muscle) {
     ++known;
   Off off{.known = known > 0};
   if (known == 0) return off;
-  // Nothing is asked of the directions that are not known: the best fit is along the others.
+  // Unknown directions are not judged: the best fit is along the others.
   const Eigen::MatrixXd along = units.asDiagonal() * solver.eigenvectors().leftCols(known);
   Eigen::VectorXd best;
   if (muscle.effects.any()) {

@@ -17,7 +17,7 @@ void expect_near(double expected, double actual, double relative) {
   DOUBLES_EQUAL(expected, actual, relative * std::abs(expected));
 }
 
-/// The largest relative difference of two parameter sets.
+/// The largest relative difference between two parameter sets.
 double difference(const PhysicalParameters& a, const PhysicalParameters& b) {
   const auto list = [](const PhysicalParameters& p) {
     return Vector<double, 6>{p.thermal_mass_J_per_K, p.heat_transfer_W_per_K,

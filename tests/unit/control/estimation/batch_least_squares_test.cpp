@@ -13,7 +13,7 @@ namespace {
 
 constexpr double block_s = 8.0;
 
-/// Every parameter of the belief is as wrong as the board allows.
+/// Every parameter of the belief is as far off as the board allows.
 PhysicalParameters half_wrong_belief() {
   PhysicalParameters believed;
   believed.thermal_mass_J_per_K *= 1.5;
@@ -26,7 +26,7 @@ PhysicalParameters half_wrong_belief() {
 /// The paper's muscle under a power that steps and swings.
 struct PowerSteps {
   double noise_rms_m = 10e-6;
-  double bias_W = 0.0;        ///< of the power that is told
+  double bias_W = 0.0;        ///< added to the power that the fit sees
   double softens_at_s = 1e6;  ///< to 11 N/m
   double scale = 1.0;         ///< of the power
   std::size_t blocks = 6;
@@ -52,7 +52,7 @@ struct PowerSteps {
       }
       muscle.step(power_W);
       if (std::abs(time_s - anew_at_s) < 0.5 * step_s) fit.start_anew();
-      // The first one lets the filters settle, once.
+      // The filters settle during the first block of a run.
       const double from_s = time_s < anew_at_s ? block_s : anew_at_s;
       fit.step(muscle.position_m() + noise(random), power_W + bias_W,
                time_s < from_s ? std::optional<std::size_t>()
@@ -86,7 +86,7 @@ TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
   CHECK(fit->unexplained_ratio < 1e-4);
 }
 
-/// By the noise alone, as it is of the fit's own experiment; a bias is no fault of the muscle's.
+/// Only noise remains unexplained, as in the fit's own experiment; a bias does not count.
 TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
   for (const double bias_W : {0.0, 0.3}) {
     const PowerSteps steps{.bias_W = bias_W};
@@ -97,13 +97,13 @@ TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
     wrong[3] *= 1.5;  // half of the power that holds it
     const double unexplained = fit.unexplained_ratio(before, wrong);
     CHECK_COMPARE(unexplained, >, 0.01);
-    // Whatever was fitted since.
+    // Whatever has been fitted since.
     fit.start(0.0);
     DOUBLES_EQUAL(unexplained, fit.unexplained_ratio(before, wrong), 1e-15);
   }
 }
 
-/// In the middle of a stroke: nothing has to settle.
+/// The restart comes in the middle of a stroke: the filters need not settle again.
 TEST(BatchLeastSquares, AnExperimentThatBeginsAnewUnderWayFindsTheSame) {
   const BatchLeastSquares anew =
       PowerSteps{.noise_rms_m = 0.0, .blocks = 14}.experiment(1, 7.6 * block_s);
@@ -121,7 +121,7 @@ TEST(BatchLeastSquares, FindsAConstantBiasOfThePower) {
     DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.01 * paper_theta()[i]);
 }
 
-/// An ordinary fit to the same samples finds θ2 too small: the noise is in its regressors.
+/// An ordinary fit to the same samples finds θ2 too small, because its regressors carry the noise.
 TEST(BatchLeastSquares, NoiseWidensTheResultAndDoesNotBendIt) {
   double mean = 0.0;
   double deviation = 0.0;

@@ -1,4 +1,4 @@
-// Changes are told from residuals that return with the motion.
+// Changes are distinguished from residuals that recur with the motion.
 #include "supercoil/control/estimation/change_detector.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -14,7 +14,7 @@ Detector::Signals signals(double time_s) {
   return {std::sin(20.0 * time_s), 1.0};
 }
 
-/// Between from_s and to_s, with a residual at each time: the first change, its time and direction.
+/// The first change found before to_s, its time and direction, given the residual at each time.
 struct Found {
   double time_s = -1.0;
   int direction = -1;
@@ -33,7 +33,7 @@ Detector fresh() {
   return Detector({.period_s = detector_period_s, .floor_rms = 0.01});
 }
 
-/// What a model that is not quite right leaves along both directions, again and again.
+/// The residual that an imperfect model leaves along both directions, again and again.
 double of_model(double time_s) {
   return std::sin(1.5 * time_s) * (0.1 * signals(time_s)[0] + 0.07);
 }

@@ -15,7 +15,7 @@ EstimateDrift::Settings settings() {
           .unexcited = EstimateDrift::Parameters::Constant(100.0)};
 }
 
-/// Mean square after independent estimates of this standard deviation, the covariance telling 0.01.
+/// Mean square after independent estimates with this deviation, when the covariance claims 0.01.
 double drift_of(double deviation) {
   EstimateDrift drift(settings());
   boost::random::mt19937 source(1);
@@ -63,6 +63,6 @@ TEST(EstimateDrift, WhatIsUnknownCountsForNothing) {
     theta[1] = 0.1 * k;
     drift.step(theta, told);
   }
-  // Every eighth step is compared: θ1 has not moved, θ2 by 0.8 of a deviation of 10.
+  // Every eighth step is compared: θ1 has not moved; θ2 has by 0.8, with a deviation of 10.
   CHECK(drift.mean_square() < 0.01);
 }

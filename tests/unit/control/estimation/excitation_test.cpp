@@ -29,7 +29,7 @@ Phi orthogonal_sines(long tick, const Phi& amplitude) {
   return phi;
 }
 
-/// What an estimator ends with after the muscle moved under a power with 10 µm rms of noise.
+/// The final estimate after the muscle moved under this power, with 10 µm rms of noise.
 template <class Power>
 Estimate learn(double duration_s, Power power_W, double noise_rms_m, bool* ever_trusted) {
   const double tick_s = 1e-3;
@@ -54,7 +54,7 @@ TEST_GROUP(Excitation){};
 
 TEST(Excitation, SmallestEigenvalueIsTheClosedFormOfOrthogonalSines) {
   const Phi amplitude{3.0, 0.5, 2.0, 1.0};
-  // The same in any coordinates.
+  // The eigenvalue is the same in any coordinates.
   const Matrix<double, 4> turn =
       Matrix<double, 4>{{1, 2, 3, 4}, {0, 1, -1, 2}, {5, 0, 1, 1}, {1, 1, 1, -3}}
           .householderQr()
@@ -96,8 +96,8 @@ TEST(Excitation, TheBoundHoldsForThePresentParametersHoweverTheyGotThere) {
       phi[0] += std::sin(extra_frequency * block_step_s * static_cast<double>(k));
       for (int i = 0; i < 4; ++i)
         phi[i] += static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
-      // Until the last tick the estimate is where its error does not show, as adaptation would have
-      // it.
+      // Until the last tick the estimate's error is orthogonal to φ and does not show, as
+      // adaptation would make it.
       const Phi truth = Phi::Ones();
       const Phi hidden = error - phi * (phi.dot(error) / phi.squaredNorm());
       monitor.step(phi, phi.dot(truth), truth + (k == 159 ? error : hidden));

@@ -29,7 +29,7 @@ void identify(GradientEstimator<double>& estimator, const GradientSettings& sett
   }
 }
 
-/// The largest difference to the differential equation over 30 s, as a part of each parameter.
+/// The largest difference from the differential equation over 30 s, relative to each parameter.
 double difference_to_ode(const nlohmann::json& expected, double step_s) {
   const GradientSettings settings;
   GradientEstimator<double> estimator(settings, step_s);
@@ -80,7 +80,7 @@ TEST(Gradient, NeverLeavesItsBounds) {
   settings.bounds = Box<double, 4>{Theta{0.05, 1.0, 10.0, 10.0}, Theta{5.0, 10.0, 100.0, 60.0}};
   GradientEstimator<double> estimator(settings, 1e-3);
   bool touched = false;
-  // A hair of slack: inside, θ is kept divided by its nominal value.
+  // A little slack for rounding: the estimator keeps θ divided by its nominal value.
   const Box<double, 4> box{settings.bounds->lower * (1 - 1e-12),
                            settings.bounds->upper * (1 + 1e-12)};
   identify(estimator, settings, 1e-3, 30.0, [&](double) {

@@ -1,4 +1,4 @@
-// Recursive least squares with a leak to its prior, against the sum that it minimises.
+// Recursive least squares with a leak towards its prior, against the sum that it minimises.
 #include "supercoil/control/estimation/leaky_least_squares.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -20,7 +20,7 @@ Three::Weights regressors(int k) {
 }
 
 void solve(Three& least_squares) {
-  // In two parts, as over two ticks.
+  // In two steps, as over two ticks.
   least_squares.factor(0, 2);
   least_squares.factor(2, 3);
   least_squares.solve();

@@ -1,4 +1,4 @@
-// Figures of many seeds are least_squares_study.cpp's; here are one or two of each.
+// Runs one or two seeds for each figure; least_squares_study.cpp runs many.
 #include "supercoil/control/estimation/least_squares.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -13,7 +13,7 @@ using supercoil::test::Learning;
 
 namespace {
 
-/// Far from the paper's muscle: where the paper's own estimator begins.
+/// Far from the paper's muscle, where the paper's own estimator starts.
 LeastSquaresSettings from_far() {
   LeastSquaresSettings settings;
   settings.initial = Theta{0.1, 5.0, 30.0, 20.0};
@@ -107,7 +107,7 @@ TEST(LeastSquares, InFloatItLearnsOverHoursOfMotionAndOfRest) {
   run(hour_s, true);
   CHECK(worst() < 0.01);
   CHECK(estimator.standard_deviations().allFinite());
-  // If nothing held it, the covariance would reach e^120 by then.
+  // Without a bound the covariance would reach e^120 by then.
   run(hour_s, false);
   CHECK(estimator.parameters().allFinite());
   run(60.0, true);

@@ -13,7 +13,7 @@ using supercoil::test::Muscle;
 
 namespace {
 
-/// The scale in which the true θ of this muscle is exactly [1 1 1 1].
+/// The scale in which this muscle's true θ is exactly [1 1 1 1].
 RegressionScale scale_of(const PhysicalParameters& p) {
   return {theta_from(p), p.dc_gain_m_per_W(), p.moving_mass_kg};
 }

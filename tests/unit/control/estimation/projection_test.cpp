@@ -19,7 +19,7 @@ TEST(Projection, WhatIsInsideStays) {
 }
 
 TEST(Projection, TheOthersFollowAsTheyGoTogether) {
-  // Their sum is known: what one loses, the other gains.
+  // Their sum is known: when one decreases, the other increases.
   const Matrix<double, 2> covariance{{1.0, -1.0}, {-1.0, 1.0}};
   const Vector<double, 2> found = project<2>(Vector<double, 2>{1.4, 0.2}, unit_box, covariance);
   DOUBLES_EQUAL(1.0, found[0], 1e-12);

@@ -13,7 +13,7 @@ using Square = SimplestChange::Square;
 
 enum Kind : int { stiffness, gain, load, cooling };
 
-/// Of a muscle with θ = 1 that is known to 0.1 %.
+/// For a muscle with θ = 1 that is known to 0.1 %.
 SimplestChange begun(double cooling_deviation = 1.0) {
   SimplestChange::Directions along = SimplestChange::Directions::Zero();
   along.col(stiffness) << 0.0, 0.0, 1.0, 1.0, 0.0;
@@ -35,7 +35,7 @@ Parameters moved(double theta1, double theta2, double theta3, double theta4, dou
   return theta;
 }
 
-/// Of θ4 and the bias.
+/// The covariance when only the sum of θ4 and the bias is known.
 Square sum_known() {
   Parameters open = Parameters::Zero();
   open[3] = 0.3;
@@ -58,21 +58,21 @@ TEST(SimplestChange, KnownValuesArePassedThrough) {
 }
 
 TEST(SimplestChange, WhatTheDataLeaveOpenStaysAsItWas) {
-  // The data tell the sum of θ3 and the bias, and that all else is as before: as after a load, but
-  // not as in a softer muscle.
+  // The data determine the sum of θ3 and the bias, and that all else is unchanged: this fits a
+  // load, but not a softer muscle.
   Square covariance = Square::Identity() * 1e-6;
   Parameters open = Parameters::Zero();
   open[2] = 0.3;
   open[4] = -0.3;
   covariance += open * open.transpose();
-  // Least squares lies between: half of it in θ3.
+  // Least squares lies halfway: it puts half of the change into θ3.
   const auto told = begun().explained(moved(1.0, 1.0, 1.25, 1.0, 0.25), covariance);
   CHECK(told.has_value());
   DOUBLES_EQUAL(1.0, (*told)[2], 0.02);
   DOUBLES_EQUAL(0.5, (*told)[4], 0.03);
 }
 
-/// The data tell the sum of θ4 and the bias only.
+/// The data determine only the sum of θ4 and the bias.
 TEST(SimplestChange, TwoThatExplainItAsWellAreNotDecided) {
   const SimplestChange change = begun();
   CHECK_FALSE(change.explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), sum_known()).has_value());

@@ -8,7 +8,7 @@ using namespace supercoil::control;
 
 namespace {
 
-/// Regressors of four parameters, nearly in one plane: what makes covariances ill-conditioned.
+/// Regressors of four parameters, nearly in one plane, which makes covariances ill-conditioned.
 class Regressors {
  public:
   Vector<double, 4> next() {

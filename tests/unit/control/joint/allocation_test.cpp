@@ -16,7 +16,7 @@ namespace {
 
 constexpr double rounding_W = 1e-12;
 
-/// Any pair of heaters, the antagonist stronger or weaker.
+/// Any pair of heaters, with an antagonist that is stronger or weaker than the agonist.
 struct AnyPair {
   double gain_ratio = *reals(0.2, 5.0);
   JointAllocation::Ranges ranges{{*reals(0.0, 0.5), *reals(0.6, 10.0)},
@@ -61,11 +61,11 @@ TEST(JointAllocation, SharesTheEffortEquallyWhereBothHaveRoom) {
 TEST(JointAllocation, WhatOneCannotGiveTheOtherDoes) {
   const JointAllocation allocation(1.0);
   const JointAllocation::Ranges ranges{{0.0, 4.5}, {0.0, 2.0}};
-  // The antagonist cannot cool: the agonist alone turns the joint.
+  // The antagonist cannot cool any further: the agonist alone turns the joint.
   const PairPower up = allocation.divide(3.0, 1.0, ranges);
   DOUBLES_EQUAL(3.0, up.agonist_W, rounding_W);
   DOUBLES_EQUAL(0.0, up.antagonist_W, rounding_W);
-  // The antagonist gives no more: the agonist co-contracts less.
+  // The antagonist is at its limit: the agonist co-contracts less.
   const PairPower down = allocation.divide(-1.5, 1.5, ranges);
   DOUBLES_EQUAL(0.5, down.agonist_W, rounding_W);
   DOUBLES_EQUAL(2.0, down.antagonist_W, rounding_W);

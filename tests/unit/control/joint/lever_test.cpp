@@ -37,8 +37,8 @@ TEST(Lever, AConstantOneHasTheArcOfACircle) {
   }
 }
 
-/// r = 10 mm + 4 mm/rad (α + 1) up to α = 0, then down by 6 mm/rad: the arc is its integral by
-/// hand.
+/// r = 10 mm + 4 mm/rad (α + 1) up to α = 0, then falling by 6 mm/rad: the arc is its integral,
+/// computed by hand.
 TEST(Lever, ATableIsStraightBetweenItsPointsAndConstantBeyond) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   const Lever lever(-1.0, 1.0, radii_m);
@@ -71,7 +71,7 @@ TEST(Lever, TheArcGrowsByTheLever) {
     const double angle_rad = *reals(-3.0, 3.0);
     const double step_rad = 1e-6;
     const double grown_m = lever.arc_m(angle_rad + step_rad) - lever.arc_m(angle_rad - step_rad);
-    // At a kink the mean of both sides.
+    // At a kink it is the mean of both sides.
     RC_ASSERT(std::abs(grown_m / (2.0 * step_rad) - lever.radius_m(angle_rad)) <= 1e-6);
   }));
 }

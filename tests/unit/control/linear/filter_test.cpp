@@ -43,7 +43,7 @@ std::array<Complex, 3> measured(double omega, double step_s) {
   return sum;
 }
 
-/// A step that divides the period, near the wanted one: the frequency is then met exactly.
+/// A step near the wanted one that divides the period, so that the frequency is met exactly.
 double dividing_step(double omega, double near_s) {
   const double period_s = 2.0 * std::numbers::pi / omega;
   return period_s / std::round(period_s / near_s);
@@ -80,7 +80,7 @@ TEST(Filter, StatesAreDerivativesOfTheFirst) {
 TEST(Filter, FirstOrderHoldConvergesWithTheSquareOfTheStep) {
   const double coarse = error_at<Hold::first_order>(2.5, 0.04);
   const double fine = error_at<Hold::first_order>(2.5, 0.02);
-  CHECK(coarse > 1e-5);  // else there is nothing to compare
+  CHECK(coarse > 1e-5);  // otherwise there is nothing to compare
   DOUBLES_EQUAL(4.0, coarse / fine, 0.2);
 }
 
@@ -121,7 +121,7 @@ TEST(Filter, BankOfOnePolesIsExactForHeldSignalsAndForRamps) {
   for (int k = 0; k <= 200; ++k) {
     const double t = step_s * k;
     bank.step({1.0, t});
-    // Held: what arrives at a tick acts from that tick on.
+    // With a hold, an input that arrives at a tick acts from that tick on.
     DOUBLES_EQUAL((1.0 - std::exp(-pole * t)) / pole, bank.state()[0], 1e-13);
     DOUBLES_EQUAL(t / pole - (1.0 - std::exp(-pole * t)) / (pole * pole), bank.state()[1], 1e-13);
   }

@@ -12,8 +12,8 @@ using supercoil::control::Matrix;
 
 namespace {
 
-/// Of norms from 1e-5 to 1e3, so that every approximation is used; with zeros, and last rows of
-/// them, as holds have.
+/// Norms from 1e-5 to 1e3, so that every approximation is used; some with zeros or zero last rows,
+/// as holds have.
 class Matrices {
  public:
   template <int Size>
@@ -62,7 +62,7 @@ int differing_matrices() {
 
 TEST_GROUP(MatrixExponential){};
 
-// Of the sizes in use these take every way of adding: Eigen's own takes 3 s a size to compile.
+// These of the sizes in use cover every order of summation; Eigen's takes 3 s a size to compile.
 TEST(MatrixExponential, IsEigensToTheBit) {
   LONGS_EQUAL(0, differing_matrices<3>());
   LONGS_EQUAL(0, differing_matrices<5>());

@@ -72,7 +72,7 @@ TEST(Polynomials, PositiveRealnessAgreesWithASweepOverFrequency) {
     } else {
       const double swept = c.at("min_real_part");
       DOUBLES_EQUAL(swept, result.min_real_part, 1e-4 * (1.0 + std::abs(swept)));
-      CHECK(result.min_real_part <= swept + 1e-12);  // a sweep can only miss the least
+      CHECK(result.min_real_part <= swept + 1e-12);  // a sweep can only miss the minimum
     }
   }
 }

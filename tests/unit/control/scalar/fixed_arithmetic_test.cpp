@@ -39,7 +39,7 @@ bool holds_for_two(const char* name, Property property) {
          });
 }
 
-/// result is what does not fit, or right(result).
+/// result must be the limit if the exact value is above or below, and otherwise satisfy right().
 template <class F, class Right>
 void expect(F result, bool above, bool below, Right right) {
   if (above) {
@@ -75,7 +75,7 @@ TEST(FixedArithmetic, ProductIsTheNearestWithTiesUpwardOrSaturates) {
   CHECK(holds_for_two("product", []<class F>(F a, F b) {
     const Integer exact = Integer{a.raw()} * b.raw();  // in units of one<F>
     const Integer half = one<F> / 2;
-    // Saturation is due where even the nearest number lies outside.
+    // It must saturate when even the nearest number lies outside.
     const bool above = exact - Integer{F::max().raw()} * one<F> >= half;
     const bool below = Integer{F::min().raw()} * one<F> - exact > half;
     expect(a * b, above, below, [&] {
@@ -95,7 +95,7 @@ TEST(FixedArithmetic, QuotientIsTheNearestWithTiesAwayFromZeroOrSaturates) {
     const Integer rest = dividend - quotient * divisor;
     const Integer off = rest < 0 ? -rest : rest;
     if (quotient == F::max().raw() || quotient == F::min().raw()) {
-      // Right where the true quotient lies beyond, or within half a step.
+      // A limit is right when the true quotient lies beyond it or within half a step.
       const bool positive = (dividend < 0) == (divisor < 0);
       RC_ASSERT(positive == (quotient > 0));
       const Integer true_size = dividend < 0 ? -dividend : dividend;
@@ -103,7 +103,7 @@ TEST(FixedArithmetic, QuotientIsTheNearestWithTiesAwayFromZeroOrSaturates) {
       RC_ASSERT(2 * true_size >= (2 * limit_size - 1) * size);
     } else {
       RC_ASSERT(2 * off <= size);
-      // A tie went away from zero: the remainder then points back.
+      // A tie was rounded away from zero: the remainder then points back.
       if (2 * off == size) RC_ASSERT((rest < 0) != (dividend < 0));
     }
   }));

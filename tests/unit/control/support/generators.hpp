@@ -9,7 +9,7 @@
 
 namespace supercoil::test {
 
-/// Fixed-point numbers of all magnitudes, and the edges.
+/// Fixed-point numbers of all magnitudes, including the extremes.
 template <class F>
 rc::Gen<F> fixed_numbers() {
   using Raw = typename F::Raw;
@@ -26,14 +26,14 @@ rc::Gen<F> fixed_numbers() {
                       [](Raw raw) { return F::from_raw(raw); });
 }
 
-/// Evenly spread reals from low to high.
+/// Uniformly distributed reals from low to high.
 inline rc::Gen<double> reals(double low, double high) {
   constexpr int steps = 1'000'000;
   return rc::gen::map(rc::gen::inRange(0, steps + 1),
                       [=](int i) { return low + (high - low) * static_cast<double>(i) / steps; });
 }
 
-/// Evenly spread on a logarithmic scale; low > 0.
+/// Uniformly distributed on a logarithmic scale; low > 0.
 inline rc::Gen<double> magnitudes(double low, double high) {
   return rc::gen::map(reals(std::log(low), std::log(high)),
                       [](double logarithm) { return std::exp(logarithm); });

@@ -1,4 +1,4 @@
-// The muscle between ticks, exactly: what closed loops in the tests run against.
+// The muscle between ticks, exactly: the plant of closed loops in the tests.
 #pragma once
 
 #include "supercoil/control/actuator/state_space.hpp"
@@ -12,7 +12,7 @@ class Muscle {
   Muscle(const control::PhysicalParameters& parameters, double step_s) : step_s_(step_s) {
     change(parameters);
   }
-  /// It is another muscle from now on, as warm and as long as it is.
+  /// Changes the muscle's parameters; temperature and length continue.
   void change(const control::PhysicalParameters& parameters) {
     const auto system = control::state_space(parameters);
     const auto discrete = control::zero_order_hold<3, 2>(system.a, system.b, step_s_);
@@ -32,7 +32,7 @@ class Muscle {
   Eigen::Vector3d state_ = Eigen::Vector3d::Zero();
 };
 
-/// What a closed loop shows at a tick.
+/// What a closed loop reports at a tick.
 struct Tick {
   double time_s;
   double position_m;

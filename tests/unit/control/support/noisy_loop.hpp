@@ -1,4 +1,4 @@
-// Any controller and estimator, closed over the paper's muscle, seen by a noisy sensor of 16 bits.
+// Any controller and estimator in closed loop with the paper's muscle and a noisy 16-bit sensor.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,9 @@ struct NoisyLoop {
 
   control::ControllerSettings controller;
   std::optional<control::EstimatorSettings> estimator{};
-  control::Estimate believed{};  ///< if settled, what the controller has long learned at the start
+  control::Estimate believed{};  ///< if settled, the controller has learned it before the start
   double noise_rms_m = 10e-6;
-  double soft_from_s = 1e9;  ///< from then on the stiffness is 12 N/m
+  double soft_from_s = 1e9;  ///< from this time on the stiffness is 12 N/m
   double (*reference_m)(double) = paper_sine_m;
 
   /// see(time_s, true error in µm) at each tick.
@@ -69,7 +69,7 @@ struct NoisyLoop {
     }
   }
 
-  /// Root mean square of the errors within each of the spans [from, to), in µm.
+  /// Root mean square of the errors within each span [from, to), in µm.
   template <std::size_t N>
   std::array<double, N> rms_um(const std::array<std::array<double, 2>, N>& spans_s) const {
     std::array<double, N> squares{};

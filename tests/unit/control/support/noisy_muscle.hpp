@@ -1,4 +1,4 @@
-// The paper's muscle under Eq. (18), seen through a noisy sensor of 16 bits: what estimators get.
+// The paper's muscle under Eq. (18) and a noisy 16-bit sensor: what estimators are given.
 #pragma once
 
 #include <boost/random/mersenne_twister.hpp>
@@ -16,12 +16,12 @@ class NoisyMuscle {
   explicit NoisyMuscle(unsigned seed, double noise_m = 10e-6)
       : source_(seed), noise_(0.0, noise_m) {}
 
-  /// Its stiffness is another one from this time on.
+  /// From this time on its stiffness is different.
   void soften_at(double time_s) { soft_from_s_ = time_s; }
   const control::PhysicalParameters& truth() const { return truth_; }
   double time_s() const { return step_s * static_cast<double>(ticks_); }
 
-  /// Until then, tick by tick; see(position_m, power_W) gets what a board would know.
+  /// Runs tick by tick until then; see(position_m, power_W) gets what a board would measure.
   template <class See>
   void run_until(double time_s, See see) {
     for (; ticks_ < std::lround(time_s / step_s); ++ticks_) {
@@ -73,7 +73,7 @@ class Learning {
     return result;
   }
 
-  /// When θ1…θ4 come within a part of the truth for good: the last time, looked at every 10 ms
+  /// When θ1…θ4 come within a fraction of the truth for good: the last time, checked every 10 ms
   /// until the end, at which they were farther off.
   double outside_until(double part, double until_s) {
     double last_s = muscle.time_s();

@@ -12,7 +12,7 @@
 namespace supercoil::test {
 
 /// An entry of a topic's file, e.g. "runs" of mrac.json; a copy, so that loops may run over it.
-/// Throws when there is none, which ends the run.
+/// Throws when it does not exist, which ends the run.
 nlohmann::json reference(const std::string& topic, const std::string& entry);
 
 control::PhysicalParameters parameters_from(const nlohmann::json& json);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double slow_step_s = 0.01;
 constexpr ThermalBounds bounds{0.12, 0.20, 0.06, 0.20};
-/// True over told power.
+/// True power over measured power.
 constexpr double min_ratio = 0.95;
 constexpr double max_ratio = 1.05;
 
@@ -57,7 +57,7 @@ TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
 }
 
 TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
-  // Why both lower bounds are not enough: after a pulse a heavier muscle stays hot for longer.
+  // Both lower bounds are not enough: after a pulse a heavier muscle stays hot for longer.
   IntervalObserver observer({0.12, 0.20, 0.06, 0.06}, slow_step_s);
   double light_K = 0.0;
   double heavy_K = 0.0;

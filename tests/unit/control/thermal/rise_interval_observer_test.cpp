@@ -22,16 +22,16 @@ double any_between(double low, double high) {
   return *test::reals(low, high);
 }
 
-/// A muscle whose heat transfer grows with its rise, by no more than the cube root.
+/// A muscle whose heat transfer grows with its rise, by at most the cube root.
 struct GrowingMuscle {
   double mass = any_between(wide_bounds.min_mass_J_per_K, wide_bounds.max_mass_J_per_K);
   double at_K = any_between(10.0, 100.0);
-  double transfer = any_between(0.06, 0.12);  ///< at at_K
+  double transfer = any_between(0.06, 0.12);  ///< at the rise at_K
   double power = any_between(0.0, 1.0 / 3.0);
   double rise_K = 0.0;
 
   double transfer_at(double rise) const {
-    // Within the configured bounds also where it is cold.
+    // Stays within the configured bounds even when cold.
     return std::fmax(wide_bounds.min_transfer_W_per_K, transfer * std::pow(rise / at_K, power));
   }
   void step(double power_W, double step_s) {
@@ -60,7 +60,7 @@ TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
       for (int tick = 0; tick < 60; ++tick) {
         muscle.step(power_W, step_s);
         observer.step(power_W, power_W);
-        // Euler's steps of the truth are not exact.
+        // The truth is integrated in Euler steps, which are not exact.
         const double allowed_K = 1e-6 + 2e-3 * muscle.rise_K;
         RC_ASSERT(observer.min_K() <= muscle.rise_K + allowed_K);
         RC_ASSERT(observer.max_K() >= muscle.rise_K - allowed_K);
@@ -69,7 +69,7 @@ TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
   }));
 }
 
-/// Bounds of mass and heat transfer alone would allow 0.20 / 0.03 = 6.7 s.
+/// Bounds on mass and heat transfer alone would allow 0.20 / 0.03 = 6.7 s.
 TEST(RiseIntervalObserver, HoldsAMuscleThatIsNoSlowerThanItsSlowestTimeConstant) {
   ThermalBounds bounds = wide_bounds;
   bounds.max_time_constant_s = 4.5;

@@ -1,4 +1,4 @@
-// Direct adaptive laws once they have adapted, sampled and delayed.
+// Direct adaptive laws after they have adapted, sampled and delayed.
 #include <array>
 #include <deque>
 #include <string>
@@ -18,11 +18,11 @@ namespace {
 constexpr double adapted_tick_s = 1e-3;
 constexpr double adapted_delay_s = 1.5e-3;
 
-/// Of each physical parameter, all at once: where the law is stable at all corners.
+/// Span of all physical parameters at once within which the law is stable at all corners.
 struct Family {
   std::string name;
-  double adapted;  ///< to each corner
-  double resting;  ///< as adapted to the paper's muscle
+  double adapted;  ///< with the law adapted to each corner
+  double resting;  ///< with the law adapted to the paper's muscle
 };
 const std::array<Family, 3> families{
     {{"printed", 0.40, 0.0}, {"a", 0.50, 0.35}, {"c", 0.15, 0.05}}};
@@ -49,8 +49,8 @@ std::string at_span(const std::string& what, double span) {
   return what + " at +-" + std::to_string(std::lround(100.0 * span)) + " %, worst corner:";
 }
 
-/// The law with the θ* of the paper's muscle and without adaptation, on a muscle that was pushed
-/// once.
+/// Runs the law with the θ* of the paper's muscle and without adaptation on a muscle after one
+/// push.
 bool grows_after_a_push(const std::string& name, const PhysicalParameters& parameters, int ticks) {
   ControllerSettings settings = preset(name);
   TransferFunction plant = transfer_function_from(PhysicalParameters{});
@@ -101,7 +101,7 @@ TEST(AdaptedMargins, EachPresetHoldsItsFamilyBeforeItAdaptsAgain) {
   }
 }
 
-/// Why the paper's own constants are no default.
+/// This is why the paper's own constants are not the default.
 TEST(AdaptedMargins, ThePrintedLawHasNoRoomOnceItHasAdapted) {
   const auto law = fixed_law(preset("printed"), PhysicalParameters{});
   CHECK(loop_margin(*law, PhysicalParameters{}, adapted_tick_s, adapted_delay_s).modulus < 0.01);
@@ -118,7 +118,7 @@ TEST(AdaptedMargins, TheLeastSquaresLawsPidHoldsItsFamilyAlone) {
   LONGS_EQUAL(0, worst.unstable);
 }
 
-/// Its loop's gain is below 1 at all frequencies.
+/// The loop gain is below 1 at all frequencies.
 TEST(AdaptedMargins, PresetAIsStableHoweverLateItsPowerActs) {
   const auto law = fixed_law(preset("a"), PhysicalParameters{});
   for (const int ticks : {10, 300, 1000}) {
@@ -128,8 +128,8 @@ TEST(AdaptedMargins, PresetAIsStableHoweverLateItsPowerActs) {
   }
 }
 
-/// A stronger muscle is a larger gain of the loop, a weaker one a smaller. At the edge a pole is on
-/// the unit circle, and the frequency response goes through −1.
+/// A stronger muscle raises the loop gain, a weaker one lowers it. At the edge a pole is on the
+/// unit circle and the frequency response passes through −1.
 TEST(AdaptedMargins, EachPresetIsStableUpToTheForceThatIsSaid) {
   const auto with_force = [](double times) {
     PhysicalParameters muscle;

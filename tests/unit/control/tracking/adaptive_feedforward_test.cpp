@@ -10,7 +10,7 @@ using supercoil::test::NoisyLoop;
 
 namespace {
 
-/// initial_ratio: of the true θ: what estimator and feedforward begin with.
+/// initial_ratio: the parameters with which estimator and feedforward start, over the true θ.
 NoisyLoop feedforward_loop(double initial_ratio = 1.0) {
   NoisyLoop loop;
   loop.controller.kind = ControllerKind::adaptive_ff;
@@ -109,11 +109,11 @@ TEST(AdaptiveFeedforward, HoldsItsIntegralAtTheLimitAndLetsItOnlyLeadOut) {
   };
   start(1.0, 99.0);
   const double held = step(1.0);
-  for (int k = 0; k < 1000; ++k)  // above the upper limit, pushing on
+  for (int k = 0; k < 1000; ++k)  // above the upper limit, pushing further
     DOUBLES_EQUAL(held, step(1.0), 1e-12);
-  start(-1.0, 99.0);  // still above, and the error leads out
+  start(-1.0, 99.0);  // still above, but the error leads out
   const double first = step(-1.0);
-  start(-1.0, -99.0);  // below, pushing on
+  start(-1.0, -99.0);  // below, pushing further
   const double pushed = step(-1.0);
   DOUBLES_EQUAL(8.0 * RegressionScale{}.nominal[3] * RegressionScale{}.dc_gain_m_per_W * 1e-3,
                 pushed - first, 1e-12);

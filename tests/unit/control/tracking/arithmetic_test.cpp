@@ -1,4 +1,4 @@
-// Every law and the estimator in float and q8.24 beside double, in closed loop on the muscle.
+// Every law and the estimator in float and q8.24 against double, in closed loop on the muscle.
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/control/estimation/estimator.hpp"
@@ -20,7 +20,7 @@ std::vector<double> positions(ControllerSettings settings, Arithmetic arithmetic
   return result;
 }
 
-/// The largest distance in metres between two arithmetics' motions.
+/// The largest distance in metres between the motions of two arithmetics.
 double distance(const ControllerSettings& settings, Arithmetic arithmetic) {
   const auto exact = positions(settings, Arithmetic::float64);
   const auto other = positions(settings, arithmetic);

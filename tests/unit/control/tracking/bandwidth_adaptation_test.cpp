@@ -1,5 +1,5 @@
-// How quick a feedback gets on a loop whose best bandwidth is known: an integrator, as FixedPid
-// leaves it, moved by noise whose Kalman filter has the gain ωc = √(Q/R).
+// How fast a feedback becomes on a loop whose best bandwidth is known: an integrator, as FixedPid
+// leaves it, moved by noise; its Kalman filter has the gain ωc = √(Q/R).
 #include "supercoil/control/tracking/bandwidth_adaptation.hpp"
 
 #include <cmath>
@@ -17,8 +17,8 @@ struct AdaptedLoop {
       : step_s(tick_s),
         bandwidth({.max_rad_per_s = 8.0, .lag_rad_per_s = 22.0, .step_s = tick_s}) {}
 
-  /// Sensor noise of 1; wander: what moves the loop at random, in a second; push: what moves it
-  /// steadily, in 1/s.
+  /// Sensor noise of 1; wander: random motion of the loop in one second; push: steady motion, in
+  /// 1/s.
   void run(double duration_s, double wander = 0.0, double push = 0.0, bool limited = false) {
     const auto ticks = std::lround(duration_s / step_s);
     double squares = 0.0;
@@ -34,16 +34,16 @@ struct AdaptedLoop {
   }
 
   double step_s;
-  double max_rad_per_s = 8.0;  ///< of the loop as it is
+  double max_rad_per_s = 8.0;  ///< bandwidth of the unadapted loop
   BandwidthAdaptation bandwidth;
   double true_error = 0.0;
   double lagged = 0.0;
-  double rms = 0.0;  ///< true error of the last run
+  double rms = 0.0;  ///< of the true error in the last run
   boost::random::mt19937 source{1};
   boost::random::normal_distribution<double> noise{0.0, 1.0};
 };
 
-/// √R of the noise, of a reading each millisecond.
+/// √R for noise with one reading each millisecond.
 const double noise_density = std::sqrt(1e-3);
 
 }  // namespace
@@ -88,7 +88,7 @@ TEST(BandwidthAdaptation, IsAllAtOnceWhenSomethingChanges) {
   CHECK(loop.bandwidth.ratio() <= 1.0 / 16.0);
   loop.run(0.02, 0.0, 1000.0);
   DOUBLES_EQUAL(1.0, loop.bandwidth.ratio(), 0.0);
-  // What comes of it does not count for minutes.
+  // Its consequences must not count for minutes.
   loop.run(2.0, 0.0, 1000.0);
   loop.run(40.0);
   CHECK(loop.bandwidth.ratio() < 1.0);

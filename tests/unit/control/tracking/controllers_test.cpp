@@ -11,7 +11,7 @@ using namespace supercoil::control;
 
 namespace {
 
-/// The largest differences in position and model to scipy's closed loop for a step of 10 mm.
+/// The largest differences in position and model from scipy's closed loop for a step of 10 mm.
 std::pair<double, double> difference(ControllerKind kind, const nlohmann::json& run,
                                      double step_s) {
   ControllerSettings settings;
@@ -66,11 +66,11 @@ TEST(Controllers, PiHoldsItsIntegralAtTheLimitAndLetsItOnlyLeadOut) {
     return pi.step(in);
   };
   DOUBLES_EQUAL(6.03, step(3.0, 0.0, false), 1e-12);
-  for (int k = 0; k < 1000; ++k)  // above the upper limit, pushing on: held
+  for (int k = 0; k < 1000; ++k)  // above the upper limit, pushing further: held
     DOUBLES_EQUAL(6.03, step(3.0, 4.5, true), 1e-12);
-  // Still above the limit, the error turned: it leads out at once.
+  // Still above the limit, but the error has changed sign and leads out at once.
   DOUBLES_EQUAL(-2.0 + 0.03 - 0.01, step(-1.0, 4.5, true), 1e-12);
-  for (int k = 0; k < 1000; ++k)  // below the lower limit: held as well
+  for (int k = 0; k < 1000; ++k)  // below the lower limit: also held
     DOUBLES_EQUAL(-1.98, step(-1.0, 0.0, true), 1e-12);
   DOUBLES_EQUAL(2.0 + 0.02 + 0.01, step(1.0, 0.0, true), 1e-12);
 }

@@ -1,4 +1,4 @@
-// What an error takes of the power, where the answer is known.
+// The power that an error takes, in cases with a known answer.
 #include "supercoil/control/tracking/error_power.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ TEST(ErrorPower, IsThePowerOfTheErrorsOwnMotion) {
       power.step(0.01 * time_s * time_s);
     power.update(10.0, 1.0 - std::exp(-pole_rad_per_s * period_s), period_s);
   }
-  // The low-passes are late by two time constants on a ramp; half a period by the mean.
+  // On a ramp the low-passes lag by two time constants, and the mean by half a period.
   const double late_s = time_s - 2.0 / pole_rad_per_s;
   const double position = 0.01 * (late_s * late_s + 2.0 / (pole_rad_per_s * pole_rad_per_s));
   const double expected_W = position * units[3] + 0.02 * late_s * units[2] + 0.02 * units[1];

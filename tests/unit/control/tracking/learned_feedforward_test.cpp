@@ -1,5 +1,5 @@
-// Feedforward that learns its own motion, closed over the paper's muscle with a noisy sensor. Over
-// muscles that are not linear: tests/unit/host_sim/plant/learned_feedforward_test.cpp.
+// Feedforward that learns its own motion, in closed loop with the paper's muscle and a noisy
+// sensor. For non-linear muscles see tests/unit/host_sim/plant/learned_feedforward_test.cpp.
 #include "supercoil/control/tracking/learned_feedforward.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -1,4 +1,4 @@
-// How much of what was learned proves itself, on powers whose right share is known.
+// Which share of the learned power proves itself, on powers whose right share is known.
 #include "supercoil/control/tracking/learned_share.hpp"
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double observation_period_s = 0.01;
 
-/// Two minutes of swings of 1 W: what is left of the power is `true_share` of what was learned and
-/// an unrelated swing of `other_W`.
+/// Two minutes of swings of 1 W: the remaining power is `true_share` of the learned power plus an
+/// unrelated swing of `other_W`.
 double share_of(double true_share, double other_W, LearnedShare share) {
   for (int k = 0; k < 12'000; ++k) {
     const double learned_W = std::sin(0.9 * k * observation_period_s);
@@ -34,7 +34,7 @@ TEST(LearnedShare, IsAllThatDoesNoHarm) {
   DOUBLES_EQUAL(1.0, usual().value(), 0.0);
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.0, usual()), 0.0);
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.7, usual()), 0.0);
-  // Half too much is no better and no worse than nothing.
+  // Twice the right power is no better and no worse than none.
   DOUBLES_EQUAL(1.0, share_of(0.55, 0.0, usual()), 0.0);
   DOUBLES_EQUAL(0.5, share_of(0.25, 0.0, usual()), 0.05);
 }

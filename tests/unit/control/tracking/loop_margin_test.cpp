@@ -1,4 +1,4 @@
-// Fixed laws on muscles that are not the nominal one, sampled and delayed.
+// Fixed laws on muscles other than the nominal one, sampled and delayed.
 #include "supercoil/control/tracking/loop_margin.hpp"
 
 #include <string>
@@ -12,7 +12,7 @@ using namespace supercoil::control;
 namespace {
 
 constexpr double tick_of_loop_s = 1e-3;
-/// One and a half ticks between the sampling of a position and the power that answers it.
+/// One and a half ticks from the sampling of a position to the power that responds to it.
 constexpr double delay_of_loop_s = 1.5e-3;
 
 FixedLaw law_of(ControllerKind kind) {
@@ -75,7 +75,7 @@ TEST(LoopMargins, PaperFixedLawsAtThePresetsOfTheirFamily) {
   }
 }
 
-/// The computed edge is the edge: a little less delay than makes it unstable, and a little more.
+/// Checks both sides of the computed edge: a little less delay is stable, a little more is not.
 TEST(LoopMargins, ASimulatedLoopIsStableWhereItIsSaidToBe) {
   const FixedLaw law = law_of(ControllerKind::adaptive_ff);
   const auto grows = [&](int ticks) {

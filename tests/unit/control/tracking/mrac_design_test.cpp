@@ -1,4 +1,4 @@
-// What an MRAC is designed with: matching, presets.
+// The design of an MRAC: matching, presets.
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/control/actuator/conversions.hpp"
@@ -20,7 +20,7 @@ TransferFunction normalised(const PhysicalParameters& p) {
   return plant;
 }
 
-/// Matched parameters, adaptation off: the largest difference to the reference model, in metres.
+/// Matched parameters, adaptation off: the largest difference from the reference model, in metres.
 double matched_difference(double step_s) {
   ControllerSettings settings;
   settings.mrac = *mrac_preset("a");
@@ -80,7 +80,7 @@ TEST(MracDesign, MatchingIsRefusedWithoutAnInputToAParameter) {
 TEST(MracDesign, WithMatchedParametersTheLoopIsTheReferenceModel) {
   const double coarse = matched_difference(1e-3);
   const double fine = matched_difference(0.5e-3);
-  CHECK(coarse < 20e-6);  // of 20 mm; the held power alone is half a step late
+  CHECK(coarse < 20e-6);  // of 20 mm; the hold alone delays the power by half a step
   DOUBLES_EQUAL(2.0, coarse / fine, 0.1);
 }
 

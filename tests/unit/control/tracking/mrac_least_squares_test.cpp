@@ -1,4 +1,4 @@
-// MRAC by least squares: what it finds against the matching equation, and how it tracks.
+// MRAC by least squares: its parameters against the matching equation, and its tracking.
 #include "supercoil/control/tracking/mrac_least_squares.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -35,7 +35,7 @@ TEST(MracLeastSquares, FindsTheParametersOfTheMatchingEquation) {
   truth.heat_transfer_W_per_K = 0.1;
   const double step_s = 1e-3;
   MracLeastSquaresSettings settings;
-  settings.noise_W2 = 1e-10;  // so that the prior weighs nothing
+  settings.noise_W2 = 1e-10;  // so that the prior has no weight
   MracLeastSquares<double> law(settings, wm16_model(), step_s);
   ReferenceModel<double> model(wm16_model(), step_s);
   supercoil::test::Muscle muscle(truth, step_s);
@@ -54,7 +54,7 @@ TEST(MracLeastSquares, FindsTheParametersOfTheMatchingEquation) {
   MracLeastSquaresSettings of_truth = settings;
   of_truth.scale.nominal = theta_from(truth);
   auto expected = match(of_truth, wm16_model())->theta;
-  // match() has position in watts at rest of its own muscle, the law in those of the nominal one.
+  // match() has position in watts at rest of its own muscle, the law in watts of the nominal one.
   const double scale = truth.dc_gain_m_per_W() / settings.scale.dc_gain_m_per_W;
   expected.tail<4>() /= scale;
   const auto theta = law.theta();

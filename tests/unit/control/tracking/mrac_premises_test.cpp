@@ -13,7 +13,7 @@ namespace {
 enum Premise : std::size_t { lambda, poles, gains, model, realness, factors };
 using Failing = std::set<std::size_t>;
 
-/// Which premises are named as failing; also checks that hold() says the same.
+/// The premises that are named as failing; also checks that hold() agrees.
 Failing failing(const MracSettings& settings, const ReferenceModelSettings& m = wm16_model()) {
   const MracPremises premises = check_premises(settings, m);
   Failing result;
@@ -71,7 +71,7 @@ TEST(MracPremises, AModelWithAnotherPoleFailsOnlyItsFactors) {
 }
 
 TEST(MracPremises, APoleThatIsNotPositiveIsNamed) {
-  // It also spoils the factors, and p0 and p1 the positive realness.
+  // The factors fail as well; with p0 and p1 so does positive realness.
   for (const double bad : {0.0, -0.8, std::nan("")}) {
     CHECK((failing(changed([&](auto& s) { s.q0_rad_per_s = bad; })) == Failing{poles, factors}));
     CHECK(failing(changed([&](auto& s) { s.p0_rad_per_s = bad; })).contains(poles));

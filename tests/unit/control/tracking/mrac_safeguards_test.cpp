@@ -13,7 +13,7 @@ constexpr double fast_step_s = 1e-3;
 using Law = Mrac<double>;
 using Theta6 = Vector<double, 6>;
 
-/// Inputs that excite everything: an error of about the given size and a live reference.
+/// Inputs that excite everything: an error of about the given size and a moving reference.
 LawInput<double> lively(int tick, double error_W = 0.3) {
   const double t = fast_step_s * tick;
   LawInput<double> in;
@@ -72,7 +72,7 @@ TEST(MracSafeguards, LeakagePullsThetaToItsStart) {
   settings.sigma_modification = 0.05;
   Law law(settings, fast_step_s);
   warm_up(law);
-  // Without signals the filters empty (slowest: 1 rad/s) and only the leak is left.
+  // Without signals the filters decay (slowest: 1 rad/s) and only the leakage is left.
   for (int k = 0; k < 40000; ++k)
     law.step({});
   const Theta6 from = law.theta() - settings.initial;

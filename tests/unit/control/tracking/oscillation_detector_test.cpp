@@ -1,4 +1,4 @@
-// An oscillation of the loop is told from noise, from steps and from the reference's own.
+// Oscillations of the loop are distinguished from noise, steps and the reference's own.
 #include "supercoil/control/tracking/oscillation_detector.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -36,7 +36,7 @@ TEST_GROUP(OscillationDetector){};
 
 TEST(OscillationDetector, SeesAnOscillationOnceInTenHalfPeriods) {
   const auto swing = [](double time_s) { return 1e-4 * std::sin(10.0 * time_s); };
-  // 63 half periods; the first begins before it is seen.
+  // 63 half periods; the first one begins before the detector can see it.
   LONGS_EQUAL(6, seen(swing, at_rest));
 }
 
@@ -99,7 +99,7 @@ TEST(OscillationDetector, LetsALawSlowDownUntilTheLightlyDampedMuscleIsFollowed)
       period_s = out.oscillation_period_s;
       plant.step(power_W);
     }
-    // Near the muscle's own, 13.3 rad/s.
+    // Near the muscle's own oscillation, 13.3 rad/s.
     CHECK(period_s > 0.3);
     CHECK(period_s < 0.7);
     CHECK_EQUAL(slow_down, max_m < 20e-6);

@@ -1,4 +1,4 @@
-// Periods of references that have one, and none of those that have not.
+// Finds the periods of references that have one, and none in references that have not.
 #include "supercoil/control/tracking/period_finder.hpp"
 
 #include <array>
@@ -13,8 +13,7 @@ namespace {
 
 constexpr double step_s = 1e-3;
 
-/// Lets the finder see the reference from one time to another; returns whether it ever knew a
-/// period.
+/// Feeds the reference to the finder over a span of time; returns whether it ever knew a period.
 template <class Reference>
 bool show(PeriodFinder& finder, Reference reference, double from_s, double to_s) {
   bool known = false;

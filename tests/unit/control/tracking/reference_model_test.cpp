@@ -73,7 +73,7 @@ TEST(ReferenceModels, VelocityAndAccelerationAreThePositionsDerivatives) {
   DOUBLES_EQUAL((after.velocity - before.velocity) / (2 * step_s), now.acceleration, 1e-6);
 }
 
-// A sine of 2 rad/s, of which the design model by itself would leave a tenth.
+// A sine of 2 rad/s, of which the design model by itself would pass only a tenth.
 TEST(ReferenceModels, AreLedAlongAMotion) {
   constexpr double step_s = 1e-3;
   constexpr double turn = 2.0;

@@ -1,4 +1,4 @@
-// A reference is shaped so that the model only moves as the muscle can.
+// A reference is shaped so that the model moves only as the muscle can.
 #include "supercoil/control/tracking/reference_shaper.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -63,7 +63,7 @@ TEST(ReferenceShapers, FallIsTheCoolingMuscleItself) {
     muscle.step(holds_W);
   DOUBLES_EQUAL(level_m, muscle.position_m(), 1e-9);
   int cooling = 0;
-  // Nobody's reference; more than the muscle can do from the first tick on.
+  // Not a realistic reference: it asks for more than the muscle can do from the first tick on.
   for (int k = 0; k < 3'000; ++k) {
     shaped.tick(-10.0);
     muscle.step(0.0);

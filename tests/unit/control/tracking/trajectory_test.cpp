@@ -46,7 +46,7 @@ TEST(Trajectory, IsTheSameWhenKnotsComeTwoAhead) {
   std::size_t added = 1;
   const std::vector<double> times = c.at("time_s");
   for (std::size_t i = 0; i < times.size(); ++i) {
-    // The next two knots behind this time are there, and no others.
+    // Only the next two knots after this time have been added.
     while (added < knots.size() && (added < 3 || knot_from(knots[added - 2]).time_s <= times[i]))
       way.add(knot_from(knots[added++]));
     check_point(c, i, way.at(times[i]));
@@ -120,7 +120,7 @@ TEST(Trajectory, IsSmoothForWhateverComesAtWhateverTime) {
         moving.add(last);
       }
       for (int ticks = *rc::gen::inRange(1, 100); ticks > 0; --ticks, time_s += 1e-3) {
-        // Behind a last knot that still moves it stops, as it must.
+        // After a last knot that still moves it stops, as it must.
         if (moving.last().velocity_m_per_s != 0.0 && time_s >= moving.last().time_s - 2e-3)
           continue;
         const auto now = moving.at(time_s);

@@ -1,4 +1,4 @@
-// The values of controllers and estimators that can be changed one by one.
+// Values of controllers and estimators that can be changed one by one.
 #include "supercoil/control/tracking/tunable.hpp"
 
 #include <array>
@@ -33,13 +33,13 @@ Tuning tuning_of(const Settings& settings) {
   return tuning;
 }
 
-/// In range, and another one.
+/// A different value within the range.
 double another(const Tunable& tunable, double value) {
   if (!tunable.is_number()) return value == tunable.highest ? tunable.highest - 1.0 : value + 1.0;
   return value * 1.5 <= tunable.highest && value > 0.0 ? value * 1.5 : tunable.highest;
 }
 
-/// False: these settings have no such value.
+/// Returns false if these settings do not have the value.
 template <class Settings>
 bool changes_alone(const Settings& before, std::size_t i, std::string_view name) {
   const Tunable& tunable = tunables()[i];
@@ -72,13 +72,13 @@ TEST_GROUP(Tunables){};
 TEST(Tunables, EachOfAControllerIsReadBackAndChangesNoOtherValue) {
   std::set<std::size_t> seen;
   for (const auto& [name, kind] : controller_names) {
-    // The law itself decides which others there are, and the model has the poles.
+    // The law itself decides which other values exist; the model has the poles.
     const std::size_t model = tunable_named("reference_model");
     for (std::size_t i = 1; i < tunable_count; ++i) {
       if (i != model && changes_alone(of_kind(kind), i, name)) seen.insert(i);
     }
   }
-  // But kind and reference_model: every name that is listed as a law's is one's.
+  // Except for kind and reference_model, every value listed for controllers belongs to a law.
   LONGS_EQUAL(2 + seen.size(), listed(&Tunable::controllers_have));
 }
 

@@ -1,4 +1,4 @@
-// What is asked of a node over a bus that loses frames.
+// Requests to a node over a bus that loses frames.
 #include "apps/supercoil/bus/commander.hpp"
 
 #include <deque>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint8_t node = 3;
 
-/// A board behind it tells 0.5 of whatever is asked of its muscle; the first questions are lost.
+/// The board behind it reports 0.5 for every quantity of its muscle; the first requests are lost.
 class LossyBus final : public hal::CanBus {
  public:
   explicit LossyBus(int lost) : lost_(lost) {}
@@ -43,10 +43,10 @@ class LossyBus final : public hal::CanBus {
   std::deque<hal::CanFrame> answers_;
 };
 
-/// A board behind it obeys every command; the first ones but claims are lost.
+/// The board behind it obeys every command; the first ones, except claims, are lost.
 class LossyCommands final : public hal::CanBus {
  public:
-  /// heard counts commands but claims, also lost ones.
+  /// heard counts the commands, lost ones included, but no claims.
   LossyCommands(int lost, int& heard) : lost_(lost), heard_(heard) {}
 
   hal::Status send(const hal::CanFrame& frame) override {
@@ -96,7 +96,7 @@ TEST(Commander, SaysThatNobodyAnswers) {
   STRCMP_CONTAINS("no answer from node 3", known.error().text().c_str());
 }
 
-/// A person or a step renews: one lost frame must not end what heats.
+/// For a person or a step that renews: a single lost frame must not end a command to heat.
 TEST(Commander, SendsARenewalAgainBeforeWhatHeatsExpires) {
   for (const Verb verb : {Verb::renew, Verb::power, Verb::position, Verb::disarm}) {
     int heard = 0;
@@ -108,7 +108,7 @@ TEST(Commander, SendsARenewalAgainBeforeWhatHeatsExpires) {
   }
 }
 
-/// What begins something may have been obeyed although its answer was lost.
+/// A command that starts something may have been obeyed although its answer was lost.
 TEST(Commander, SendsNothingTwiceThatBeginsSomething) {
   for (const Verb verb : {Verb::identify, Verb::store, Verb::reset}) {
     int heard = 0;

@@ -1,4 +1,4 @@
-// What is told of a node of which only part was heard.
+// What is shown of a node of which only some frames were heard.
 #include "apps/supercoil/bus/terminal.hpp"
 
 #include <cmath>
@@ -30,7 +30,7 @@ TEST(Terminal, WithoutAStatusNoControllerIsNumbered) {
   STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", told().c_str());
 }
 
-/// Whichever part of Joint came last.
+/// It does not matter which part of Joint came last.
 TEST(Terminal, TheNodeOfAJointHasItsAngle) {
   Row agonist{};
   agonist.position_m = 0.005236F;
@@ -50,7 +50,7 @@ TEST(Terminal, OnlyANodeOfAJointHasAnAngle) {
   CHECK(told().find("angle") == std::string::npos);
 }
 
-/// Another part that came since leaves it as it was; its own part takes it back.
+/// A different part that came since leaves the value as it was; its own part withdraws it.
 TEST(Terminal, WhatIsNotAvailableAnyMoreIsNotToldInJson) {
   Row agonist{};
   agonist.mode = static_cast<std::uint8_t>(Mode::position);

@@ -1,5 +1,5 @@
-// doctor's look at devices, over chips that are none and files in the place of drivers. How long
-// calls take is this machine's affair: no verdict here hangs on it.
+// doctor's look at devices, with fake chips and with files instead of drivers. How long calls take
+// depends on this machine, so no verdict here depends on it.
 #include <algorithm>
 
 #include <CppUTest/TestHarness.h>
@@ -14,7 +14,7 @@ using namespace supercoil;
 using namespace supercoil::test;
 
 TEST_GROUP(DoctorDevices) {
-  // Left behind by a firmware that was killed: half on.
+  // As left behind by a killed firmware: half on.
   PwmKernel pwm{{1'000'000, 500'000, true, false}};
   const hal_linux::Machine machine{pwm.tree / "proc", pwm.tree.path(), pwm.tree / "dev"};
   const std::string adc = "bus/iio/devices/iio:device0/";
@@ -94,7 +94,7 @@ TEST(DoctorDevices, AreNeverOnAndLeftOff) {
   look();
   CHECK_FALSE(pwm.state.enabled);
   LONGS_EQUAL(0, pwm.state.duty_ns);
-  // In no state that it was brought to.
+  // Off in every state that doctor set.
   DOUBLES_EQUAL(0.0, pwm.max_on, 0.0);
   for (const std::string& write : pwm.writes)
     CHECK(!write.starts_with("duty_cycle") || write == "duty_cycle 0");
@@ -117,7 +117,7 @@ TEST(DoctorDevices, AnEnableIsNotGivenUpBeforeItsDutyIsZero) {
   check_finding("warning", "not looked at: its duty is not known", "channel 1, pwm",
                 found("channel 1, enable released"));
   LONGS_EQUAL(0, times_in("EN1", "input"));
-  // A part of a bus's time would look like good news.
+  // Only a part of a bus's time would look too good.
   CHECK(times.empty());
 }
 
@@ -153,13 +153,13 @@ TEST(DoctorDevices, ConvertersAreAtTheirRailOrOutsideOrBroken) {
 
 TEST(DoctorDevices, ABussTimeIsTheSumOfItsDevices) {
   look();
-  // The PWM alone is on it.
+  // Only the PWM is on the bus.
   LONGS_EQUAL(1, times.size());
   CHECK(times.at("i2c-1").count() > 0);
 }
 
 TEST(DoctorDevices, TheAirsSensorReadsWhatTheAirMayBe) {
-  // Buffered: a direct converter whose calls are slow is a problem, however warm the air.
+  // Buffered, because a direct converter with slow calls would be a problem whatever the air.
   text = small_board_with("warmest_C = 30\n",
                           "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', "
                           "C_per_count = 0.01, bus = 'i2c-1'}\n");

@@ -1,4 +1,4 @@
-// What doctor makes of calls, lines and buses.
+// doctor's findings about calls, lines and buses.
 #include <ctime>
 
 #include <CppUTest/TestHarness.h>
@@ -54,7 +54,7 @@ TEST(DoctorFindings, CallsInWhichOthersRanAreNotTheDevices) {
 }
 
 TEST(DoctorFindings, CallsAreTimedOneByOne) {
-  // Slow once, as by an interrupt of the kernel; slow now and then, as a bus is.
+  // Slow once, as when the kernel interrupts it; slow now and then, as a bus is.
   for (const int every : {150, 40}) {
     int calls = 0;
     const auto call = [&] {

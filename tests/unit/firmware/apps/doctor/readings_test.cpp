@@ -53,7 +53,7 @@ TEST(DoctorReadings, NamesTheRailAtWhichItIsStuck) {
   readings = {};
   read({-32768, -32768});
   check_finding("problem", "stuck at the converter's lowest rail", "wire", found(range));
-  // Without its range it is only outside.
+  // If the converter's range is not known, the reading is merely outside its limits.
   check_finding("problem", "must be", "look at its wires", found());
   readings = {};
   read({32767, 32766});

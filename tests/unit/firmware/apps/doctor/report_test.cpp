@@ -36,6 +36,6 @@ TEST(DoctorReport, IsReadByPrograms) {
   STRCMP_EQUAL("light", second["what"].get<std::string>().c_str());
   STRCMP_EQUAL("problem", second["severity"].get<std::string>().c_str());
   STRCMP_EQUAL("name it", second["remedy"].get<std::string>().c_str());
-  // A byte that is no text does not make it unreadable.
+  // A byte that is not text does not make the report unreadable.
   STRCMP_EQUAL("no line '\xef\xbf\xbd\"'", second["found"].get<std::string>().c_str());
 }

@@ -1,4 +1,4 @@
-// Knots of a trajectory as a page sends them, and what it is told of them.
+// Knots of a trajectory as a page sends them, and the answers it gets.
 #include "apps/supercoil/monitor/trajectory_request.hpp"
 
 #include <CppUTest/TestHarness.h>

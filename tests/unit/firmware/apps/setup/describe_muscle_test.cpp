@@ -9,7 +9,7 @@ using namespace supercoil::operating;
 
 namespace {
 
-/// What a bench tells of the paper's muscle.
+/// What a bench would answer for the paper's muscle.
 MuscleAnswers paper_answers() {
   MuscleAnswers a;
   const auto says = [&](Asked what, double value) { a.set(static_cast<std::size_t>(what), value); };
@@ -57,13 +57,13 @@ TEST(DescribeMuscle, ABenchsUnitsAreTheParametersOfTheMuscle) {
 
 TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
   const auto d = describe_muscle(paper_answers());
-  // Each answer is 0.5 to 1.5 times the truth; the heat transfer follows from two of them.
+  // Each answer is 0.5 to 1.5 times the truth; the heat transfer follows from two answers.
   DOUBLES_EQUAL(0.162 / 1.5, bound(*d, "min_mass_J_per_K"), 1e-4);
   DOUBLES_EQUAL(0.162 / 0.5, bound(*d, "max_mass_J_per_K"), 1e-4);
   DOUBLES_EQUAL(0.089 * 0.5 / 1.5, bound(*d, "min_transfer_W_per_K"), 1e-5);
   DOUBLES_EQUAL(0.089 * 1.5 / 0.5, bound(*d, "max_transfer_W_per_K"), 1e-4);
   DOUBLES_EQUAL(0.5, bound(*d, "weighed_mass_error_ratio"), 0.0);
-  // The time in which it cools by half is one answer, and tells of both together.
+  // The time in which the muscle cools by half is one answer; it gives mass over heat transfer.
   DOUBLES_EQUAL(1.25 * 0.162 / 0.089 / 0.5, bound(*d, "max_time_constant_s"), 0.01);
 }
 

@@ -46,7 +46,7 @@ TEST(LatencyHistogram, QuantileIsTheEndOfItsBin) {
   CHECK(histogram.quantile(0.0) == 1us);
   CHECK(histogram.quantile(0.5) == 50us);
   CHECK(histogram.quantile(0.99) == 99us);
-  CHECK(histogram.quantile(1.0) == 99us + 300ns);  // never more than was measured
+  CHECK(histogram.quantile(1.0) == 99us + 300ns);  // never above the measured maximum
 }
 
 TEST(LatencyHistogram, CountsWhatIsTooLongInItsLastBinAndWhatIsNegativeInItsFirst) {
@@ -89,14 +89,14 @@ TEST(LatencyHistogram, BarsOfOneTimeAreOne) {
 
 namespace {
 
-/// A loop over no devices, ticked by hand: late by 3 µs each time.
+/// A loop without devices, ticked by hand, 3 µs late each time.
 struct MeasuredLoop {
   BoardSettings settings;
   InertBoard board;
   Loop loop{settings, board.devices(1)};
   hal_linux::MonotonicClock clock;
 
-  /// As the executive does it.
+  /// Runs ticks as the executive does.
   void run(LatencyMeter& meter, int ticks, long skipped = 0) {
     for (int i = 0; i < ticks; ++i) {
       loop.health().telemetry_heartbeats.fetch_add(1);

@@ -1,4 +1,4 @@
-// What `supercoil` understands of the answers that supercoild gives on the board's socket.
+// How `supercoil` understands the answers that supercoild gives on the board's socket.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -37,7 +37,7 @@ Row row_of_mode(Mode mode, ModeResult result, std::uint8_t notes) {
   return row;
 }
 
-/// Answers as the daemon's thread does, until it goes.
+/// Answers as the daemon's thread does, until destroyed.
 class Served {
  public:
   explicit Served(const Row& row) : rows_(rig_.loop.channels()) {

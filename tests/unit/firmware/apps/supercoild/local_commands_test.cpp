@@ -31,7 +31,7 @@ class Client {
   void say(const std::string& line) const {
     LONGS_EQUAL(line.size(), ::send(socket_.number(), line.data(), line.size(), MSG_NOSIGNAL));
   }
-  /// Empty: nothing has come.
+  /// Empty: nothing has arrived.
   std::string heard() const {
     std::array<char, 8192> text{};
     const ssize_t size = ::recv(socket_.number(), text.data(), text.size(), MSG_DONTWAIT);
@@ -66,14 +66,14 @@ TEST_GROUP(LocalCommands) {
     for (Answer answer; rig.loop.answer(answer);)
       commands.pass(answer, rig.loop);
   }
-  /// The answer of the loop's next tick.
+  /// The answer from the loop's next tick.
   std::string obeyed(const Client& client, const std::string& line) {
     STRCMP_EQUAL("", answer_to(client, line).c_str());
     rig.executive.run_tick();
     pass_answers();
     return client.heard();
   }
-  /// As accepted.
+  /// A client that has been accepted.
   Client client() {
     Client made(path);
     commands.serve(rig.loop, rows, 0);
@@ -93,7 +93,7 @@ TEST(LocalCommands, OwnerAndGroupMayCommandWhateverTheUmask) {
   }
 }
 
-/// Whoever owns the folder can leave anything there before the socket is made.
+/// The owner of the folder can leave anything there before the socket is made.
 TEST(LocalCommands, WhatALinkInItsPlacePointsToStaysAsItWas) {
   folder.write("other", "of somebody else");
   LONGS_EQUAL(0, ::chmod((folder / "other").c_str(), 0600));
@@ -231,7 +231,7 @@ TEST(LocalCommands, WhatBecomesOfATrajectoryIsTold) {
   STRCMP_EQUAL("1 empty 0 0 123456.789012345\n2 empty 0 0 123456.789012345\n",
                answer_to(one, "playback").c_str());
   STRCMP_EQUAL("wrong: channel '3': must be 1 to 2", answer_to(one, "3 knot 0 0.005 0").c_str());
-  // At rest there is nothing that it could follow.
+  // At rest there is no motion that could follow the knot.
   STRCMP_EQUAL("refused: wrong_state", obeyed(one, "1 knot 0 0.005 0").c_str());
 }
 

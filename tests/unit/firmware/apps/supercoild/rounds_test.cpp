@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// When rounds begin, each of which takes so long.
+/// When rounds begin that take this long each.
 std::vector<hal::Time> begins(const std::vector<hal::Duration>& takes) {
   daemon::Rounds rounds(0ns);
   std::vector<hal::Time> all;
@@ -26,7 +26,7 @@ std::vector<hal::Time> begins(const std::vector<hal::Duration>& takes) {
 
 TEST_GROUP(Rounds){};
 
-/// Each tick of 10 ms is seen by the same number of rounds.
+/// The same number of rounds sees each tick of 10 ms.
 TEST(Rounds, BeginOnAGridWhateverTheirWorkTakes) {
   CHECK((begins({0ms, 2700us, 4ms, 100us, 0ms}) ==
          std::vector<hal::Time>{5ms, 10ms, 15ms, 20ms, 25ms}));

@@ -1,4 +1,4 @@
-// What the storage worker stores of a comparison with a meter, and what the next start makes of it.
+// What the storage worker stores after a comparison with a meter, and what the next start reads.
 #include "apps/supercoild/storage_worker.hpp"
 
 #include <cstdio>
@@ -73,7 +73,7 @@ TEST(StorageWorker, DatesAComparisonAndTheNextStartUsesIt) {
   CHECK(next.senses.compared());
   CHECK(next.senses.compared_s >= before);
   CHECK(next.senses.compared_s <= static_cast<double>(std::time(nullptr)));
-  // The muscle was never learned: the configuration's goes on to hold.
+  // The muscle was never learned: the configured one stays valid.
   CHECK_FALSE(next.has_muscle);
   CHECK(next.muscle == settings.firmware.channels[0].muscle);
 }

@@ -1,5 +1,5 @@
-// The daemon's threads over a simulated board in real time: they run under ThreadSanitizer as well.
-// Nothing here is timed: every wait is for something to come about.
+// The daemon's threads over a simulated board in real time; also run under ThreadSanitizer. Nothing
+// here is timed: every wait ends with an event.
 #include <csignal>
 #include <random>
 #include <thread>
@@ -41,9 +41,9 @@ TEST_GROUP(DaemonThreads) {
   void (*hangup_before)(int) = SIG_DFL;
 
   void setup() override {
-    // Ignored, as nohup leaves it also for this program, it would not be blocked.
+    // nohup makes this program ignore the signal too; an ignored signal would not be blocked.
     hangup_before = std::signal(SIGHUP, SIG_DFL);
-    // As the daemon does, before there are threads.
+    // Before there are threads, as in the daemon.
     pthread_sigmask(SIG_BLOCK, nullptr, &before);
     block_ending_signals();
     for (std::size_t i = 0; i < loop.channels(); ++i)
@@ -75,7 +75,7 @@ TEST_GROUP(DaemonThreads) {
     const auto answer = socket.ask(line);
     return answer ? *answer : answer.error().text();
   }
-  /// Keeps rows, as the daemon's main thread does, until the condition holds.
+  /// Records rows, as the daemon's main thread does, until the condition holds.
   template <class Condition>
   void until(const Condition& holds) {
     constexpr int max_rounds = 6000;

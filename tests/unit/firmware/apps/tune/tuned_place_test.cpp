@@ -6,7 +6,7 @@ using namespace supercoil;
 using namespace supercoil::operating;
 
 TEST_GROUP(TunedPlace) {
-  /// A board of these kinds, controllers first.
+  /// A board with controllers and estimators of these kinds.
   static AskTuning board(const std::vector<double>& controllers,
                          const std::vector<double>& estimators) {
     return [=](int place, std::size_t tunable, TuningSet) -> Result<double> {

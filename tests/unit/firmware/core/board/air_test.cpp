@@ -1,4 +1,4 @@
-// The muscle's share of the air's temperature stays between both ends, whatever the air does.
+// The air's share of a muscle's temperature stays between both ends, whatever the air does.
 #include "board/air.hpp"
 
 #include <cmath>

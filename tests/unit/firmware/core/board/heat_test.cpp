@@ -23,7 +23,7 @@ double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_
   return heat.hottest_K();
 }
 
-/// Of a thermometer, at 2 W.
+/// A thermometer reading at 2 W.
 board::ThermalFacts read_at_2_W() {
   board::ThermalFacts facts;
   facts.steady_rise_K = 22.5;
@@ -93,7 +93,7 @@ TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
   DOUBLES_EQUAL(2.0 * found.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
   DOUBLES_EQUAL(2.0 / settings.bounds.max_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
                 1e-5);
-  // The muscle's own mass: half of the way after a time constant times ln 2.
+  // With the muscle's own mass: halfway after ln 2 times its time constant.
   heat.believe(found);
   for (int i = 0; i < static_cast<int>(std::lround(1.5 * std::log(2.0) / tick_s)); ++i)
     heat.step(1.0, 3.0, 2.0);
@@ -117,7 +117,7 @@ TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
     heat.step(1.9, 2.1, 2.0);
   const double hottest_K = heat.hottest_K();
   const double coldest_K = heat.coldest_K();
-  CHECK_COMPARE(hottest_K, <, 30.0);  // without the reading 47 K
+  CHECK_COMPARE(hottest_K, <, 30.0);  // 47 K without the reading
   heat.set_thermal_facts(facts, true_over_measured);
   DOUBLES_EQUAL(hottest_K, heat.hottest_K(), 0.0);
   DOUBLES_EQUAL(coldest_K, heat.coldest_K(), 0.0);
@@ -133,7 +133,7 @@ TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
       heat.step(1.9, 2.1, 2.0, sensed);
     return heat.hottest_K();
   };
-  // Of what the senses tell the reading knows the error; assumed power may be all true.
+  // The reading accounts for the senses' error; assumed power may all be true.
   CHECK_COMPARE(hottest_K(false), >, 1.3 * hottest_K(true));
 }
 
@@ -144,7 +144,7 @@ TEST(HotEnd, OfAReadingBeginsWhereTheMuscleWasKnownToBeBefore) {
   const double before_K = heat.hottest_K();
   heat.set_thermal_facts(read_at_2_W(), {0.96, 1.04});
   DOUBLES_EQUAL(before_K, heat.hottest_K(), 1e-9);
-  // Not at the heat of the boot, which is long over: that would take longer to cool.
+  // Not at the boot's heat, which is long past: from there cooling would take longer.
   for (int i = 0; i < 6'000; ++i)
     heat.step(1.9, 2.1, 2.0);
   CHECK_COMPARE(heat.hottest_K(), <, 0.5 * (before_K + 25.0));

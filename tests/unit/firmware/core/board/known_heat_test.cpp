@@ -23,7 +23,7 @@ ThermalSettings weighed_muscle() {
   return s;
 }
 
-/// Of the paper's muscle, at 2 W.
+/// For the paper's muscle, at 2 W.
 ThermalFacts found_of_paper() {
   ThermalFacts facts;
   facts.time_constant_s = 0.162 / 0.089;
@@ -51,7 +51,7 @@ TEST(KnownThermalBounds, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
   const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
   DOUBLES_EQUAL(0.97 * 0.162, known.bounds.min_mass_J_per_K, 1e-12);
   DOUBLES_EQUAL(1.03 * 0.162, known.bounds.max_mass_J_per_K, 1e-12);
-  // 2 W are 22.5 K.
+  // 2 W correspond to 22.5 K.
   DOUBLES_EQUAL(0.97 * 0.089 / 1.25, known.min_heat_transfer_W_per_K(22.5), 1e-9);
   DOUBLES_EQUAL(1.03 * 0.089 * 1.25, known.max_heat_transfer_W_per_K(22.0), 1e-9);
   CHECK_COMPARE(known.min_heat_transfer_W_per_K(5.0), <, known.min_heat_transfer_W_per_K(16.0));
@@ -65,7 +65,7 @@ TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseToThat) 
   const double most = 1.03 * 0.089 * 1.25;
   DOUBLES_EQUAL(least, known.min_heat_transfer_W_per_K(0.701 * mean_K), 1e-9);
   DOUBLES_EQUAL(most, known.max_heat_transfer_W_per_K(0.999 * mean_K), 1e-9);
-  // Colder it may be less, hotter more, as the cube root of the rise.
+  // The heat transfer may be less when colder and more when hotter, as the cube root of the rise.
   DOUBLES_EQUAL(least * std::cbrt(6.0 / 7.0), known.min_heat_transfer_W_per_K(0.6 * mean_K), 1e-9);
   DOUBLES_EQUAL(most * std::cbrt(1.05), known.max_heat_transfer_W_per_K(1.05 * mean_K), 1e-9);
 }
@@ -106,7 +106,7 @@ TEST(KnownThermalBounds, InMeasuredPowerAreDividedByWhatTheTruePowerIsOverIt) {
   LONGS_EQUAL(2, read.count);
   DOUBLES_EQUAL(known.spans[0].min_W_per_K / most, read.spans[0].min_W_per_K, 1e-12);
   DOUBLES_EQUAL(known.spans[0].max_W_per_K / least, read.spans[0].max_W_per_K, 1e-12);
-  // The reading itself is in measured power already.
+  // The reading itself is already in measured power.
   DOUBLES_EQUAL(1.5 / 18.0, read.spans[1].min_W_per_K, 1e-12);
   DOUBLES_EQUAL(1.6 / 16.0, read.spans[1].max_W_per_K, 1e-12);
 }
@@ -125,7 +125,7 @@ TEST_GROUP(SteadyState) {
   ThermalSettings settings;
   ThermalFacts facts;
 
-  /// Held at 1.5 W for so long; the slowest that the bounds allow takes 4.4 s.
+  /// Holds 1.5 W for this time; the slowest muscle within the bounds takes 4.4 s.
   SteadyState held(double time_s) const {
     SteadyState steady(settings, tick_s);
     hold(steady, time_s);
@@ -142,7 +142,7 @@ TEST(SteadyState, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
   CHECK_FALSE(facts.has_reading());
   CHECK(held(23.0).read(17.0, compared_power, facts) == Refusal::none);
   DOUBLES_EQUAL(17.0, facts.steady_rise_K, 0.0);
-  // The thermometer's kelvin, and what is left of 40 K after five time constants.
+  // The thermometer's kelvin, plus what remains of 40 K after five time constants.
   DOUBLES_EQUAL(1.0 + 40.0 * std::exp(-5.0), facts.steady_error_K, 1e-9);
   DOUBLES_EQUAL(1.5, facts.steady_min_W, 1e-9);
   DOUBLES_EQUAL(1.51, facts.steady_max_W, 1e-9);
@@ -183,7 +183,7 @@ TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {
   for (const double rise_K : {-17.0, 0.5, 2.0, 6.0, 40.0, 170.0, 1e9, std::nan("")})
     CHECK(steady.read(rise_K, compared_power, facts) == Refusal::out_of_range);
   CHECK_FALSE(facts.has_reading());
-  // Of a muscle whose time constant is known with its mass, less is possible.
+  // For a muscle whose time constant and mass are known, the range is narrower.
   settings = weighed_muscle();
   facts = found_of_paper();
   const SteadyState known = held(30.0);
@@ -205,7 +205,7 @@ TEST(SteadyState, AllowsForWhatTheSensesErrByBeforeItRefuses) {
 TEST_GROUP(HeatThatWasRead) {
   ThermalSettings settings;
 
-  /// Held at a power for good, with senses that tell 2 % too much of it or too little.
+  /// Held at a power for good, with senses that read 2 % too high or too low.
   static Heat held(const ThermalSettings& settings, const ThermalFacts& facts,
                    double measured_power_W) {
     Heat heat(settings, {}, tick_s);
@@ -221,7 +221,7 @@ TEST_GROUP(HeatThatWasRead) {
 TEST(HeatThatWasRead, DoesNotSufferFromTheSensesErrors) {
   const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   const Heat heat = held(settings, facts, 1.5);
-  // At the power at which it was read, what is left is what the thermometer errs by.
+  // At the power of the reading, only the thermometer's error remains.
   DOUBLES_EQUAL(17.85, heat.hottest_K(), 0.5);
   DOUBLES_EQUAL(15.85, heat.coldest_K(), 0.5);
   CHECK_COMPARE(heat.hottest_K(), >=, 17.85);

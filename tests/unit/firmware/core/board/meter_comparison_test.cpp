@@ -9,7 +9,7 @@
 using namespace supercoil;
 using board::MeterComparison;
 
-/// A board whose senses tell so much of the truth, and a person with a good meter.
+/// A board whose senses read a given fraction of the truth, and a person with a good meter.
 TEST_GROUP(MeterComparison) {
   static constexpr double step_s = 1e-3;
   static constexpr double supply_V = 12.0;
@@ -44,8 +44,8 @@ TEST_GROUP(MeterComparison) {
     check(Refusal::none, volts(supply_V));
     check(Refusal::none, amperes(line_A()));
   }
-  /// A sense of current that tells whole counts, so many at the first power before they are rounded
-  /// down or up. typed: what is written down of what the meter shows, at each power.
+  /// A current sense that gives whole counts; `counts` is the unrounded number at the first power.
+  /// typed: the meter's reading as the person types it, over the truth, at each power.
   std::optional<board::SenseComparison> compare_in_counts(double counts, double ratio,
                                                           const std::array<double, 2>& typed) {
     MeterComparison::Settings coarse = settings;
@@ -62,7 +62,7 @@ TEST_GROUP(MeterComparison) {
     }
     return comparison.found();
   }
-  /// After a refusal the readings from before it are worth nothing.
+  /// After a refusal, the readings before it are discarded.
   void check_forgotten() {
     hold(0.2);
     read_both();
@@ -197,7 +197,7 @@ TEST(MeterComparison, AResistanceThatIsNotTheConfiguredOneIsRefused) {
   for (const double meter_A : {0.99 * min_A, 1.01 * max_A, 1.01 * min_A, 0.99 * max_A}) {
     const bool fits = meter_A > min_A && meter_A < max_A;
     hold(0.1);
-    current_told = meter_A / line_A();  // so that the gain is no reason
+    current_told = meter_A / line_A();  // so that the gain is not the reason
     hold(0.1);
     check(Refusal::none, volts(supply_V));
     check(fits ? Refusal::none : Refusal::out_of_range, amperes(meter_A));
@@ -226,7 +226,7 @@ TEST(MeterComparison, WhatTheSensesCannotResolveRemainsAsError) {
   DOUBLES_EQUAL(0.06, comparison.found()->error_ratio, 1e-9);
 }
 
-/// A converter without noise tells whole counts, and each power lies between two of its own.
+/// A converter without noise gives whole counts, and each power lies between two of them.
 TEST(MeterComparison, WholeCountsAreNoReasonToRefuse) {
   supply_told = 1.0;
   for (int i = 0; i < 400; ++i) {
@@ -235,7 +235,7 @@ TEST(MeterComparison, WholeCountsAreNoReasonToRefuse) {
       const auto found = compare_in_counts(counts, ratio, {1.0, 1.0});
       CHECK(found.has_value());
       CHECK_COMPARE(std::abs(found->current_gain - 1.0), <=, found->error_ratio);
-      // No more than what a count, a meter and two powers leave.
+      // Not more than a count, a meter and two powers account for.
       CHECK_COMPARE(found->error_ratio, <=, 0.02 + 1.0 / (counts - 0.5));
     }
   }
@@ -283,7 +283,7 @@ TEST(MeterComparison, FollowsTheSensesAsSlowlyAsAMetersDisplay) {
   supply_told = current_told = 1.0;
   for (const double d : {0.1, 0.2}) {
     hold(d, 3.0);
-    // A time constant of half a second later 63 % of a change are there.
+    // Half a second later, one time constant, 63 % of a change has arrived.
     for (int i = 0; i < 500; ++i)
       comparison.step(duty, 0.99 * supply_V, line_A());
     read_both();

@@ -32,7 +32,7 @@ PowerBounds compared(double error_ratio) {
   return bounds;
 }
 
-/// What a board reads of a heater of 10 Ohm, and the power that it really has.
+/// What a board reads from a heater of 10 Ohm, and its true power.
 struct Reading {
   double duty;
   double supply_V;
@@ -67,7 +67,7 @@ TEST(PowerBounds, HoldTheTruthWhateverTheSensesHideUntilTheyWereCompared) {
 
 TEST(PowerBounds, HoldTheTruthWithinWhatAComparisonLeft) {
   CHECK(rc::check("gains within the remaining error", [] {
-    // Measured over true is 1 over the ratio that the comparison bounds.
+    // Measured over true is the inverse of the ratio that the comparison bounds.
     const double supply_gain = 1.0 / *test::reals(0.97, 1.03);
     const double current_gain = 1.0 / *test::reals(0.97, 1.03);
     check_holds(compared(0.03), read(*test::reals(0.0, 1.0), 12.0, supply_gain, current_gain));
@@ -117,10 +117,10 @@ TEST(PowerBounds, WithoutAReadingAreTheGreatestPower) {
 }
 
 TEST(PowerBounds, OfSensesThatWereNotComparedHaveTheLeastThatTheDutyCanGive) {
-  // The sense tells of more current than the duty can make: the duty has the lower end.
+  // The sense reads more current than the duty allows: the duty sets the lower bound.
   const auto power_W = PowerBounds(settings()).step(0.3, 12.0, present(0.5), {cold_Ohm, cold_Ohm});
   DOUBLES_EQUAL(0.3 * 10.8 * 10.8 / (1.3 * cold_Ohm), power_W.min, 1e-9);
-  // And where it tells of less, the sense, less what may be noise.
+  // Where it reads less, the sense sets it, reduced by possible noise.
   const auto less_W = PowerBounds(settings()).step(0.3, 12.0, present(0.31), {cold_Ohm, cold_Ohm});
   DOUBLES_EQUAL(10.8 * 0.3 * (10.8 / 12.0) / 1.3, less_W.min, 1e-9);
 }

@@ -10,7 +10,7 @@ TEST_GROUP(PowerStage){};
 
 TEST(PowerStage, DutyIsPowerTimesResistanceOverVoltageSquared) {
   PowerStage stage({1000000, false});
-  // The mistake that others made: √(1.5·10)/12 = 0.323 would give 4.6 W.
+  // Other projects made this mistake: √(1.5·10)/12 = 0.323 would give 4.6 W.
   const auto out = stage.step(1.5, 10.0, 12.0, 1e3);
   DOUBLES_EQUAL(1.5 * 10.0 / 144.0, out.duty, 1e-6);
   DOUBLES_EQUAL(1.5, out.applied_W, 1e-5);

@@ -87,7 +87,7 @@ TEST(Probe, MeasuresInItsSecondHalfAndEnds) {
   Probe::Result result;
   while (!result.ended) {
     ++ticks;
-    // The first half is still wrong: the sense settles.
+    // The first half is still wrong because the sense has not settled.
     result = probe.step(0.02, 12.0, ticks <= 25 ? 0.005 : 0.024);
   }
   LONGS_EQUAL(50, ticks);

@@ -1,4 +1,4 @@
-// What holds where a board's file says nothing.
+// The defaults that apply where a board's file says nothing.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -22,7 +22,7 @@ TEST(DefaultSettings, OfABoard) {
   DOUBLES_EQUAL(1000.0, board.rate_Hz, 0.0);
   DOUBLES_EQUAL(1e-3, board.step_s(), 0.0);
   LONGS_EQUAL(1, board.channels.size());
-  // A count is a unit, and a value is ten periods old at most.
+  // A count is a unit, and a value may be ten periods old.
   for (const InputSettings& input :
        {board.supply, board.air, board.channels[0].position, board.channels[0].heater.current}) {
     DOUBLES_EQUAL(1.0, input.scaling.per_count, 0.0);
@@ -89,7 +89,7 @@ TEST(DefaultSettings, OfAMusclesHeatNarrowNothing) {
   DOUBLES_EQUAL(0.0, thermal.mass_error_ratio, 0.0);
   DOUBLES_EQUAL(0.25, thermal.time_constant_error_ratio, 0.0);
   DOUBLES_EQUAL(1.0, thermal.thermometer_error_K, 0.0);
-  // In the warmest air that is 160 °C, where nothing heats.
+  // In the warmest air this is 160 °C, where nothing heats.
   DOUBLES_EQUAL(135.0, thermal.boot_rise_K, 0.0);
   DOUBLES_EQUAL(25.0, thermal.air.warmest_C, 0.0);
   DOUBLES_EQUAL(15.0, thermal.air.coldest_C, 0.0);
@@ -105,7 +105,7 @@ TEST(DefaultSettings, OfALimiter) {
   DOUBLES_EQUAL(160.0, limiter.derate_to_C, 0.0);
 }
 
-/// What docs/faults/ does not tell.
+/// docs/faults/ does not mention this value.
 TEST(DefaultSettings, OfTheNoiseOfACurrentSense) {
   DOUBLES_EQUAL(0.01, ChannelSupervision{}.current_noise_A, 0.0);
 }
@@ -116,7 +116,7 @@ TEST(DefaultSettings, OfAProof) {
   DOUBLES_EQUAL(1.0, proof.max_power_ratio, 0.0);
   DOUBLES_EQUAL(1.0, proof.response_ratio, 0.0);
   DOUBLES_EQUAL(ChannelSupervision{}.responding_min_m, proof.obvious_m, 0.0);
-  // No muscle has a power by these: who wants a proof gives the limits.
+  // These limits give a muscle no power: a caller that wants a proof must set them.
   for (const double limit :
        {proof.max_W, proof.derate_from_C, proof.trip_C, proof.position_noise_rms_m, proof.count_m})
     DOUBLES_EQUAL(0.0, limit, 0.0);

@@ -19,7 +19,7 @@ std::vector<control::EstimatorSettings> two_alike() {
   return {one, one};
 }
 
-/// A muscle that is moved, from one tick to another.
+/// Moves a muscle from one tick to another.
 void move(Estimation& estimation, int from, int to) {
   for (int i = from; i < to; ++i) {
     const double angle = 2.0 * tick_s * i;

@@ -1,4 +1,4 @@
-// What is predicted of a muscle is what its model does.
+// The predictions for a muscle agree with its model.
 #include "loop/feasibility.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ TEST_GROUP(Feasibility) {
   double gain_m_per_W() const {
     return channel.muscle.dc_gain_m_per_W();
   }
-  /// Seconds until the muscle's rise in temperature moves it to a position, from where it is.
+  /// Seconds until the temperature rise moves the muscle from its position to the target.
   double time_to(double target_m, double& position_m, double power_W) const {
     constexpr double step_s = 1e-5;
     const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
@@ -31,7 +31,7 @@ TEST_GROUP(Feasibility) {
       position_m += (gain_m_per_W() * power_W - load_m(channel) - position_m) * step_s / tau_s;
     return time_s;
   }
-  /// All the power, or none, is what it needs at its ends.
+  /// At its extremes the sine must need exactly full power or none.
   void check_fastest_sine(const Feasibility& f) const {
     const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
     const double omega = 2.0 * std::numbers::pi / f.half_travel_period_s;
@@ -49,7 +49,7 @@ TEST_GROUP(Feasibility) {
     CHECK(max_W < f.max_W + 1e-6);
     CHECK(min_W < 1e-6 || max_W > f.max_W - 1e-6);
   }
-  /// Whether a step through the controller's model stays within the power that there is.
+  /// Whether a step through the controller's model stays within the available power.
   bool is_feasible(double from_m, double to_m, double max_W) const {
     constexpr double step_s = 1e-4;
     const control::ControllerSettings& controller = channel.controllers[0];
@@ -108,7 +108,7 @@ TEST(Feasibility, TheFastestSineNeedsAllThePowerOrNone) {
   check_fastest_sine(found());
 }
 
-/// Of a muscle that carries what only a simulation knows.
+/// For a muscle with a load that only a simulation knows.
 TEST(Feasibility, ALoadTakesPowerToHoldAndGivesPowerToFall) {
   channel.supervision.proof_of_response = false;
   const Feasibility free = found();
@@ -122,7 +122,7 @@ TEST(Feasibility, ALoadTakesPowerToHoldAndGivesPowerToFall) {
   check_fastest_sine(f);
   channel.controllers[0].model = control::poles_model({9.0, 9.0, 9.0});
   CHECK(found().steps[0]->up_m < free.steps[0]->up_m);
-  // One that lifts holds it up, where it does not fall to.
+  // A load that lifts holds the muscle up, so that it never falls to the target.
   channel.simulated.load_N = -0.2;
   CHECK_TRUE(std::isinf(found().fall_s));
   CHECK_TRUE(std::isinf(found().half_travel_period_s));
@@ -167,7 +167,7 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   CHECK(f.rest_seen);
   channel.supervision.min_position_m = -0.0080;
   CHECK_FALSE(found().rest_seen);
-  // Read twice as small by a sensor that shows 2 mm at rest.
+  // A sensor that reads half the motion and shows 2 mm at rest.
   channel.calibration.position_offset_m = 0.002;
   channel.calibration.position_scale = 2.0;
   channel.supervision.min_position_m = -0.0021;
@@ -181,14 +181,14 @@ TEST(Feasibility, InTheColdestAirItIsHeldSoMuchLower) {
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 20.0};
   const Feasibility f = found();
   DOUBLES_EQUAL(f.travel_m - f.air_shift_m, f.cold_travel_m, 1e-12);
-  // A sensor tells that it is cold: then it gets as much as where it is never warmer than that.
+  // With a sensor that reads cold air, the muscle gets as much as where it is never warmer.
   channel.thermal.air.error_K = 1.0;
   const Feasibility measured = found();
   channel.thermal.air = {.warmest_C = 22.0, .coldest_C = 22.0};
   DOUBLES_EQUAL(found().travel_m - measured.air_shift_m, measured.cold_travel_m, 1e-12);
   CHECK(measured.cold_travel_m > f.cold_travel_m);
   DOUBLES_EQUAL(f.travel_m, measured.travel_m, 0.0);
-  // A wide span leaves nothing.
+  // With such a wide span nothing is left.
   channel.thermal.air = {.warmest_C = 70.0, .coldest_C = -30.0};
   DOUBLES_EQUAL(0.0, found().cold_travel_m, 0.0);
 }
@@ -198,7 +198,7 @@ TEST(Feasibility, HeldStillTheWorstCooledMusclePullsHardest) {
   channel.thermal.bounds.min_transfer_W_per_K = 0.045;
   channel.muscle.force_per_kelvin_N_per_K = 0.01;
   DOUBLES_EQUAL(0.01 * 0.9 / 0.045, hottest_pull_N(channel, 0.9), 1e-12);
-  // No hotter than it may become, above the coldest air.
+  // Not hotter than it may become, above the coldest air.
   channel.supervision.trip_C = 30.0;
   DOUBLES_EQUAL(0.01 * (30.0 - 15.0), hottest_pull_N(channel, 0.9), 1e-12);
 }

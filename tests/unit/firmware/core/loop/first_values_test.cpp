@@ -1,5 +1,5 @@
-// What is told before anything is measured, asked for or configured: nothing is wrong, nothing is
-// known, and nothing is on.
+// The values before anything is measured, commanded or configured: no fault, nothing known, nothing
+// on.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -185,7 +185,7 @@ TEST(FirstValues, OfASmallSignalThatWasNeverStartedAreNoMotion) {
   SmallSignal measuring;
   CHECK_FALSE(measuring.running());
   check_all_0({measuring.power_W(), measuring.response_ratio()});
-  // Without a start nothing is waited for, whatever is measured.
+  // Without a start it waits for nothing, whatever is measured.
   for (int i = 0; i < 100; ++i)
     CHECK_FALSE(measuring.step(0.01, 1.0));
   DOUBLES_EQUAL(0.0, measuring.power_W(), 0.0);

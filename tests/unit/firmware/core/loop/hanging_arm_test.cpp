@@ -1,4 +1,4 @@
-// One muscle that lifts an arm, and nothing but its weight that draws it back.
+// One muscle that lifts an arm; only the arm's weight draws it back.
 #include "loop/hanging_arm.hpp"
 
 #include <array>
@@ -64,7 +64,7 @@ TEST(HangingArm, TipsOverWhereTheWeightEasesByMoreThanTheMuscle) {
   setup();
   const double upright_rad = std::acos(-own_N_per_m * lever_m * lever_m / weight_Nm);
   DOUBLES_EQUAL((upright_rad + hangs_at_rad) * lever_m, arm().tips_over_m(max_m), 1e-3 * max_m);
-  // Whatever there is of power.
+  // However much power is available.
   DOUBLES_EQUAL(arm().tips_over_m(max_m), arm().held_m(1e3, max_m), 0.0);
 }
 

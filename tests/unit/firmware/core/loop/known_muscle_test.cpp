@@ -63,7 +63,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(1795219200.0, identified[known_identified], 0.0);
   for (std::size_t i = 0; i < 5; ++i)
     DOUBLES_EQUAL(0.1 * static_cast<double>(i + 1), identified[known_theta1_deviation + i], 1e-15);
-  // Of θ1 that was kept, and of a muscle that nobody identified.
+  // θ1 was kept rather than measured, and nobody identified the muscle.
   const KnownMuscle kept = known_muscle({}, {}, 0.0, 0.5, {{0.0, 0.2, 0.3, 0.4}}, {{}, 8.0, {}});
   for (const std::size_t unknown : {known_theta1_deviation, known_identified})
     CHECK(std::isnan(kept[unknown]));

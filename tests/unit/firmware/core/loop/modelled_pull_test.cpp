@@ -28,7 +28,7 @@ TEST(ModelledPull, IsPretensionAndHeatLessWhatItsOwnStiffnessTakes) {
     pull.step(1.5, 1e-3, muscle);
   DOUBLES_EQUAL(1.5, pull.heat_W(), 1e-3);
   DOUBLES_EQUAL(0.3 + 0.15, pull.at_N(0.0, muscle), 1e-4);
-  // After a time constant of 2 s.
+  // After one time constant of 2 s.
   for (int i = 0; i < 2000; ++i)
     pull.step(0.0, 1e-3, muscle);
   DOUBLES_EQUAL(1.5 * std::exp(-1.0), pull.heat_W(), 1e-3);

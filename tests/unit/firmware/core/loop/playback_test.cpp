@@ -1,4 +1,4 @@
-// A trajectory that is loaded, started, played to its end, or not.
+// A trajectory that is loaded, started and played to its end, or refused.
 #include "loop/playback.hpp"
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST_GROUP(Playback) {
   Refusal start(hal::Duration after = 10ms, Source source = Source::can) {
     return playback.start(now + after, now, 0.005, source).refusal;
   }
-  /// Where it is so much later.
+  /// The position this much later.
   double step(hal::Duration later) {
     double position_m = 0.0;
     for (const hal::Time end = now + later; now < end;) {
@@ -117,14 +117,14 @@ TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
   CHECK(add(1.0, 0.005, std::nan("")) == Refusal::out_of_range);
   CHECK(add(std::nan(""), 0.005) == Refusal::out_of_range);
   CHECK(add(-1.0, 0.005) == Refusal::out_of_range);
-  // The way to the last knot was possible, and is not as this one bends it.
+  // The way to the previous knot was feasible, but this knot bends it too far.
   CHECK(add(0.5, 0.0055, 0.002) == Refusal::none);
   CHECK(add(0.05, 0.0055, 0.0) == Refusal::infeasible);
   LONGS_EQUAL(control::Trajectory::capacity - 2, playback.status().room);
 }
 
 TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
-  const double hold_W = able.theta[3] * 0.006;  // 6 mm for good
+  const double hold_W = able.theta[3] * 0.006;  // to hold 6 mm permanently
   able.range.max_W = hold_W / 1.04;
   CHECK(add(0.0, 0.006) == Refusal::none);
   CHECK(add(5.0, 0.006) == Refusal::none);
@@ -133,7 +133,7 @@ TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
 }
 
 TEST(Playback, RefusesAWayThatLeavesTheTravelBetweenItsKnots) {
-  able.range = {-9.0, 9.0};  // of a joint
+  able.range = {-9.0, 9.0};  // for a joint
   CHECK(add(0.0, 0.0229) == Refusal::none);
   CHECK(add(2.0, 0.0249, 0.001) == Refusal::none);
   CHECK(add(2.0, 0.0249, -0.001) == Refusal::infeasible);
@@ -157,7 +157,7 @@ TEST(Playback, StartsOnceFromItsFirstKnotAndNotInThePast) {
   CHECK(start() == Refusal::wrong_state);
   CHECK(add(0.0, 0.005) == Refusal::busy);
   step(5s);
-  // Ended: another may follow.
+  // Playback has ended: another trajectory may follow.
   CHECK(add(0.0, 0.006) == Refusal::none);
   CHECK(state() == PlaybackState::loaded);
 }
@@ -175,7 +175,7 @@ TEST(Playback, TakesNoMoreKnotsThanItHasRoomFor) {
 
 TEST(Playback, FollowsTheClockOfItsBusWithoutAJump) {
   load();
-  playback.align(0.005);  // of an earlier one
+  playback.align(0.005);  // for an earlier trajectory
   start(1ms);
   step(501ms);
   const double x = 0.5 / 2.0;
@@ -184,7 +184,7 @@ TEST(Playback, FollowsTheClockOfItsBusWithoutAJump) {
   playback.align(0.0002);
   const double before_m = step(1ms);
   CHECK(step(1ms) - before_m < 1.1 * (before_m - 0.005) / 100.0);
-  // 0.2 ms ahead after 0.2 s; another's clock is not followed.
+  // 0.2 ms ahead after 0.2 s; the offsets of another clock are ignored.
   step(498ms);
   for (const double others_s : {0.011, -0.011, std::nan(""), static_cast<double>(INFINITY)}) {
     playback.align(others_s);
@@ -200,7 +200,7 @@ TEST(Playback, ThatTheBoardItselfStartedGoesByTheBoardsClock) {
   load();
   start(1ms, Source::local);
   step(1ms);
-  playback.align(0.009);  // by a start over a bus before it
+  playback.align(0.009);  // by an earlier start over a bus
   step(1000ms);
   DOUBLES_EQUAL(0.0055, playback.step(now, 0.005), 1e-9);
 }

@@ -34,7 +34,7 @@ TEST_GROUP(Promise) {
     return promised().unexplained_m;
   }
 
-  /// Of the motion, by the linear muscle: power is the position and its rate.
+  /// The power of the motion for the linear muscle, from the position and its rate.
   double power_W(double time_s) const {
     constexpr double step_s = 1e-3;
     const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
@@ -81,7 +81,7 @@ TEST(Promise, ASensorsNoiseIsInWhatItShows) {
   CHECK(error_m < 20e-6);
   channel.supervision.position_noise_rms_m = 100e-6;
   CHECK(promised().error_m() > 100e-6);
-  // The noise of counts alone.
+  // Only the noise of counts.
   channel.supervision.position_noise_rms_m = 0.0;
   channel.position.scaling.per_count = -100e-6;
   CHECK(promised().noise_m > 100e-6 / std::sqrt(12.0));
@@ -94,7 +94,7 @@ TEST(Promise, WhatTheModelLeavesCountsByTheMotionsSize) {
   DOUBLES_EQUAL(2.0 * small_m, unexplained_m(0.01), 1e-12);
   motion.amplitude_m *= 3.0;
   DOUBLES_EQUAL(3.0 * small_m, unexplained_m(0.0025), 1e-12);
-  // Stored without it: as bad as identify lets pass. Never identified: as of most muscles.
+  // Stored without the ratio: as bad as identify accepts. Never identified: as of most muscles.
   DOUBLES_EQUAL(unexplained_m(modes::Identify::Settings{}.max_unexplained), unexplained_m(0.0),
                 1e-12);
   channel.muscle_identified = false;
@@ -108,7 +108,7 @@ TEST(Promise, AProbeCountsOnlyWhereThePowerIsLowForLong) {
   motion.period_s = 60.0;
   motion.middle_m = 0.6e-3;
   motion.amplitude_m = 0.4e-3;
-  // 2 % of 13.2 V at 10 Ω for 50 ms, through a first order of 1.82 s.
+  // Caused by 2 % of 13.2 V at 10 Ω for 50 ms, through a first-order lag of 1.82 s.
   const double peak_m =
       channel.muscle.dc_gain_m_per_W() * 0.02 * 13.2 * 13.2 / 10.0 * 0.05 / (0.162 / 0.089);
   DOUBLES_EQUAL(peak_m, promised().probe_m, 1e-9);
@@ -125,7 +125,7 @@ TEST(Promise, AMotionThatTellsNothingIsDithered) {
 }
 
 TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
-  // Of 13.2 V at 10 Ω, through a first order of 1.82 s.
+  // A step of 13.2 V at 10 Ω, through a first-order lag of 1.82 s.
   channel.heater.pwm_steps = 255;
   const double step_m = channel.muscle.dc_gain_m_per_W() * 13.2 * 13.2 / 10.0 / 255.0;
   const double tau_s = 0.162 / 0.089;
@@ -135,7 +135,7 @@ TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
   const double bandwidth = channel.controllers[0].learned_ff.bandwidth_rad_per_s;
   DOUBLES_EQUAL(step_m / std::sqrt(12.0) / (bandwidth * tau_s), promised().pwm_m, 1e-12);
   CHECK(promised().error_m() > 1.1 * fed_back_m);
-  // No rounding moves it by more than it holds for good.
+  // A rounding cannot move it by more than the same power would in steady state.
   channel.controllers[0].learned_ff.bandwidth_rad_per_s = 0.1;
   DOUBLES_EQUAL(step_m / std::sqrt(12.0), promised().pwm_m, 1e-12);
 }
@@ -152,7 +152,7 @@ TEST(Promise, PowerThatComesLateCountsByHowFarTheMotionGoesMeanwhile) {
 
 TEST(Promise, ALoopThatRingsIsPromisedNothing) {
   CHECK_TRUE(is_promised_for(channel.controllers[0], channel, board.step_s()));
-  // Still stable.
+  // The loop stays stable.
   const auto modulus = [&] {
     const auto margin = margin_of(channel.controllers[0], channel, board.step_s());
     return margin && margin->stable() ? margin->modulus : 0.0;
@@ -193,7 +193,7 @@ TEST(Promise, AProbeDoesNotCountInALongMotionThatIsNeverCold) {
   motion.middle_m = 6e-3;
   motion.amplitude_m = 0.4e-3;
   DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
-  // Cold for half of the time: that is longer than it takes to probe again, or not.
+  // Cold for half of the time, which is just longer or just shorter than the probe interval.
   const double probe_W = 0.02 * 13.2 * 13.2 / channel.heater.cold_resistance_Ohm;
   motion.middle_m = probe_W * channel.muscle.dc_gain_m_per_W();
   motion.period_s = 2.0 * channel.heater.probe_every_s + 0.1;

@@ -1,4 +1,4 @@
-// A row has each quantity of its snapshot, in its own place.
+// A row has each quantity of its snapshot in its own place.
 #include "loop/row.hpp"
 
 #include <array>

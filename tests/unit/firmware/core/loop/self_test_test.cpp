@@ -13,7 +13,7 @@ namespace {
 
 constexpr double idle_A = 0.007;
 
-/// Runs it on a board whose current depends on what the lines are.
+/// Runs the self-test on a board whose current depends on the lines.
 template <class Current>
 SelfTest::Outcome outcome(Current current) {
   SelfTest test({0.02}, tick_s);
@@ -41,7 +41,7 @@ TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
   CHECK(outcome(current) == SelfTest::Outcome::enable_does_not_cut);
 }
 
-/// Each by itself: what did not flow in the first pulse makes up for nothing in the second.
+/// Each pulse is judged by itself: a low current in the first cannot offset the second.
 TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
   const auto past_pump = [](SelfTest::Lines l) { return l.pulse && l.enable ? 1.5 * idle_A : 0.0; };
   CHECK(outcome(past_pump) == SelfTest::Outcome::pump_does_not_open);
@@ -51,7 +51,7 @@ TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
   CHECK(outcome(past_enable) == SelfTest::Outcome::enable_does_not_cut);
 }
 
-/// What did not flow before it was interrupted makes up for nothing either.
+/// Nor can a low current from before an interruption.
 TEST(SelfTest, BeginsItsMeansAnewAfterAnInterruption) {
   SelfTest test({0.02}, tick_s);
   int pulse_ticks = 0;
@@ -166,7 +166,7 @@ TEST(SelfTest, ThatHasFailedLeavesEveryLineLow) {
   }
 }
 
-/// The mean over the second half of a pulse counts, wherever in it the noise is.
+/// Only the mean over the second half of a pulse counts, wherever the noise is within it.
 TEST(SelfTest, IsNotDecidedByTheLastReadingOfAPulse) {
   for (const bool only_last : {true, false}) {
     SelfTest test({0.02}, tick_s);

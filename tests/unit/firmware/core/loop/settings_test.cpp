@@ -132,7 +132,7 @@ TEST(BoardSettingsCheck, WhatFixedPointHoldsDependsOnTheTravelThePowerAndTheStep
   STRCMP_EQUAL("gain", check(controller, channel, 1e-12)->key.c_str());
 }
 
-/// Of whatever law and model it was made, and whatever was changed underway.
+/// From any law and model, with any values changed at run time.
 TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
   const auto with = [](std::size_t kind, double model, double factor) {
     control::ControllerSettings c;
@@ -270,7 +270,7 @@ TEST(AppliedSettings, OfMoreThanFourControllersTheFirstFourAreTuned) {
   for (control::ControllerSettings& controller : channel.controllers)
     controller.kind = control::ControllerKind::pi;
   learned.tuning.controllers[3].values[integral] = 800.0;
-  learned.tuning.estimators[0].values[integral] = 700.0;  // of a controller, and so of nobody
+  learned.tuning.estimators[0].values[integral] = 700.0;  // a controller's value, so nobody uses it
   apply_learned(channel, learned);
   DOUBLES_EQUAL(800.0, channel.controllers[3].pi.integral_W_per_m_s, 0.0);
   DOUBLES_EQUAL(1100.0, channel.controllers[4].pi.integral_W_per_m_s, 0.0);

@@ -40,7 +40,7 @@ TEST(Smoothed, TakesHalfOfAJumpInAStepThatIsAsLongAsItsTimeConstant) {
   DOUBLES_EQUAL(2.0 * 0.5 - 0.25, smoothed.value(), 1e-12);
 }
 
-/// Of a muscle that rests where it shall be, with the power that holds it there.
+/// A muscle at rest at its reference, with the power that holds it there.
 TEST_GROUP(Tracking) {
   control::PhysicalParameters muscle;
   Tracking tracking{two_laws(), muscle, tick_s};

@@ -1,4 +1,4 @@
-// What of a controller's or an estimator's values is prepared, in use, configured and stored.
+// The prepared, used, configured and stored values of a controller or an estimator.
 #include "loop/tuner.hpp"
 
 #include <cmath>
@@ -90,7 +90,7 @@ TEST(Tuner, WhatIsClearedIsStoredNoMoreOnceTheLoopHasDoneIt) {
     tuner.conclude({clear, refusal});
   }
   DOUBLES_EQUAL(configured, tuner.value(TuningSet::stored, 0, integral), 0.0);
-  // What stores or forgets the muscle has nothing to do with it.
+  // Commands that store or forget the muscle do not affect the tuning.
   for (const double muscles : {0.0, 1.0}) {
     Command other = command(Verb::store, muscles);
     tuner.add_to(other, muscle);
@@ -138,7 +138,7 @@ TEST(Tuner, AnEstimatorBeginsAtTheMuscleThatIsKnownNow) {
   tuner.add_to(tune, known);
   tuner.conclude({tune, Refusal::none});
   DOUBLES_EQUAL(0.1, tuner.value(TuningSet::in_use, place, trusted), 0.0);
-  // Where it begins is no value of it.
+  // The start of an estimate is not one of its values.
   CHECK(tuner.prepare_from(TuningSet::configured, place));
   DOUBLES_EQUAL(0.2, tuner.value(TuningSet::prepared, place, trusted), 0.0);
 

@@ -1,4 +1,4 @@
-// When calibrate takes the zero, and how far it says that it is until then.
+// When calibrate takes the zero, and the progress that it reports until then.
 #include "modes/calibrate.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 constexpr double step_s = 0.01;
 constexpr double tau_s = 5.0;
 
-/// Of each step until its zero is known, of a muscle that was this much warmer than the air.
+/// The progress at each step until the zero is known, for a muscle this much warmer than the air.
 std::vector<float> progress_from(double begins_K) {
   Calibrate calibrate(Calibrate::Settings{});
   std::vector<float> all;
@@ -47,7 +47,7 @@ TEST(CalibrateProgress, StaysWhereTheMuscleDoesNotCool) {
   for (int i = 0; i < 100; ++i)
     calibrate.step(20.0, 0.0, step_s);
   DOUBLES_EQUAL(0.0, calibrate.progress(), 0.0);
-  // It never falls, however the bound of its heat moves.
+  // Progress never falls, however the bound of the heat moves.
   calibrate.step(10.0, 0.0, step_s);
   const float before = calibrate.progress();
   CHECK(before > 0.0F);
@@ -57,13 +57,13 @@ TEST(CalibrateProgress, StaysWhereTheMuscleDoesNotCool) {
 
 namespace {
 
-/// A muscle that may have been this hot, and whose hottest end cools as slowly as its bounds allow.
+/// A muscle that may have been this hot; its hottest end cools as slowly as its bounds allow.
 struct Resting {
   double begins_K = 135.0;
   double noise_rms_m = 10e-6;
   Calibrate::Settings settings{.still_K = 20.0, .max_left_m = 20e-6, .count_m = 1e-6};
 
-  /// The hottest that it may be when its zero is taken, where it moves like this in time.
+  /// The hottest that it may be when the zero is taken, if the position moves like this over time.
   template <typename PositionOf>
   double hottest_K_at_zero(PositionOf position_m) const {
     Calibrate calibrate(settings);
@@ -89,7 +89,7 @@ TEST_GROUP(CalibrateStillness){};
 TEST(CalibrateStillness, AMuscleThatDoesNotMoveIsColdBeforeItMustBe) {
   const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
   DOUBLES_EQUAL(20.0 * mean, Resting{}.hottest_K_at_zero(at_rest), 0.2);
-  // Nothing is concluded where it is not asked for, as of a joint.
+  // Without the setting that asks for it, as in a joint, stillness proves nothing.
   Resting strict;
   strict.settings.still_K = 1.0;
   DOUBLES_EQUAL(1.0 * mean, strict.hottest_K_at_zero(at_rest), 0.01);
@@ -104,7 +104,7 @@ TEST(CalibrateStillness, OneThatStillCoolsIsWaitedFor) {
     };
     const double hottest_K = Resting{}.hottest_K_at_zero(position_m);
     CHECK_COMPARE(hottest_K, <, 15.0);
-    // What was left of its motion when the mean began, but for the noise.
+    // The motion, without noise, that was still to come when the mean began.
     const double left_m = position_m(zero_s - Calibrate::Settings{}.mean_s);
     if (hottest_K > 1.0) CHECK_COMPARE(left_m, <, 20e-6);
   }

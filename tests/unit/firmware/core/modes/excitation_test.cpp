@@ -15,12 +15,12 @@ constexpr double thermal_s = 10.0;
 constexpr double max_travel_m = 0.02;
 
 struct Strokes {
-  std::vector<double> lowest_m;  ///< of each cycle but the last, which ends as it cools
+  std::vector<double> lowest_m;  ///< of each cycle but the last, which ends while cooling
   std::vector<double> ended_m;   ///< where each cycle ended
   double took_s = 0.0;
 };
 
-/// A muscle that all power would draw to so many times the channel's travel.
+/// A muscle that full power would move to this multiple of the channel's travel.
 Strokes strokes_of(double overpowered, bool goes_on = false, double cooling_s = thermal_s) {
   constexpr double max_W = 4.0;
   Excitation excitation({max_travel_m, tick_s});
@@ -52,7 +52,7 @@ Strokes strokes_of(double overpowered, bool goes_on = false, double cooling_s = 
 
 struct FirstShorterStroke {
   double began_m = 0.0;
-  double lowest_m = 0.0;  ///< until it was at its highest
+  double lowest_m = 0.0;  ///< before it reached its highest position
   double highest_m = 0.0;
 };
 
@@ -79,7 +79,7 @@ FirstShorterStroke first_shorter_stroke() {
   return stroke;
 }
 
-/// Of the first six cycles, over the reach.
+/// The lows of the first six cycles, as a fraction of the reach.
 std::vector<double> lows_of_slow_muscle_with_play() {
   constexpr double cooling_s = 40.0, play_m = 0.001, max_W = 4.0;
   Excitation excitation({max_travel_m, tick_s});
@@ -102,13 +102,13 @@ std::vector<double> lows_of_slow_muscle_with_play() {
 
 TEST_GROUP(Excitation){};
 
-/// Where little of the power holds the muscle up, the twentieth of it that shows its mechanics
-/// while it cools is less.
+/// Where a small part of the power holds the muscle up, less than a twentieth of the power shows
+/// its mechanics while it cools.
 TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
   for (const double overpowered : {1.0, 3.0, 10.0}) {
     const Strokes strokes = strokes_of(overpowered);
     CHECK_EQUAL(Excitation::cycles, strokes.lowest_m.size());
-    // All cycles but the first, which searched: 0.15 and 0.25 of 0.55 of the travel in turn.
+    // All cycles except the first, which searches: alternately 0.15 and 0.25 of 0.55 of the travel.
     for (std::size_t i = 1; i < strokes.lowest_m.size(); ++i) {
       const double low_m = (i % 2 == 0 ? 0.15 : 0.25) * 0.55 * max_travel_m;
       CHECK_COMPARE(strokes.lowest_m[i], <, low_m + 0.02 * max_travel_m);
@@ -117,7 +117,7 @@ TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
   }
 }
 
-/// Its first stroke counts: it need not come to a low, which takes a slow muscle longest.
+/// The first stroke counts: it need not reach a low, which takes a slow muscle longest.
 TEST(Excitation, ASlowMusclesFirstStrokeEndsAtHalfItsReach) {
   const Strokes strokes = strokes_of(2.0, false, 40.0);
   const double reach_m = 0.55 * max_travel_m;
@@ -126,7 +126,7 @@ TEST(Excitation, ASlowMusclesFirstStrokeEndsAtHalfItsReach) {
   DOUBLES_EQUAL(0.15 * reach_m, strokes.ended_m[2], 0.02 * reach_m);
 }
 
-/// Play and creep of a slow muscle keep it where it is for a while when its power changes.
+/// Play and creep hold a slow muscle in place for a while when its power changes.
 TEST(Excitation, AMuscleThatTurnsRoundSlowlyIsWaitedFor) {
   for (const double lowest : lows_of_slow_muscle_with_play())
     CHECK_COMPARE(lowest, <, 0.55);
@@ -141,7 +141,7 @@ TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {
   DOUBLES_EQUAL(2.0 * once.took_s, twice.took_s, 0.2 * once.took_s);
 }
 
-/// Not from rest: a slow muscle would take five of its time constants to come to it.
+/// They do not begin at rest, because a slow muscle would take five time constants to get there.
 TEST(Excitation, ShorterStrokesBeginWhereTheLastOneEnded) {
   const FirstShorterStroke stroke = first_shorter_stroke();
   CHECK_COMPARE(stroke.lowest_m, >, 0.95 * stroke.began_m);

@@ -1,4 +1,4 @@
-// Which inputs are which fault of a board, from when on, and no other.
+// Which inputs cause which fault of a board, after which time, and that they cause no other.
 #include "supervisor/board_supervisor.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 using BoardChange = std::function<void(BoardInputs&)>;
 
-/// A board on which all is well, tick by tick.
+/// A healthy board, tick by tick.
 class Board {
  public:
   BoardInputs inputs;
@@ -84,7 +84,7 @@ TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
       check_board_fault(Fault::none, board.step());
     check_board_fault(injected.fault, board.step());
     CHECK(board.supervisor.verdict().fault() == injected.fault);
-    // Whose margin is full.
+    // The margin of the fault is used up.
     CHECK_COMPARE(board.supervisor.verdict().margin(injected.fault).used(), >=, 0.99);
   }
 }
@@ -121,7 +121,7 @@ TEST(BoardSupervisor, ForgetsWhatIsOver) {
   }
 }
 
-// A bus is no reason to doubt the switches: it leaves the board's latch free.
+// A bus fault is no reason to doubt the switches: it does not set the board's latch.
 TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
   for (const BoardCause& injected : board_causes) {
     Board board;

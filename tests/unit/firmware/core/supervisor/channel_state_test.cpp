@@ -40,7 +40,7 @@ TEST(ChannelState, HeatsOnlyWhenActive) {
   CHECK_FALSE(channel.may_heat());
 }
 
-// Their numbers are on the bus.
+// The refusals' numbers are sent on the bus.
 TEST(ChannelState, EveryRefusalHasItsName) {
   for (const auto& [refusal, text] :
        {std::pair{Refusal::none, "none"}, std::pair{Refusal::wrong_state, "wrong_state"},
@@ -81,7 +81,7 @@ TEST(ChannelState, LeavesFaultOnlyByAnEdgeAfterTheCauseIsGone) {
   ChannelState channel = active();
   channel.disarm(Fault::heater_short);
   CHECK(channel.arm() == Refusal::wrong_state);
-  CHECK(channel.reset(true, false) == Refusal::no_edge);  // it was high from the start
+  CHECK(channel.reset(true, false) == Refusal::no_edge);  // high from the start
   CHECK(channel.reset(false, false) == Refusal::no_edge);
   CHECK(channel.reset(true, true) == Refusal::cause_persists);
   CHECK(channel.reset(true, false) == Refusal::no_edge);  // held, not pressed again
@@ -95,7 +95,7 @@ TEST(ChannelState, LeavesFaultOnlyByAnEdgeAfterTheCauseIsGone) {
 TEST(ChannelState, NeverGetsHotWithoutArmAndActivateWhateverHappens) {
   CHECK(rc::check("random commands", [] {
     ChannelState channel;
-    bool armed_since = false;  // by the commands alone, an independent account
+    bool armed_since = false;  // from the commands alone, independently of the state
     bool active_since = false;
     for (const int command : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 7))) {
       switch (command) {

@@ -1,4 +1,4 @@
-// Which inputs are which fault of a channel, from when on, and no other.
+// Which inputs cause which fault of a channel, after which time, and that they cause no other.
 #include "supervisor/channel_supervisor.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct ChannelInputs {
   CommandInputs commands;
 };
 
-/// A muscle of 10 Ohm that is heated with 3.6 W, hot and where it should be.
+/// A muscle of 10 Ohm, heated with 3.6 W, hot and at its expected position.
 class Channel {
  public:
   ChannelInputs inputs;
@@ -143,7 +143,7 @@ TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
   }
 }
 
-// But where a probe finds no resistance: that has no size.
+// Except when a probe finds no resistance, which has no margin.
 TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
   for (const InjectedFault& injected : injected_faults) {
     Channel channel;
@@ -169,7 +169,7 @@ TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
 
 TEST(ChannelSupervisor, ForgetsWhatIsOver) {
   for (const InjectedFault& injected : injected_faults) {
-    // What was heated too much stays so; a place that was taken for the truth is left by a jump.
+    // An exceeded energy budget stays exceeded; the return from a jump is another jump.
     if (injected.fault == Fault::energy_budget_exceeded || injected.fault == Fault::sensor_jump)
       continue;
     Channel channel;
@@ -278,7 +278,7 @@ TEST(ChannelSupervisor, AControllerIsNotLostWhereNothingIsToHeat) {
 
 namespace {
 
-/// Of a joint's muscle that asks for more than it gets and does not move, within two seconds.
+/// The fault within two seconds of a joint's muscle that demands more than it gets and is still.
 Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, int)>& at_tick) {
   Channel channel;
   channel.inputs.axis.in_joint = true;
@@ -296,8 +296,8 @@ Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, 
 
 }  // namespace
 
-/// Of a joint's muscle, whose heat changes and which moves nothing. Less than it gets is asked for
-/// where there is a minimum.
+/// For a joint's muscle whose heat changes but which moves nothing. Where there is a minimum power,
+/// less may be asked for than it gets.
 TEST(ChannelSupervisor, OnlyAMuscleThatIsAskedForMoreThanItGetsIsLoose) {
   for (const double demanded_W : {3.5, 3.7}) {
     check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none,
@@ -313,9 +313,9 @@ TEST(ChannelSupervisor, AMuscleThatIsOffIsNotLoose) {
               }));
 }
 
-// Positions from before say nothing of how far it has moved since.
+// Positions from before say nothing about how far it has moved since.
 TEST(ChannelSupervisor, ALooseMuscleIsJudgedAnewAfterACalibrationAndWhereMoreIsKnownOfIt) {
-  constexpr int every = 700;  // of 750 after which it should have been seen to move
+  constexpr int every = 700;  // less than the 750 within which it must be seen to move
   check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
                 e.axis.recalibrated.reset();
                 const double here_m = e.axis.position.value;
@@ -347,7 +347,7 @@ TEST(ChannelSupervisor, ANewCalibrationIsNoAnswerOfTheMuscle) {
   }
 }
 
-/// Or it would never be judged.
+/// Otherwise the window would never be judged.
 TEST(ChannelSupervisor, ANewCalibrationForgetsNoMotionOfTheWindow) {
   for (const double ratio : {1.0, 2.0, -1.0}) {
     Channel channel;
@@ -360,11 +360,11 @@ TEST(ChannelSupervisor, ANewCalibrationForgetsNoMotionOfTheWindow) {
     channel.step();
     channel.inputs.axis.recalibrated.reset();
     DOUBLES_EQUAL(std::abs(ratio) * 0.0005, channel.moved_m(), 10e-6);
-    // Back to where it was.
+    // Back to its previous position.
     position_m = 0.003 - ratio * 0.0005;
     channel.step();
     DOUBLES_EQUAL(std::abs(ratio) * 0.0005, channel.moved_m(), 10e-6);
-    // Another muscle is expected: that begins anew.
+    // A different muscle is expected: the window starts again.
     channel.inputs.axis.expected_anew = true;
     channel.step();
     DOUBLES_EQUAL(0.0, channel.moved_m(), 10e-6);

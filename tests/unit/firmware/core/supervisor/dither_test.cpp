@@ -1,4 +1,4 @@
-// A dither that is small, soon decided, and leaves nothing behind.
+// A dither that is small, decided quickly, and leaves nothing behind.
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +43,7 @@ TEST(Dither, OfAWholePeriodAddsNoHeat) {
 }
 
 TEST(Dither, IsNotNeededBelowThePowerThatAQuarterOfTheLeastCoolingBears) {
-  // (130 - 25) K of 0.25 * 0.045 W/K, of which 5 % more may be given than is told.
+  // (130 - 25) K times 0.25 * 0.045 W/K; the true power may be 5 % more than measured.
   DOUBLES_EQUAL(105.0 * 0.25 * 0.045 / 1.05, plan_proof(paper_proof(), {}, 1000.0).safe_W, 1e-9);
 }
 
@@ -54,13 +54,13 @@ TEST(Dither, IsDecidedInTimeAtThePowerThatItAllowsAndNotAtMore) {
   const ProofPlan plan = plan_proof(uncompared, {}, 1000.0);
   CHECK_COMPARE(plan.safe_W, <, plan.provable_W);
   CHECK_COMPARE(plan.provable_W, <, uncompared.max_W);
-  // From the hot end that this power holds, with a quarter of the least cooling and no more power.
+  // From the hot end at this power, with a quarter of the minimum cooling and no more power.
   const auto left_s = [](double power_W) {
     const double transfer_W_per_K = 0.25 * 0.045;
     const double full_K = 1.94 * power_W / transfer_W_per_K;
     return 0.13 / transfer_W_per_K * std::log(0.75 * full_K / (full_K - 135.0));
   };
-  // 1.3 of the answer in open loop in three quarters of the time.
+  // 1.3 times the decision time in open loop must fit into three quarters of the time that is left.
   const double needed_s = plan.dither.decided_s * 1.3 / 0.75;
   DOUBLES_EQUAL(needed_s, left_s(plan.provable_W), 1e-6);
   CHECK_COMPARE(left_s(1.01 * plan.provable_W), <, needed_s);
@@ -79,7 +79,7 @@ TEST(Dither, IsTheSlowestAndGentlestThatIsDecidedInTime) {
 TEST(Dither, IsNotNeededWhereAllThePowerThatThereIsCannotPassTheLimit) {
   ProofSettings weak = paper_proof();
   weak.position_noise_rms_m = 200e-6;
-  weak.max_W = 1.4;  // 1.05 times that over 0.25 * 0.045 W/K is 131 K, and 135 K are allowed
+  weak.max_W = 1.4;  // 1.05 times that over 0.25 * 0.045 W/K is 131 K; 135 K are allowed
   const ProofPlan plan = plan_proof(weak, {}, 1000.0);
   CHECK(std::isinf(plan.dither.decided_s));
   CHECK_COMPARE(plan.safe_W, <, weak.max_W);
@@ -123,7 +123,7 @@ TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
 }
 
 TEST(Dither, OfASlowMuscleIsASlowOne) {
-  // A tenth of max_W takes seconds to move it by 20 um; from 2.8 W the limit is 5.6 s away.
+  // A tenth of max_W takes seconds to move it by 20 um; at 2.8 W the limit is 5.6 s away.
   ProofSettings slow = slow_proof();
   slow.max_power_ratio = 1.94;
   const ProofPlan plan = plan_proof(slow, slow_muscle(), 1000.0);

@@ -1,4 +1,4 @@
-// What docs/ tells of numbers, names and thresholds is what the code has.
+// Numbers, names and thresholds in docs/ agree with the code.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -33,7 +33,7 @@ std::string page(const std::string& path) {
   return text.str();
 }
 
-/// The table's cells, its head left out.
+/// The table's cells, without its header.
 std::vector<Row> first_table_after(const std::string& heading, const std::string& path) {
   std::istringstream text(page(path));
   std::vector<Row> rows;
@@ -63,7 +63,7 @@ void check_names(const std::string& signal, const std::vector<Name>& all) {
   }
 }
 
-/// The page has lines of a fixed width: a gap may be a line's end. `text` has one `%g` for the
+/// The page has lines of a fixed width, so a space may be a line break. `text` has one `%g` for the
 /// value.
 void check_says(const std::string& fault, const char* text, double value) {
   char wanted[200];

@@ -10,7 +10,7 @@ using namespace supercoil;
 TEST_GROUP(Faults){};
 
 TEST(Faults, HaveNumbersThatNeverChange) {
-  // Logs and CAN refer to these: a number may be added, none may change.
+  // Logs and CAN use these numbers: numbers may be added, but none may change.
   LONGS_EQUAL(10, static_cast<int>(Fault::sensor_out_of_range));
   LONGS_EQUAL(24, static_cast<int>(Fault::duty_wrong));
   LONGS_EQUAL(33, static_cast<int>(Fault::resistance_drift));

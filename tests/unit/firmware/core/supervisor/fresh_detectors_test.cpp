@@ -1,4 +1,4 @@
-// A detector that has judged nothing yet has used nothing of its limit.
+// A detector that has not judged anything yet has used none of its limit.
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/heater.hpp"

@@ -11,7 +11,7 @@ using supercoil::test::tick_s;
 
 namespace {
 
-/// Ticks until a detector trips, or -1.
+/// Ticks until the detector trips, or -1.
 template <class Step>
 int ticks_until(Step step, int most = 100000) {
   for (int tick = 1; tick <= most; ++tick) {
@@ -71,7 +71,7 @@ TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(false, 1.2); }, 1000));
 }
 
-/// At 100 Hz, of 0.67 A through 10 ms: 6.8 mA after 50 ms.
+/// At 100 Hz, a sense with a lag of 10 ms reads 6.8 mA 50 ms after 0.67 A is switched off.
 TEST(HeaterDetectors, StuckOnWaitsForASlowSenseButNotForAStuckSwitch) {
   constexpr double slow_tick_s = 0.01;
   const StuckOn::Settings settings{.max_A = 0.005, .hold_s = 0.05, .filter_s = 0.01};
@@ -87,13 +87,13 @@ TEST(HeaterDetectors, StuckOnWaitsForASlowSenseButNotForAStuckSwitch) {
   };
   LONGS_EQUAL(-1, ticks_off(0.0, 0.0));
   LONGS_EQUAL(-1, ticks_off(1.0, 0.0));
-  // Stuck, and leaking as much as the sense may still show then.
+  // Stuck, and leaking as much as the sense may still read at that time.
   LONGS_EQUAL(5, ticks_off(0.0, 0.67));
   LONGS_EQUAL(5, ticks_off(0.0, 0.05));
   LONGS_EQUAL(8, ticks_off(0.0, 0.01));
 }
 
-/// What was read while it was on may be anything.
+/// The readings while the heater was on may be anything.
 TEST(HeaterDetectors, StuckOnGoesByCurrentsThatAreNumbersAlone) {
   for (const double unknown : {std::nan(""), static_cast<double>(INFINITY)}) {
     StuckOn detector({.max_A = 0.02, .hold_s = 0.05, .filter_s = 0.01}, tick_s);
@@ -112,7 +112,7 @@ TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
   });
   LONGS_EQUAL(20000, ticks);
   DOUBLES_EQUAL(0.0003, detector.margin().measured, 1e-6);
-  // What is expected in the last second may still come.
+  // Motion that was expected in the last second may still come.
   DOUBLES_EQUAL(0.3 * 0.95 * 0.002, detector.margin().limit, 1e-6);
 }
 
@@ -132,7 +132,7 @@ TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
 }
 
 TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
-  // It is held: one that is as slow as is possible still creeps, another has arrived.
+  // It is held: the slowest possible muscle still creeps, a faster one has arrived.
   for (const std::size_t slow : {0U, 1U, 2U}) {
     NotResponding detector({20.0, 0.3, 0.001}, tick_s);
     NotResponding::Expected expected{0.011, 0.011, 0.011};
@@ -145,7 +145,7 @@ TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
 }
 
 TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatFalls) {
-  // Derated, a slow muscle still warms where a fast one cools already.
+  // Derated: a slow muscle still warms while a fast one already cools.
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
     const double moved = 0.004 * tick * tick_s / 20.0;
@@ -175,7 +175,7 @@ TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
 }
 
 TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
-  // It moved as it should in the first window, and not in the second.
+  // The muscle moved as expected in the first window, but not in the second.
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {
     const double t = tick * tick_s;
@@ -192,13 +192,13 @@ TEST(HeaterDetectors, NotRespondingCountsAnewFromAnAnswerToTheSameEnd) {
   const auto step = [&](double expected_m) {
     return detector.step(0.011, NotResponding::possible({expected_m, expected_m, expected_m}));
   };
-  // More power held it still in a draught; it answered, and after that nothing more is expected.
+  // In a draught more power held it still; it answered, and nothing more is expected after that.
   const auto in_draught = [&](int tick) {
     if (tick == 10000) detector.count_anew();
     return step(0.011 + 0.002 * std::min(tick, 10000) / 10000.0);
   };
   LONGS_EQUAL(-1, ticks_until(in_draught, 20000));
-  // What is lost after it has answered is found where the window ends.
+  // A muscle lost after it has answered is found at the end of the window.
   LONGS_EQUAL(20000, ticks_until([&](int tick) {
                 if (tick == 10000) detector.count_anew();
                 return step(0.011 + 0.004 * tick / 20000.0);

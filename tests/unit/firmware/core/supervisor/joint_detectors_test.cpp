@@ -1,4 +1,4 @@
-// Detectors of a joint's muscles.
+// The detectors for a joint's muscles.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -13,13 +13,13 @@ namespace {
 
 constexpr NotResponding::Expected nothing{};
 
-/// The models rise by 3 mm in 1 s and on.
+/// The models rise at 3 mm/s.
 NotResponding::Expected rising(int tick) {
   const double expected_m = 0.003 * tick * tick_s;
   return {expected_m, expected_m, expected_m};
 }
 
-/// The first tick at which the step trips, from 1; -1: in none of so many.
+/// The first tick at which the step trips, counted from 1; -1: none within `most`.
 template <class Step>
 int tripped_at(Step step, int most = 100'000) {
   for (int tick = 0; tick < most; ++tick) {
@@ -54,7 +54,7 @@ TEST(JointDetectors, EveryGainOfTheOtherMuscleIsPossible) {
     before = gain;
     DOUBLES_EQUAL(0.010 - gain * 0.003, motions.m[alone + i], 1e-12);
   }
-  // Of a muscle alone, nothing takes it back.
+  // For a single muscle nothing draws it back.
   DOUBLES_EQUAL(0.010, NotResponding::possible(expected).m[0], 1e-12);
 }
 
@@ -70,7 +70,7 @@ TEST(JointDetectors, LooseIsNoMuscleThatGetsWhatIsAskedOfIt) {
   LONGS_EQUAL(
       -1, tripped_at([&](int tick) { return step(false, 0.002, rising(tick), nothing); }, 20'000));
   CHECK_FALSE(detector.margin().judged);
-  // What was expected before does not count.
+  // Motion expected before that does not count.
   CHECK_FALSE(step(true, 0.002, rising(20'000), nothing));
   CHECK_FALSE(detector.margin().judged);
 }
@@ -99,23 +99,23 @@ TEST(JointDetectors, LooseIsNoMuscleThatTheOtherOneMayHoldStill) {
 }
 
 TEST(JointDetectors, LooseIsAMuscleThatMovesTheJointTheOtherWay) {
-  // Three times one millimetre, at once: no model of it stands still.
+  // Three times one expected millimetre, without a pause: none of its models stands still.
   const int ticks = tripped_at(
       [&](int tick) { return step(true, 0.002 - 0.4 * rising(tick)[0], rising(tick), nothing); });
   CHECK_COMPARE(ticks, >=, 1000);
   CHECK_COMPARE(ticks, <=, 1010);
-  // How far it went the other way, of the last millimetre, and which part of that is too far.
+  // In the last expected millimetre: how far the joint went the other way, and the limit.
   const Margin margin = detector.margin();
   DOUBLES_EQUAL(0.0004, margin.measured, 5e-6);
   DOUBLES_EQUAL(0.0003, margin.limit, 5e-6);
   CHECK_COMPARE(margin.used(), >, 1.3);
-  // What counted before the muscle got what it asked for does not count.
+  // Motion from before the muscle got what it asked for does not count.
   CHECK_FALSE(step(false, 0.0, rising(0), nothing));
   CHECK_FALSE(step(true, 0.0, rising(0), nothing));
 }
 
 TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
-  // Nearly three times, then it follows again; and once more.
+  // The wrong way for nearly three expected millimetres, then it follows; and so on.
   double position_m = 0.0;
   LONGS_EQUAL(-1, tripped_at(
                       [&](int tick) {
@@ -126,7 +126,7 @@ TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
                       20'000));
 }
 
-/// With any of the models: a slow muscle that still cools, or another one that is stronger.
+/// Any model may explain it: a slow muscle that still cools, or an opposing one that is stronger.
 TEST(JointDetectors, LooseIsNoMuscleIfAModelExplainsThatTheJointMovesTheOtherWay) {
   using Expected = NotResponding::Expected;
   const auto moves_away = [&](const Expected& of_rise, const Expected& opposed_of_rise) {

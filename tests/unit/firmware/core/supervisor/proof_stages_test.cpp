@@ -1,4 +1,4 @@
-// What follows where a muscle that is held does not prove that it answers, or not at once.
+// What follows when a held muscle does not prove that it answers, or not at once.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -16,7 +16,7 @@ TEST_GROUP(ProofStages){};
 
 TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilSomethingIsAnswered) {
   HeldMuscle muscle(paper_proof());
-  // Too much for a dead muscle, too little to be no dead sensor's.
+  // Too much motion for a dead muscle, too little to exclude a dead sensor.
   muscle.swing_m = 60e-6;
   muscle.run(60.0);
   CHECK_FALSE(muscle.unanswered);
@@ -39,7 +39,7 @@ TEST(ProofStages, ThatAreOverdueStaySoWhileMorePowerActsThanIsAllowed) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
-// Neither has the plan an amplitude then, nor would it be begun.
+// The plan has no amplitude then, and the dither would not be started either.
 TEST(ProofStages, NoDitherIsAddedThatIsNeverDecided) {
   ProofSettings noisy = paper_proof();
   noisy.position_noise_rms_m = 200e-6;
@@ -54,7 +54,7 @@ TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
   HeldMuscle muscle(paper_proof());
   muscle.run(5.0);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
-  muscle.hotter_K = 500.0;  // more than all the power comes to
+  muscle.hotter_K = 500.0;  // hotter than full power can make it
   muscle.run(0.05);
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
@@ -190,7 +190,7 @@ TEST(ProofStages, AMuscleThatMovesAndLosesContactGetsTheSafePowerInTime) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
-// Play hides the first of the fall; at the safe power there is time to wait for the rest.
+// Play hides the start of the fall; at the safe power there is time to wait for the rest of it.
 TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 300e-6;
@@ -205,7 +205,7 @@ TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
   CHECK_FALSE(muscle.unanswered);
 }
 
-// The removal of power was answered: from then on there is time again.
+// The muscle answered the removal of power: from then on there is time again.
 TEST(ProofStages, AMuscleThatMovedMayGoOn) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
@@ -255,7 +255,7 @@ TEST(ProofStages, WithoutAPositionNothingIsJudged) {
   muscle.run(20.0);
   CHECK_FALSE(muscle.unanswered);
   muscle.present = true;
-  muscle.moved_m = 0.01;  // where it is then is no motion
+  muscle.moved_m = 0.01;  // the new position after the gap is not motion
   muscle.run(2.5);
   CHECK(muscle.unanswered);
 }
@@ -277,7 +277,7 @@ TEST(ProofStages, ANewCalibrationIsNotMotion) {
     HeldMuscle muscle(paper_proof());
     muscle.run(20.0);
     muscle.off_sensor = true;
-    muscle.run(0.304);  // within a step, whose positions are not all of one calibration
+    muscle.run(0.304);  // within a step, whose positions have different calibrations
     muscle.moved_m = 0.01;
     if (told) muscle.proof.recalibrated();
     muscle.run(2.5);
@@ -287,7 +287,7 @@ TEST(ProofStages, ANewCalibrationIsNotMotion) {
 
 TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
   HeldMuscle muscle(paper_proof());
-  muscle.off_sensor = true;  // so that nothing but a dither could be answered
+  muscle.off_sensor = true;  // so that only a dither could be answered
   muscle.hotter_K = 115.0;   // half a second from the limit: a dither is due at once
   muscle.run(0.19);
   LONGS_EQUAL(0, muscle.dither_ticks);
@@ -295,7 +295,7 @@ TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
   CHECK_COMPARE(muscle.dither_ticks, >, 0);
 }
 
-// Where the position is then is no motion, and proves nothing.
+// The new position at that moment is not motion and proves nothing.
 TEST(ProofStages, AMuscleLearnedAnewHasNotAnsweredYet) {
   const auto dither_begins = [](bool learned) {
     HeldMuscle muscle(paper_proof());
@@ -312,7 +312,7 @@ TEST(ProofStages, AMuscleLearnedAnewHasNotAnsweredYet) {
   LONGS_EQUAL(dither_begins(false), dither_begins(true));
 }
 
-// It moves too much for all of the power to show, and too slowly to hide what follows a dither.
+// The load moves too much for full power to show, but too slowly to hide the answer to a dither.
 TEST(ProofStages, ASlowLoadHidesNoAnswerToADither) {
   HeldMuscle muscle(paper_proof());
   muscle.run(20.0);

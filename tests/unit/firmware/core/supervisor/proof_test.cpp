@@ -1,4 +1,4 @@
-// A muscle that is held at a power, hot and still: does it have to prove that it answers?
+// Whether a muscle that is held at a power, hot and still, has to prove that it answers.
 #include "supervisor/proof.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(Proof, IsMissedWithinSecondsOfALostContact) {
     DOUBLES_EQUAL(0.0, muscle.min_W, 1e-9);
     const detectors::Margin margin = muscle.proof.margin();
     CHECK_COMPARE(margin.measured, <, margin.limit);
-    // Of a motion that was expected of at least twice the obvious one.
+    // Of an expected motion of at least twice the obvious one.
     const double expected_m = margin.limit / detectors::Response::silent_ratio;
     DOUBLES_EQUAL(2.0 * paper_proof().obvious_m, expected_m, 0.1 * paper_proof().obvious_m);
   }
@@ -136,7 +136,7 @@ namespace {
 
 constexpr double limit_C = 160.0;
 
-/// Found, or held to the safe power, whatever follows; and never as hot as the limit.
+/// The fault is found, or the muscle is held to the safe power; it is never as hot as the limit.
 void check_safe(const HeldMuscle& muscle, const ProofSettings& settings) {
   CHECK_COMPARE(muscle.hottest_C(), <, limit_C);
   const double safe_W = plan_proof(settings, {}, 1000.0).safe_W;
@@ -145,7 +145,7 @@ void check_safe(const HeldMuscle& muscle, const ProofSettings& settings) {
 
 }  // namespace
 
-// Neither a rest nor a moment with little power gives back the time that was used without a proof.
+// Neither a rest nor a moment at low power gives back time that was used without a proof.
 TEST(Proof, IsNotPutOffByRestsNorByMomentsWithLittlePower) {
   for (const bool rests : {false, true}) {
     for (const double heated_s : {0.25, 0.5, 1.0, 2.0}) {
@@ -165,7 +165,7 @@ TEST(Proof, IsNotPutOffByRestsNorByMomentsWithLittlePower) {
   }
 }
 
-// A muscle off its sensor at the safe power comes to four times what it is believed to.
+// At the safe power a muscle off its sensor becomes four times as hot as is believed.
 TEST(Proof, IsAskedForTheSoonerTheHotterTheMuscleMayHaveBecomeBefore) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 1.1;
@@ -199,7 +199,7 @@ TEST(Proof, OfAMuscleWhoseSensorMovesWhenItLetsGoIsMissedInTime) {
   }
 }
 
-// That the position moves for whatever reason is no proof for longer than there is time.
+// Motion from any other cause does not postpone the proof beyond the time that there is.
 TEST(Proof, OfADeadMuscleIsAskedForWhileALoadSwings) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 4.5;

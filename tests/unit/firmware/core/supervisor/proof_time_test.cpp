@@ -1,5 +1,5 @@
-// How long a muscle may be hot that has not proven that it answers: through rests, by its heat, in
-// warm air, after a jump.
+// How long a muscle may be hot without proving that it answers: with rests, depending on its heat,
+// in warm air, after a jump.
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/proof.hpp"
@@ -15,7 +15,7 @@ using test::slow_proof;
 
 TEST_GROUP(ProofTime){};
 
-// What rests for a moment has used its time.
+// A short rest does not give back the time that was used.
 TEST(ProofTime, AMuscleThatWasHeldToTheSafePowerIsUntilItAnswersOrMustHaveCooled) {
   for (const bool off_sensor : {false, true}) {
     HeldMuscle muscle(paper_proof());
@@ -31,7 +31,7 @@ TEST(ProofTime, AMuscleThatWasHeldToTheSafePowerIsUntilItAnswersOrMustHaveCooled
   }
 }
 
-// The fall after it proves the muscle, once the swing is forgotten.
+// The fall after the swing proves the muscle, once the swing is forgotten.
 TEST(ProofTime, WhatWasSeenAtRestIsForgottenAfterTwoSecondsToo) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
@@ -63,7 +63,7 @@ TEST(ProofTime, ARestDoesNotEndARemovalOfPowerUndecided) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
-// At the safe power for long it may have become so hot that there is no time left at any other.
+// After long at the safe power it may be so hot that no time is left at any higher power.
 TEST(ProofTime, AMuscleThatIsHeldDownAtRestGetsItsPowerBackByADither) {
   ProofSettings near = paper_proof();
   near.derate_from_C = 155.0;
@@ -80,7 +80,7 @@ TEST(ProofTime, AMuscleThatIsHeldDownAtRestGetsItsPowerBackByADither) {
   CHECK_FALSE(muscle.unanswered);
 }
 
-// How hot it may be before it is first heated the hot end knows.
+// The hot end already accounts for how hot the muscle may be before it is first heated.
 TEST(ProofTime, WhatAMuscleMayHaveBeenBeforeItIsHeatedUsesNoTime) {
   HeldMuscle muscle(paper_proof());
   muscle.off_sensor = true;

@@ -1,4 +1,4 @@
-// How often a muscle that is dead passes, and one that lives does not.
+// How often a dead muscle passes, and how often a living one does not.
 #include "supervisor/detectors/response.hpp"
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double step_noise_m = 3.2e-6;  // 10 um rms at 1 kHz, averaged over 10 ms
 
-/// The part of blocks that end so: of a muscle that answers with this ratio of what is expected, a
-/// sine of 7 um rms.
+/// The fraction of blocks with this result, for a muscle that answers with this ratio of the
+/// expected motion, a sine of 7 um rms.
 double part_that_is(detectors::Response::Result wanted, double response_ratio, int blocks) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, step_noise_m);
@@ -30,7 +30,7 @@ double part_that_is(detectors::Response::Result wanted, double response_ratio, i
   return static_cast<double>(found) / blocks;
 }
 
-/// Of a normal distribution, above so many deviations.
+/// The part of a normal distribution above this many deviations.
 double tail(double deviations) {
   return 0.5 * std::erfc(deviations / std::sqrt(2.0));
 }
@@ -43,8 +43,8 @@ TEST(Response, OfADeadMuscleIsTakenForOneInAThousandBlocksAtMost) {
   CHECK_COMPARE(part_that_is(detectors::Response::Result::answered, 0.0, 50000), <=, 1.3e-3);
 }
 
-// 1e-9 cannot be counted: it is at most twice a normal tail at 1, 2, 3 and 4 deviations, and half
-// of the model's answer is 6.2 deviations from the threshold.
+// 1e-9 cannot be counted. The missed fraction is at most twice a normal tail at 1, 2, 3 and 4
+// deviations, and half of the model's answer is 6.2 deviations from the threshold.
 TEST(Response, OfALivingMuscleIsMissedAsANormalTailSays) {
   for (const double deviations : {1.0, 2.0, 3.0, 4.0}) {
     const double ratio =
@@ -66,8 +66,8 @@ TEST(Response, IsOpenWhileSomethingElseMovesThePosition) {
   }
 }
 
-// By itself, at a rate of its own: 0.2 of the expected motion is little, 0.45 is a muscle that
-// lives.
+// It moves by itself, at a rate of its own: 0.2 of the expected motion is too little, 0.45 is a
+// living muscle.
 TEST(Response, OfAMuscleThatMovesMuchByItselfIsOpenHoweverLongItLasts) {
   for (const double moved_ratio : {0.2, 0.45}) {
     detectors::Response answer(step_noise_m);

@@ -1,4 +1,4 @@
-// How much of a small motion arrives at the sensor.
+// How much of a small motion reaches the sensor.
 #include "supervisor/small_signal.hpp"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ constexpr double rate_Hz = 1000.0;
 constexpr double held_W = 0.6;
 
 struct Sensor {
-  double ratio = 1.0;   ///< of the motion that arrives
-  double play_m = 0.0;  ///< the sensor's end follows when it is drawn by so much
+  double ratio = 1.0;   ///< fraction of the motion that arrives
+  double play_m = 0.0;  ///< the sensor's end follows only beyond this play
   double noise_m = 10e-6;
 };
 
-/// What is measured of the paper's muscle behind this sensor.
+/// The ratio measured for the paper's muscle with this sensor.
 double measured_ratio(const Sensor& sensor, const ProofSettings& settings = paper_proof()) {
   const control::PhysicalParameters muscle;
   ExpectedMotion motion(muscle, 1.0 / rate_Hz);
@@ -84,7 +84,7 @@ TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
   }
 }
 
-/// Also with a power that is too near to either end for both halves of a dither.
+/// Also with a power too near to either limit for both halves of a dither.
 TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
   control::PhysicalParameters slow;
   slow.thermal_mass_J_per_K = 15.0 * slow.heat_transfer_W_per_K;
@@ -121,7 +121,7 @@ TEST(SmallSignal, TakesTheTimeThatItsDitherNeeds) {
   }
 }
 
-/// Where nothing settles and nothing is noisy, from the very first step on.
+/// Without settling and without noise, from the very first step on.
 TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
   const control::PhysicalParameters muscle;
   auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);

@@ -1,5 +1,5 @@
-// The paper's muscle in open loop under the proof of response, its sensor and what keeps the one
-// from the other.
+// The paper's muscle in open loop under the proof of response, with its sensor and everything that
+// can separate the two.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class HeldMuscle {
         heat_(settings.thermal.bounds, tick_s),
         random_(seed) {}
 
-  /// Until a fault, for at most so long.
+  /// Runs until a fault, but not longer than this.
   void run(double time_s) {
     const double end_s = time_s_ + time_s;
     while (time_s_ + 0.5 * tick_s < end_s && !unanswered)
@@ -32,24 +32,24 @@ class HeldMuscle {
   }
 
   double demanded_W = 3.0;
-  bool off_sensor = false;  ///< and with a quarter of the least cooling from then on
-  bool present = true;      ///< the position
+  bool off_sensor = false;  ///< from then on also with a quarter of the minimum cooling
+  bool present = true;      ///< whether the position is present
   bool heating = true;      ///< a command to heat is in force
-  bool obeys = true;        ///< false: more acts than was allowed
-  double hotter_K = 0.0;    ///< than the interval of its temperature says
+  bool obeys = true;        ///< false: more power acts than was allowed
+  double hotter_K = 0.0;    ///< how much hotter than its interval says
   double warmer_air_K = 0.0;
-  double play_m = 0.0;   ///< friction: the sensor's end follows when it is drawn by so much
-  double swing_m = 0.0;  ///< of a load that swings at 1 Hz
-  double moved_m = 0.0;  ///< the position, by a new calibration
+  double play_m = 0.0;   ///< friction: the sensor's end follows only beyond this play
+  double swing_m = 0.0;  ///< amplitude of a load that swings at 1 Hz
+  double moved_m = 0.0;  ///< shift of the position by a new calibration
   double noise_m = 10e-6;
   double power_ratio = 1.05;  ///< true over measured
 
   Proof proof;
   bool unanswered = false;
   long dither_ticks = 0;
-  double min_W = 1e3;   ///< that was allowed
-  double peak_W = 0.0;  ///< that was asked for
-  /// Of a muscle with the least mass and cooling.
+  double min_W = 1e3;   ///< minimum that was allowed
+  double peak_W = 0.0;  ///< maximum that was demanded
+  /// For a muscle with the minimum mass and cooling.
   double hottest_C() const { return air_C_ + hottest_K_; }
 
  private:

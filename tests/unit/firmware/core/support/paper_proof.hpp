@@ -1,4 +1,4 @@
-// What the proof of response rests on for the paper's muscle under the default limits.
+// The settings of the proof of response for the paper's muscle under the default limits.
 #pragma once
 
 #include "supervisor/proof.hpp"
@@ -16,14 +16,14 @@ inline ProofSettings paper_proof() {
   return s;
 }
 
-/// The paper's muscle is safe at this power, however long.
+/// The power at which the paper's muscle is safe for any time.
 inline double paper_safe_W() {
   return plan_proof(paper_proof(), {}, 1000.0).safe_W;
 }
 
 inline constexpr double slower = 12.0;
 
-/// 2 J/K: 27 s of time constant, and a small travel.
+/// 2 J/K: a time constant of 27 s, and a small travel.
 inline control::PhysicalParameters slow_muscle() {
   control::PhysicalParameters muscle;
   muscle.thermal_mass_J_per_K *= slower;

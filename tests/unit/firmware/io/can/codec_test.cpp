@@ -1,4 +1,4 @@
-// What the protocol's table makes of a frame is what the codec makes of it that cantools generated.
+// The protocol's table decodes every frame as the codec that cantools generated does.
 #include "can/codec.hpp"
 
 #include <bit>
@@ -100,7 +100,7 @@ TEST(Codec, WhatIsReadIsWrittenBackAsItWas) {
         const double read_again = get(again, signal);
         CHECK_TEXT(read == read_again || (std::isnan(read) && std::isnan(read_again)),
                    (std::string(message.name) + "." + std::string(signal.name)).c_str());
-        // Nothing beside the signal was touched.
+        // The bits outside the signal are unchanged.
         hal::CanFrame cleared = again;
         hal::CanFrame untouched = empty_frame(message);
         untouched.data.fill(0xA5);

@@ -1,4 +1,4 @@
-// Lines of candump -L there and back, and lines that are none.
+// Writes and reads lines of candump -L, and refuses other lines.
 #include "can_client/candump.hpp"
 
 #include <string>
@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Empty: it was a line.
+/// Empty if the line was read.
 std::string error_of(const std::string& line) {
   const auto read = parse_candump_line(line);
   return read ? "" : read.error().text();
@@ -106,7 +106,7 @@ TEST(Candump, AnInvalidLineIsReported) {
   }
 }
 
-/// Whatever the bytes are, it comes to an end and reads within them (AddressSanitizer watches).
+/// Whatever the bytes are, reading ends and stays within them (AddressSanitizer watches).
 TEST(Candump, AnyChangedLineIsReadOrRefused) {
   CHECK(rc::check("changed lines", [] {
     std::string line = candump_line(any_frame(), 1436509052249713us, "can0");

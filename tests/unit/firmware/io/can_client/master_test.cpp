@@ -1,4 +1,4 @@
-// What a master takes for itself of the answers that pass on the bus.
+// Which answers on the bus a master takes as its own.
 #include "can_client/master.hpp"
 
 #include <supercoil.h>
@@ -26,7 +26,7 @@ float value_of(const hal::CanFrame& asked) {
   return m.value;
 }
 
-/// What the node answers to a frame that carried this session.
+/// The node's answer to a frame that carried this session.
 hal::CanFrame answer(const hal::CanFrame& asked, std::uint8_t opcode, std::uint16_t session,
                      Refusal refusal, std::uint16_t told = granted) {
   supercoil_acknowledge_t m{};
@@ -120,7 +120,7 @@ TEST(MasterAnswers, SomebodyElsesWriteEndsNoLease) {
   const auto asked = master.setting_write(1, 4.0);
   const auto theirs = setting_answer(counter_of(asked), granted + 1, Refusal::not_lease_holder);
   CHECK_FALSE(master.receive_setting(theirs, true).has_value());
-  // Who reads hears it as the setting's value: the lease is no matter of theirs.
+  // A client that only reads takes it as the setting's value, whoever holds the lease.
   CHECK(master.receive_setting(theirs, false).has_value());
   CHECK_TRUE(master.holds_lease());
 }

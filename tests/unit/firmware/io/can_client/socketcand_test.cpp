@@ -1,4 +1,4 @@
-// Elements are found in any stream, and frames come back from their text.
+// Elements are found in any stream, and frames are read back from their text.
 #include "can_client/socketcand.hpp"
 
 #include <string>
@@ -31,7 +31,7 @@ Elements elements_of(std::string_view stream) {
   return elements;
 }
 
-/// Text in which what matters to a reader is frequent, and now and then something long.
+/// Text with many of the characters that matter to a reader, and sometimes something long.
 std::string any_stream() {
   std::string stream;
   for (int piece : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 300))) {
@@ -43,13 +43,13 @@ std::string any_stream() {
   return stream;
 }
 
-/// What of a frame its "send" element carries.
+/// The part of a frame that its "send" element carries.
 hal::CanFrame without_time(hal::CanFrame frame) {
   frame.received = {};
   return frame;
 }
 
-/// The element of a text, as a reader gives it.
+/// The element in a text, as a reader returns it.
 std::string inside(const std::string& text) {
   const Elements found = elements_of(text);
   return found.size() == 1 ? found[0] : "";
@@ -120,7 +120,7 @@ TEST(Socketcand, EveryFrameComesBack) {
 }
 
 TEST(Socketcand, ReadsWhatOthersWrite) {
-  const auto sent = parse_send("send 7ff 3 a 0 0B");  // as python-can
+  const auto sent = parse_send("send 7ff 3 a 0 0B");  // as python-can sends it
   CHECK(sent.has_value());
   LONGS_EQUAL(0x7FF, sent->id);
   LONGS_EQUAL(0x0B, sent->data[2]);

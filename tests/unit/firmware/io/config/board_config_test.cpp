@@ -1,4 +1,4 @@
-// Configurations that are in order: the examples, defaults, and what channels have in common.
+// Valid configurations: the examples, defaults, and what channels have in common.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -66,7 +66,7 @@ TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());
   UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
   check_says(describe(c), "from -7.9 mm (-30.1°) to 7.9 mm (30.1°)");
-  CHECK(describe(c).find("promises") == std::string::npos);  // that is of one muscle alone
+  CHECK(describe(c).find("promises") == std::string::npos);  // only a single muscle has promises
 }
 
 TEST(BoardConfig, SlowExampleIsFourChannelsBehindI2c) {
@@ -104,7 +104,7 @@ TEST(BoardConfig, SlowExampleFitsItsBuses) {
   check_says(text, "  i2c-3: 0.55 ms, 5.5 %, at 400 kHz\n");
   check_says(text,
              "channels 1, 2, 3, 4: sensors_disagree: heater.temperature_coefficient_per_K is 0");
-  // Never compared: the supply may be 13.2 V where 10.8 V are read.
+  // The senses were never compared: the supply may be 13.2 V when 10.8 V are read.
   check_says(text, "once identified, the muscle gets no more than 2.27 W (limited_by unproven)");
   check_says(text, "recorder 700 KiB: 16 s of ticks, 112 bytes a channel and tick");
 }
@@ -296,7 +296,7 @@ offset_C = -2
   DOUBLES_EQUAL(-2.0, c.settings.air.scaling.offset, 0.0);
   DOUBLES_EQUAL(2.0, c.settings.channels[0].thermal.air.error_K, 0.0);
   check_says(describe(c), "measured to 2 K at temp of thermometer");
-  check_says(describe(c), "air 0.1");  // of bus time, in ms
+  check_says(describe(c), "air 0.1");  // ms of bus time
 }
 
 TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
@@ -351,7 +351,7 @@ TEST(BoardConfig, AdvisesWhereLittleOfTheTravelIsHeld) {
 }
 
 TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {
-  // The example's sensor ends 1 mm below its zero, where it does not see a muscle in cold air.
+  // The example's sensor ends 1 mm below zero, so it does not see a muscle in cold air.
   check_says(describe(example("raspberry-pi-pca9685-ads1115.toml")),
              "\nadvice\n  channels 1, 2, 3, 4: in the coldest air it rests 8.06 mm below its zero, "
              "and the sensor reads no less than -1 mm");

@@ -1,4 +1,4 @@
-// Boards with a [[bundle]]: channels that pull together, with a heater each.
+// Boards with a [[bundle]]: channels that pull together, each with its own heater.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -54,7 +54,7 @@ TEST(BundleConfig, WhatFollowsHasItsLeadersPosition) {
 }
 
 TEST(BundleConfig, TheProofOfResponseIsTheLeaders) {
-  // Also where it is written for every channel.
+  // Even if the file asks for it on every channel.
   for (const char* every : {"", "[every_channel.detectors]\nproof_of_response = true\n"}) {
     const BoardConfig c = read_bundle_board(every + board_with_bundle);
     CHECK(c.settings.channels[0].supervision.proof_of_response);
@@ -77,7 +77,7 @@ TEST(BundleConfig, TheLeaderMayBeALaterChannel) {
   const std::string position = "[channel.position]\ndevice = \"adc\"\ninput = \"voltage1\"\n";
   CHECK(small_board.find("voltage1") != std::string::npos);
   const std::string problems = problems_of(with_channels("[2, 1]"));
-  // The sensor is the first channel's in this file: it is said where it belongs.
+  // In this file the first channel has the sensor: the problem is reported there.
   STRCMP_CONTAINS("position: is that of its bundle, channel 2's: leave it out, or move it there",
                   problems.c_str());
 }

@@ -78,7 +78,7 @@ TEST(EditToml, RefusesWhatWouldChangeMoreOrIsNoToml) {
   STRCMP_CONTAINS("limits.max_W", why_not("[[channel]\n", 0, "limits.max_W", "1").c_str());
 }
 
-/// Each of the examples stays a board that is in order, and the rest of it as it was.
+/// Each example remains a valid board, and the rest of it is unchanged.
 TEST(EditToml, EveryExampleTakesANewMuscle) {
   for (const char* name :
        {"raspberry-pi-pwm-ads1115", "raspberry-pi-pca9685-ads1115", "on-chip-pwm-fast-converter"}) {

@@ -1,4 +1,4 @@
-// Boards with a joint that are configured in degrees.
+// Boards with a joint that is configured in degrees.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -18,7 +18,7 @@ namespace {
 constexpr double rad_per_deg = 3.14159265358979 / 180.0;
 constexpr double degree_m = 0.015 * rad_per_deg;
 
-/// Neither channel says how far it may contract.
+/// Neither channel has max_travel_m.
 const std::string without_travel =
     replaced(replaced(board_with_joint, "max_travel_m = 0.025\n", ""), "max_travel_m = 0.02\n", "");
 const std::string in_deg = replaced(
@@ -62,7 +62,7 @@ TEST(JointInDegrees, TheAntagonistMayPullAtALeverOfItsOwn) {
       "stiffness   16 N/m at the agonist's lever, 0.0036 Nm/rad, however much both pull: linear "
       "muscles\n",
       told.c_str());
-  // So many watts more than at the agonist's lever.
+  // The ratio grows with the antagonist's lever.
   const double alike_W =
       read_in_degrees(ranged("[-20, 30.0]")).settings.joints[0].gain_ratio(c.settings.channels);
   DOUBLES_EQUAL(1.5 * alike_W, c.settings.joints[0].gain_ratio(c.settings.channels), 1e-12);
@@ -83,7 +83,7 @@ TEST(JointInDegrees, ItsRangeBoundsTheTravelOfBothMuscles) {
 }
 
 TEST(JointInDegrees, ATravelInMetresMustAgreeWithTheRange) {
-  // 7.854 and 5.236 mm, written to two digits.
+  // 7.854 and 5.236 mm, rounded to two digits.
   const std::string agreeing =
       replaced(replaced(board_with_joint, "max_travel_m = 0.025", "max_travel_m = 0.0079"),
                "max_travel_m = 0.02\n", "max_travel_m = 0.0052\n");
@@ -139,7 +139,7 @@ TEST(JointInDegrees, ItsSensorMayBeDescribedByAngles) {
   DOUBLES_EQUAL(100.0 * degree_m, agonist.supervision.max_position_m, 1e-12);
   DOUBLES_EQUAL(0.02 * degree_m, agonist.supervision.position_noise_rms_m, 1e-12);
   DOUBLES_EQUAL(0.003 * degree_m, c.settings.channels[1].position.scaling.per_count, 1e-12);
-  // Where nothing is said it is as noisy as any.
+  // Without noise_rms_deg the noise is the default.
   const BoardConfig usual = read_in_degrees(replaced(in_deg, "noise_rms_deg = 0.02\n", ""));
   DOUBLES_EQUAL(1e-5, usual.settings.channels[0].supervision.position_noise_rms_m, 1e-15);
 }
@@ -168,7 +168,7 @@ TEST(JointInDegrees, WhatTheSensorCannotReadIsToldInDegrees) {
 }
 
 TEST(JointInDegrees, AMuscleByItselfHasNoAngle) {
-  // Of a joint that is wrong nothing follows.
+  // Nothing else is reported about a joint that is wrong.
   check_only_problem("63: joint[1].agonist = 9: must be 1 to 2",
                      replaced(in_deg, "agonist = 1\n", "agonist = 9\n"));
   STRCMP_CONTAINS(

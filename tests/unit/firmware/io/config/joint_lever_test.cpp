@@ -1,4 +1,4 @@
-// The lever of a joint, one radius or a table over the angle, as a board's file has it.
+// The lever of a joint in a board's file: one radius, or a table over the angle.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -67,11 +67,11 @@ TEST(JointLeverConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
                  "lever_m = " + levers + "\nlever_range_deg = [-40.0, 40.0]\n");
     return replaced(board, "max_travel_m = 0.025", "max_travel_m = " + travel_m);
   };
-  // By a lever of 15 mm all the way, 25 mm are read as 25 mm.
+  // With a constant lever of 15 mm, 25 mm are read as 25 mm.
   check_answer(
       "channel[1].limits.max_travel_m = 0.025: must be within what the sensor can read: "
       "position.max_m = 0.041, and by its lever it reads 0.079351",
       with_lever("[0.015, 0.015, 0.004]", "0.025"));
-  // And more than it reads where the lever grows.
+  // Where the lever grows, the travel may exceed what the sensor reads.
   read_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));
 }

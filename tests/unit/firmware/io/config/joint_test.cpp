@@ -22,7 +22,7 @@ using supercoil::test::small_board;
 
 namespace {
 
-/// Without moving the position, which is the first channel's.
+/// The position is not moved: it stays with the first channel.
 const std::string swapped = replaced(replaced(board_with_joint, "agonist = 1\n", "agonist = 2\n"),
                                      "antagonist = 2", "antagonist = 1");
 
@@ -44,12 +44,12 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
   DOUBLES_EQUAL(0.041, antagonist.supervision.max_position_m, 0.0);
   STRCMP_EQUAL("voltage1", c.wiring.channels[1].position.input.c_str());
   CHECK(c.wiring.channels[1].position_of == std::size_t{0});
-  // Of one muscle alone: --check and the rows say that it is off.
+  // The proof is for a single muscle: --check and the rows say that it is off.
   for (const ChannelSettings& channel : c.settings.channels)
     CHECK_FALSE(channel.supervision.proof_of_response);
 }
 
-/// 135 bits, 50 times a second, of 500 kbit/s.
+/// 135 bits, 50 times a second, at 500 kbit/s.
 TEST(JointConfig, TheJointIsPartOfTheLoadOfTheCanBus) {
   const auto described = [](const std::string& text) {
     return describe(read_board(text + "[can]\n"));
@@ -71,7 +71,7 @@ TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   const ChannelSettings& channel = c.settings.channels[0];
   CHECK(channel.joint.turns() && !channel.joint.has_other());
   DOUBLES_EQUAL(0.015, channel.joint.lever.zero_radius_m(), 0.0);
-  // Its muscle alone moves it, and proves so.
+  // Only its muscle moves the joint, so the muscle can prove that it responds.
   CHECK(channel.supervision.proof_of_response);
   STRCMP_CONTAINS(
       "  joint       finger, turned against a spring; lever of 15 mm; held for good up to",
@@ -81,7 +81,7 @@ TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   check_answer("is not a key of [joint[1]]", small_board + spring + "co_contraction_W = 0.5\n");
   check_answer("joint[1].opposed_by = 'rope': must be one of: muscle, spring, gravity",
                small_board + replaced(spring, "spring'", "rope'"));
-  // Who knows whether it has an antagonist.
+  // With an unknown kind, nothing is said about a missing antagonist.
   CHECK(problems_of(small_board + replaced(spring, "spring'", "rope'")).find("antagonist") ==
         std::string::npos);
   check_answer("joint[1].agonist = 2: must be 1",
@@ -99,7 +99,7 @@ TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
   const JointSettings& joint = c.settings.joints[0];
   UNSIGNED_LONGS_EQUAL(1, joint.agonist);
   UNSIGNED_LONGS_EQUAL(0, joint.antagonist);
-  // Each in its place, the first one read last.
+  // The channels keep their places although the first one is read last.
   DOUBLES_EQUAL(4.5, c.settings.channels[0].limiter.max_W, 0.0);
   DOUBLES_EQUAL(4.0, c.settings.channels[1].limiter.max_W, 0.0);
   STRCMP_EQUAL("voltage2", c.wiring.channels[0].current.input.c_str());
@@ -113,8 +113,8 @@ TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
 }
 
 TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
-  // Of 4 W of the antagonist, each of which moves the joint as far as 0.089/0.0712 of the agonist:
-  // the agonist's 4.5 W are less.
+  // 4 W of the antagonist, each of which moves the joint as far as 0.089/0.0712 W of the agonist,
+  // are more than the agonist's 4.5 W.
   DOUBLES_EQUAL(0.2 * 4.5, read_board(board_with_joint).settings.joints[0].co_contraction_W, 1e-12);
   DOUBLES_EQUAL(
       1.5,
@@ -137,13 +137,13 @@ TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
       board_with_joint + "co_contraction_W = 0.9\nmax_co_contraction_W = 0.8\n");
   check_answer("joint[1].max_co_contraction_W = 4.6: must be 0 to 4.5",
                board_with_joint + "max_co_contraction_W = 4.6\n");
-  // The usual co-contraction is not above it.
+  // The default co-contraction does not exceed the maximum.
   const BoardConfig low = read_board(board_with_joint + "max_co_contraction_W = 0.5\n");
   DOUBLES_EQUAL(0.5, low.settings.joints[0].co_contraction_W, 0.0);
 }
 
 TEST(JointConfig, APairThatCanTearItselfIsRefused) {
-  // 0.0086 N/K at 2.25 W / 0.045 W/K, of the agonist; of the antagonist at 1.8 W.
+  // For the agonist 0.0086 N/K at 2.25 W / 0.045 W/K, for the antagonist at 1.8 W.
   STRCMP_EQUAL(
       "b.toml:66: joint[1].max_pull_N = 0.5: is less than channel 1 may pull with: a pretension of "
       "0.1 N, and 0.43 N by the heat of max_co_contraction_W = 2.25, which are 2.25 W there; "
@@ -173,7 +173,7 @@ TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
       "0.516 N by the heat of max_co_contraction_W = 2.25, which are 1.8 W there; "
       "max_co_contraction_W must be 0 to 1.962, or max_pull_N at least 0.516",
       badly_cooled + "max_pull_N = 0.45\n");
-  // No hotter than it may become: (50 - 15) K.
+  // Not hotter than it may become: (50 - 15) K.
   const std::string cool =
       replaced(badly_cooled, "[channel.limits]\nmax_W = 4.0",
                "[channel.limits]\ntrip_C = 50\nderate_from_C = 40\nmax_W = 4.0");
@@ -206,7 +206,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
         "with 0.9 W and 0.7 W while no effort is asked for; each muscle contributes half of an "
         "effort",
         "at most with 2.2 W and 1.8 W",
-        // By 2.25 W, and 1.8 W of the antagonist, at 0.045 W/K: not as cool as is believed.
+        // By 2.25 W, and 1.8 W for the antagonist, at 0.045 W/K: hotter than is believed.
         "the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension; "
         "max_pull_N, which "
         "they bear, is not configured",
@@ -225,7 +225,7 @@ TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
     DOUBLES_EQUAL(0.02, place.pretension_N, 0.0);
     DOUBLES_EQUAL(0.5, place.stiffness_ratio, 0.0);
   }
-  // 0.02 N over 8 N/m are 2.5 mm.
+  // 0.02 N over 8 N/m is 2.5 mm.
   STRCMP_CONTAINS("  slack       by the model, without power: the agonist from 9.5° on, taut at ",
                   describe(alike).c_str());
   STRCMP_CONTAINS("; the antagonist from -9.5° on, taut at ", describe(alike).c_str());

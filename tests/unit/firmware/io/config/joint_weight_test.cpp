@@ -17,7 +17,7 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 
-/// Muscle and weight together: 16 N/m of the muscle, 15.7 of the weight.
+/// Muscle and weight together: 16 N/m from the muscle, 15.7 from the weight.
 const std::string arm =
     small_board_with("max_travel_m = 0.025\n", "[channel.muscle]\nstiffness_N_per_m = 31.7\n") +
     "[[joint]]\nopposed_by = 'gravity'\nagonist = 1\nlever_m = 0.015\nweight_Nm = 0.005\n"
@@ -89,6 +89,6 @@ TEST(JointWithAWeight, IsAdvisedToEndWhereItTipsOver) {
                : "";
   };
   STRCMP_EQUAL("", advised(arm).c_str());
-  // 4 N/m are the muscle's own, and the weight takes as much where its arm is 10° above the level.
+  // The muscle itself has 4 N/m; the weight cancels that when the arm is 10° above level.
   STRCMP_EQUAL("above 55.3°", advised(replaced(arm, "31.7", "19.7")).c_str());
 }

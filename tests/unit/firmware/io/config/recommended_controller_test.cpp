@@ -64,7 +64,7 @@ TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
                   config::problem_of(suits, channel, 1e-3).c_str());
 }
 
-/// Of a muscle that is linear feedback makes nothing better but noise larger.
+/// On a linear muscle feedback improves nothing and only adds noise.
 TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse) {
   const BoardSettings board;
   ChannelSettings channel;
@@ -90,7 +90,7 @@ TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse
   STRCMP_CONTAINS("promises as little with 5 rad/s as with 8, and asks for no motion",
                   kept.reason.c_str());
   CHECK(kept.pole_rad_per_s <= 5.0);
-  // Where it promises clearly less it is recommended, and so it is where little would be corrected.
+  // It is recommended when it promises clearly less, and also when there is little to correct.
   const RecommendedController closer = suits_beside(5.0, 0.03);
   DOUBLES_EQUAL(8.0, closer.bandwidth_rad_per_s, 0.01);
   CHECK(promised_m(closer.in_place_of(in_use)) < 0.95 * promised_m(in_use));
@@ -115,7 +115,7 @@ TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferen
   const RecommendedController slow = recommended_controller(muscle);
   DOUBLES_EQUAL(2.0, asks(slow), 5e-3);
   CHECK(slow.pole_rad_per_s < 0.3 * usual.pole_rad_per_s);
-  // No quicker than the feedback, however quick the muscle.
+  // Not faster than the feedback, however fast the muscle.
   muscle.thermal_mass_J_per_K /= 100.0;
   DOUBLES_EQUAL(8.0, recommended_controller(muscle).pole_rad_per_s, 0.0);
   STRCMP_CONTAINS("no faster than the feedback",

@@ -1,4 +1,4 @@
-// What a mistaken board configuration is answered: file, line, key, value and what is allowed.
+// Problems of a wrong board configuration: file, line, key, value and what is allowed.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -35,7 +35,7 @@ TEST(WrongBoard, MissingUnitIsNamed) {
 TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
   check_replaced("[[bus]]", "[can]\nmost_load = 0.5\n[[bus]]",
                  "b.toml:11: can.most_load = 0.5: was renamed in 0.2.0: write can.max_load");
-  // Once, although the new one is required.
+  // Reported once, although the new key is required.
   check_replaced("max_m = 0.041", "highest_m = 0.041",
                  "b.toml:27: channel[1].position.highest_m = 0.041: was renamed in 0.2.0: write "
                  "channel[1].position.max_m");
@@ -102,7 +102,7 @@ TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
       "thread adds 25 % of resistance, and each of the others gets 1.25 times its share; "
       "detectors.resistance_ratio = 0.3 and heater.temperature_coefficient_per_K let up "
       "to 30 % pass: wire them in series, or lower resistance_ratio");
-  // A cold muscle that might be at 160 °C may have 1.3 times 1.29 of its resistance.
+  // A cold muscle that might be at 160 °C may have 1.3 times 1.29 times its resistance.
   const std::string warm = "temperature_coefficient_per_K = 0.002\n";
   check_replaced(before, bundle("muscles = 3\nwired = 'parallel'") + warm,
                  "b.toml:33: channel[1].bundle.muscles = 3: with this many in parallel, a broken "

@@ -1,5 +1,4 @@
-// The same of lines, converters, buses, captures and CAN: what is given twice, too slow or not
-// there.
+// The same for lines, converters, buses, captures and CAN: used twice, too slow or missing.
 #include <string>
 
 #include <CppUTest/TestHarness.h>

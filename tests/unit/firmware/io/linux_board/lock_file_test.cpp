@@ -15,7 +15,7 @@ using supercoil::test::TemporaryFolder;
 TEST_GROUP(LockFile) {
   TemporaryFolder folder;
 
-  /// Not taken, for this reason, and not because somebody else has it.
+  /// The lock is not taken, for this reason, and not because another process holds it.
   void refused(std::string_view why) {
     const auto lock = LockFile::take(folder / "lock");
     CHECK_FALSE(lock.has_value());
@@ -74,7 +74,7 @@ TEST(LockFile, AFolderIsRefused) {
   refused("cannot be made: Is a directory");
 }
 
-/// Only root can give a file away.
+/// Only root can give a file to another user.
 TEST(LockFile, AFileOfAForeignUserIsLeftAlone) {
   if (::geteuid() != 0) return;
   constexpr uid_t somebody = 65534;
@@ -84,7 +84,7 @@ TEST(LockFile, AFileOfAForeignUserIsLeftAlone) {
   STRCMP_EQUAL("of somebody else", folder.read("lock").c_str());
 }
 
-/// As root's doctor finds it: the service's user owns both.
+/// As root's doctor finds it: the service's user owns both the folder and the file.
 TEST(LockFile, TheOwnerOfItsFolderMayOwnIt) {
   if (::geteuid() != 0) return;
   constexpr uid_t service = 65534;

@@ -1,6 +1,6 @@
-// Counts what the recorder allocates while it only listens: nothing is allowed to.
+// Counts what the recorder allocates while it only listens: it must not allocate at all.
 //
-// A program of its own, because it replaces malloc, in which everything that allocates ends.
+// This is a separate program because it replaces malloc, which all allocations end in.
 #include <cstdio>
 
 #include "recorder/flight_recorder.hpp"
@@ -13,10 +13,10 @@ int main() {
   const int unseen = test::prove_the_counters();
   storage::PosixFiles files;
   recorder::FlightRecorder recorder("/none/there", 2, test::rate_Hz, files);
-  constexpr std::int64_t ticks = 100'000;  // the memory begins anew some sixty times
+  constexpr std::int64_t ticks = 100'000;  // the memory wraps around some sixty times
   const test::WatchedCalls listened = test::counted([&] {
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
-      // The last 50 ticks have a fault whose second has not passed.
+      // The last 50 ticks have a fault, with less than a second recorded after it.
       const Fault fault = tick >= ticks - 50 ? Fault::over_travel : Fault::none;
       recorder.add(test::row(tick * test::tick_ns, 0, fault));
       recorder.add(test::row(tick * test::tick_ns, 1));

@@ -52,7 +52,7 @@ TEST(FlightRecorder, RecordsAFaultThatIsThereInTheFirstRow) {
 }
 
 TEST(FlightRecorder, IsWholeWhereverTheMemoryBeginsAnew) {
-  // 16 s and two ticks are kept: faults 11.37 s apart come to lie everywhere in that memory.
+  // The memory holds 16 s and two ticks: faults 11.37 s apart end up at every place in it.
   for (int i = 1; i <= 40; ++i) {
     const double at_s = 12.0 + i * 11.37;
     ticks.until(at_s - 0.01);
@@ -68,7 +68,7 @@ TEST(FlightRecorder, FaultsOfSeveralChannelsShareARecordingThatTheyDoNotExtend) 
   ticks.until(19.99);
   ticks.fault(1);
   ticks.until(20.99);
-  ticks.fault(0, Fault::emergency_stop);  // with the last tick that is recorded
+  ticks.fault(0, Fault::emergency_stop);  // at the last tick that is recorded
   ticks.until(40.0);
   LONGS_EQUAL(1, recordings());
   const auto written = recording(1);

@@ -1,4 +1,4 @@
-// Every call on files fails once, or for good, or is where the power goes or the process dies.
+// Every call on files fails once or for good, or the power goes or the process dies at it.
 #include <cerrno>
 #include <filesystem>
 #include <string>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int calls_of_a_recording = 9;
 
-/// Two recordings of which two may be kept, and an interrupted one.
+/// Two recordings, of two that may be kept, and an interrupted one.
 Content start() {
   std::vector<Row> rows{row(5 * second_ns, 1, Fault::over_temperature)};
   const std::string whole = file_of(rows);
@@ -36,7 +36,7 @@ recorder::RecorderSettings two(const Disk& disk) {
   return settings;
 }
 
-/// Everything that looks like a recording is a whole one; returns how many.
+/// Everything that looks like a recording is complete; returns how many there are.
 int whole_recordings(const Content& content) {
   int count = 0;
   for (const auto& [path, text] : content) {
@@ -66,7 +66,7 @@ TEST(Mishap, CountsTheCalls) {
   SimulatedFiles files(disk);
   FlightRecorder recorder("/d", 2, rate_Hz, files, two(disk));
   Ticks{recorder, 0, {Fault::over_travel, Fault::none}}.until(2.0);
-  // Two removed, made, header, rows in one piece, synced, closed, renamed, folder synced.
+  // Two removed, one made, header, rows in one piece, synced, closed, renamed, folder synced.
   LONGS_EQUAL(calls_of_a_recording, files.calls());
 }
 
@@ -126,7 +126,7 @@ TEST(Mishap, KilledBeforeAndAfterEveryCallLeavesWholeRecordings) {
     const bool killed = WIFSIGNALED(child.end(0));
     whole_recordings(content());
     if (killed) continue;
-    // With what the last killed one left: made, four parts of writes, synced, closed, renamed.
+    // With the last killed run's leftovers: made, four partial writes, synced, closed, renamed.
     CHECK(step >= 18);
     for (const auto& [path, text] : content())
       CHECK_TEXT(path.ends_with(".scfr"), path.c_str());

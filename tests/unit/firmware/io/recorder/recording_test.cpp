@@ -1,4 +1,4 @@
-// The file's format, and every way in which a file can be something else.
+// The file's format, and every way in which a file can differ from it.
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -24,7 +24,7 @@ TEST_GROUP(Recording) {
     const auto read = decode(text, damaged);
     return read ? "" : read.error().text();
   }
-  /// The header rewritten with one value changed, and its CRC as it must be.
+  /// The header rewritten with one value changed and with a matching CRC.
   std::string with(const std::string& from, const std::string& to) const {
     std::string text = file;
     const std::size_t at = text.find(from);
@@ -132,7 +132,7 @@ TEST(Recording, TheLongestHeaderFits) {
 
 TEST(Recording, TheCrcOfTwoPlacesIsThatOfBothInOne) {
   const std::string_view text = "123456789";
-  // The check value that catalogues of CRCs give for CRC-32.
+  // The check value for CRC-32 in catalogues of CRCs.
   LONGS_EQUAL(0xCBF43926, storage::crc32(text));
   LONGS_EQUAL(storage::crc32(text), storage::crc32("1234", "56789"));
 }
@@ -249,8 +249,7 @@ TEST(Recording, WithoutAWholeRowThereIsNothingToRead) {
 }
 
 TEST(Recording, AnythingAtAllIsReadWithoutHarm) {
-  // Every byte of the header set to something else, and of the rows: never more rows than there
-  // are.
+  // With every byte of the header and of the rows changed, no more rows are read than exist.
   for (std::size_t i = 0; i < file.size(); ++i) {
     for (const char value : {'\0', '\xFF', '9', '\n', '"'}) {
       std::string changed = file;

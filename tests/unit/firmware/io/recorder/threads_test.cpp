@@ -1,4 +1,4 @@
-// Two threads as on a board: one makes rows as the loop does, one records them.
+// Two threads as on a board: one makes rows like the loop, the other records them.
 #include <atomic>
 #include <thread>
 
@@ -14,12 +14,12 @@
 using namespace supercoil;
 using namespace supercoil::test;
 
-/// It also fits the real loop.
+/// pump() also compiles with the real loop.
 template std::size_t recorder::pump<Loop>(Loop&, recorder::FlightRecorder&, hal::Time);
 
 namespace {
 
-/// The loop's ring and its way of filling it.
+/// The loop's ring, filled as the loop does.
 struct Ring {
   boost::lockfree::spsc_queue<Row> rows{400};  // 2 s of two channels
   std::atomic<bool> done{false};
@@ -27,7 +27,7 @@ struct Ring {
   bool take(Row& row) { return rows.pop(row); }
   void push(const Row& row) {
     while (!rows.push(row))
-      std::this_thread::yield();  // the loop would lose it; here none may be missing
+      std::this_thread::yield();  // the loop would lose the row; here none may be missing
   }
 };
 
@@ -53,7 +53,7 @@ TEST(Threads, RowsArriveInOrderAndAllOfThemWhileRecordingsAreWritten) {
     for (std::int64_t tick = 0; tick <= static_cast<std::int64_t>(faults * apart_s * rate_Hz);
          ++tick) {
       const std::int64_t in_turn = tick % static_cast<std::int64_t>(apart_s * rate_Hz);
-      // The fault comes at 15 s of each 20 s and is reset with the last of them.
+      // The fault comes at 15 s of every 20 s and is reset at their end.
       const Fault fault = in_turn >= 1500 ? Fault::over_travel : Fault::none;
       ring.push(row(tick * tick_ns, 0, fault));
       ring.push(row(tick * tick_ns, 1));
@@ -64,7 +64,7 @@ TEST(Threads, RowsArriveInOrderAndAllOfThemWhileRecordingsAreWritten) {
   std::size_t count = 0;
   bool done = false;
   while (!done) {
-    done = ring.done;  // before the last look into the ring
+    done = ring.done;  // before the last read of the ring
     count += pump(ring, recorder, hal::Time{});
   }
   loop.join();
@@ -78,7 +78,7 @@ TEST(Threads, RowsArriveInOrderAndAllOfThemWhileRecordingsAreWritten) {
 TEST(Threads, RowsThatAFullRingLostAreAGapAndTheRestIsInOrder) {
   recorder::FlightRecorder recorder(folder.path(), 2, rate_Hz, files);
   std::int64_t lost = 0;
-  // The recorder is away for 3 s: the ring takes 2 s, and the loop goes on.
+  // The recorder stalls for 3 s: the ring holds 2 s, and the loop goes on.
   for (std::int64_t tick = 0; tick < 1500; ++tick) {
     const Fault fault = tick >= 1300 ? Fault::over_travel : Fault::none;
     for (const int channel : {0, 1}) {
@@ -86,7 +86,7 @@ TEST(Threads, RowsThatAFullRingLostAreAGapAndTheRestIsInOrder) {
     }
     if (tick < 700 || tick >= 1000) pump(ring, recorder, hal::Time{});
   }
-  LONGS_EQUAL(202, lost);  // from 9 s on, and the tick at which the recorder comes back
+  LONGS_EQUAL(202, lost);  // from 9 s on, and the tick at which the recorder returns
   const auto rows = recording(1).rows;
   LONGS_EQUAL(2L * 1101 - lost, rows.size());
   std::int64_t longest = 0;

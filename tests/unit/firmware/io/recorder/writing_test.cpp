@@ -175,7 +175,7 @@ TEST(Writing, FinishTriesWhatWaitsAtOnce) {
 }
 
 TEST(Writing, AListThatFailsIsAProblemLikeAnyOther) {
-  recorder::RecorderSettings settings;  // the real list, of a folder that is not there
+  recorder::RecorderSettings settings;  // the real list of a folder that does not exist
   recorder::FlightRecorder failing("/none/there", 2, rate_Hz, files, settings);
   Ticks{failing, 0, {Fault::over_travel, Fault::none}}.until(2.0);
   const auto said = failing.take_notes();

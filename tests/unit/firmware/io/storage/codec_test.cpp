@@ -34,7 +34,7 @@ board::Learned full_set() {
   return set;
 }
 
-/// What the file says behind its first line, with something in it exchanged, and sealed anew.
+/// The file without its first line, with a part replaced, and sealed again.
 std::string sealed_with(const std::string& what, const std::string& instead) {
   const std::string text = encode(full_set());
   std::string body = text.substr(text.find('\n') + 1);
@@ -90,7 +90,7 @@ TEST(Codec, WrongTuningIsNamed) {
                with("\n[chosen]\nestimator = 0.5\n"));
 }
 
-// The checksum is what Python's zlib.crc32 gives for these lines.
+// The checksum is that of Python's zlib.crc32 for these lines.
 TEST(Codec, WritesWhatAPersonCanRead) {
   board::Learned set;
   set.calibration.position_offset_m = -0.00125;
@@ -116,7 +116,7 @@ TEST(Codec, WritesWhatAPersonCanRead) {
 }
 
 TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
-  // As the firmware before wrote it.
+  // As the previous firmware wrote it.
   const std::string before =
       "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
       "# Written by supercoild. An edited file counts as damaged and is not used.\n"
@@ -132,7 +132,7 @@ TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
 }
 
 TEST(Codec, AFileOf0_1_0IsReadUnderItsOwnKeys) {
-  // docs/storage.md of 0.1.0.
+  // From docs/storage.md of 0.1.0.
   const std::string body =
       "# Written by supercoild. An edited file counts as damaged and is not used.\n"
       "version = 3\n\n[muscle]\nthermal_mass_J_per_K = 0.162\nheat_transfer_W_per_K = 0.089\n"
@@ -212,7 +212,7 @@ TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);
   CHECK(decode(encode(set)) == set);
-  // And neither, when the comparison was forgotten as well.
+  // Neither is kept when the comparison was forgotten as well.
   set.senses = {};
   set.heat = {};
   CHECK(decode(encode(set)) == set);
@@ -302,7 +302,7 @@ TEST(Codec, SmallMotionsAreThoseOfAMuscleAndNotStoredWithoutOne) {
   DOUBLES_EQUAL(0.0, read->response_ratio, 0.0);
 }
 
-// The check value is that of the catalogue of CRC algorithms for CRC-32/ISO-HDLC.
+// The check value is from the catalogue of CRC algorithms for CRC-32/ISO-HDLC.
 TEST(Codec, ChecksumOfTwoPartsIsThatOfTheWhole) {
   UNSIGNED_LONGS_EQUAL(0xCBF43926, crc32("123456789"));
   UNSIGNED_LONGS_EQUAL(0xCBF43926, crc32("1234", "56789"));

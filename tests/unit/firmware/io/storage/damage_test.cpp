@@ -1,4 +1,4 @@
-// What is not exactly what was written is not read.
+// A file is read only if it is exactly as it was written.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -22,7 +22,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), instead);
 }
 
-/// A place in a text, its end included.
+/// A position in a text, including its end.
 std::size_t place(const std::string& text) {
   return *rc::gen::inRange<std::size_t>(0, text.size() + 1);
 }
@@ -56,7 +56,7 @@ std::string with_a_burst(std::string text) {
   return text;
 }
 
-/// The start of one version and the rest of another, as a file that was written over in place.
+/// The start of one version and the rest of another, like a file overwritten in place.
 std::string mixed(const std::string& text) {
   const std::string other = encode(*learned_sets());
   return text.substr(0, place(text)) + other.substr(place(other));
@@ -69,7 +69,7 @@ bool all_noticed(const char* name, const std::function<std::string(const std::st
     const std::string damaged = damage(text);
     RC_PRE(damaged != text);
     const auto read = decode(damaged);
-    // Two versions may be mixed at a place where that gives one of them whole.
+    // Two versions may be mixed so that one of them results unchanged.
     // RC_ASSERT would evaluate both sides of its own ||.
     const bool noticed = !read || (name == std::string("mixed") && encode(*read) == damaged);
     RC_ASSERT(noticed);

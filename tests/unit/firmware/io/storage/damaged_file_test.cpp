@@ -1,4 +1,4 @@
-// Which set a store gives when a file is damaged, and what becomes of the damaged one.
+// Which set a store returns when a file is damaged, and what becomes of the damaged file.
 #include <string>
 
 #include <CppUTest/TestHarness.h>

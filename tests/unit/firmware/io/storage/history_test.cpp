@@ -17,8 +17,8 @@ namespace {
 
 const std::string path = "/d/learned-1.toml";
 
-/// A board that is used until its power goes, again and again. What load() may give is known at
-/// each moment: the last set whose save was reported, or one that was tried after it.
+/// A board that is used until its power goes, again and again. At each moment it is known what
+/// load() may return: the last set whose save was reported, or one that was tried after it.
 class Board {
  public:
   void one_life() {
@@ -29,7 +29,7 @@ class Board {
     LearnedStore store("/d", 1, files);
     const int saves = *rc::gen::inRange(1, 4);
     for (int i = 0; i < saves; ++i) {
-      const int n = *rc::gen::inRange(1, 5);  // few, so that the same content comes again
+      const int n = *rc::gen::inRange(1, 5);  // few, so that the same content recurs
       allowed_.insert(n);
       if (store.save(nth_set(n))) allowed_ = {n};
       check(disk.seen());
@@ -39,7 +39,7 @@ class Board {
     check(content_);
   }
 
-  /// One of the two files is damaged, when the other one can stand in for it.
+  /// Damages one of the two files if the other one can replace it.
   void damage() {
     const bool current = *rc::gen::arbitrary<bool>();
     const std::string hit = current ? path : path + ".previous";

@@ -1,4 +1,4 @@
-// Signals end a write early or before it began; what is written must be whole all the same.
+// Signals end a write early or before it starts; the written file must still be complete.
 #include <array>
 #include <csignal>
 #include <string>
@@ -17,12 +17,12 @@ namespace {
 
 void nothing(int) {}
 
-/// Interrupts this thread's system calls every 200 µs while it lives.
+/// Interrupts this thread's system calls every 200 µs during its lifetime.
 class Interruptions {
  public:
   Interruptions() {
     struct sigaction action {};
-    action.sa_handler = nothing;  // and no SA_RESTART: calls end with EINTR, or with a part done
+    action.sa_handler = nothing;  // and no SA_RESTART: calls end with EINTR, or partly done
     sigaction(SIGALRM, &action, &old_);
     const itimerval often{{0, 200}, {0, 200}};
     setitimer(ITIMER_REAL, &often, nullptr);
@@ -39,7 +39,7 @@ class Interruptions {
   struct sigaction old_ {};
 };
 
-/// A thread that is sent no SIGALRM, so that the interruptions meet the thread under test.
+/// A thread without SIGALRM, so that the interruptions hit the thread under test.
 template <class Work>
 std::thread undisturbed(Work work) {
   sigset_t alarm;
@@ -64,7 +64,7 @@ TEST(InterruptedWrite, GoesOnUntilAllIsWritten) {
   for (std::size_t i = 0; i < sent.size(); ++i)
     sent[i] = static_cast<char>(i * 2654435761U >> 13);
   std::string received;
-  // The pipe is full nearly always, so that most writes wait and are interrupted.
+  // The pipe is nearly always full, so that most writes wait and are interrupted.
   std::thread reader = undisturbed([&] {
     std::string part(1 << 14, '\0');
     for (ssize_t count = 1; count > 0;) {

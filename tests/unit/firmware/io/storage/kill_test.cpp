@@ -1,4 +1,4 @@
-// The store on real files, its process killed.
+// The store on real files, while its process is killed.
 #include <cstring>
 #include <random>
 #include <string>
@@ -20,7 +20,7 @@ TEST_GROUP(Kill) {
   TemporaryFolder folder;
   PosixFiles files;
 
-  /// What is stored, which must be there and in order.
+  /// The stored set, which must exist and be valid.
   board::Learned stored() {
     const auto loaded = LearnedStore(folder.path(), 1, files).load();
     CHECK_TEXT(loaded.has_value(), loaded ? "" : loaded.error().text().c_str());
@@ -51,7 +51,7 @@ TEST(Kill, BeforeAndAfterEveryCallLeavesTheOldSetOrTheNewOne) {
     }
     ++kills;
   }
-  LONGS_EQUAL(22, kills);  // ten calls, and the write in two
+  LONGS_EQUAL(22, kills);  // ten calls, and the write in two parts
 }
 
 TEST(Kill, AtRandomMomentsLosesNothingThatWasReportedAsSaved) {
@@ -66,7 +66,7 @@ TEST(Kill, AtRandomMomentsLosesNothingThatWasReportedAsSaved) {
         if (!version || write(report, &*version, sizeof *version) < 0) _exit(1);
       }
     });
-    static_cast<void>(child.read(sizeof last));  // it is in the middle of its work
+    static_cast<void>(child.read(sizeof last));  // by now it is busy saving
     usleep(static_cast<useconds_t>(random() % 3000));
     CHECK(WIFSIGNALED(child.end(SIGKILL)));
     std::string reported = child.read(1 << 16);

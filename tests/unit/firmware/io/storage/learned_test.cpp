@@ -50,8 +50,8 @@ TEST(Learned, TheEndsOfARangeAreAllowedAndWhatLiesJustBeyondIsNot) {
   }
 }
 
-// A gain beyond half or twice is a mistyped meter, 300 K a burnt muscle, -1 W a sign that was lost:
-// whatever wrote such a file, nothing is bounded by it.
+// A gain beyond half or twice is a mistyped meter reading, 300 K a burnt muscle, -1 W a lost sign:
+// whatever wrote such a file, it must not set any bound.
 TEST(Learned, NothingBeyondWhatAMuscleAndItsSensesCanBeIsAllowed) {
   struct Credible {
     std::string_view key;

@@ -39,7 +39,7 @@ TEST(PosixFiles, ReadWhatTheyWrote) {
   CHECK(*files.read(path("x"), 2) == content.substr(0, 2));
 }
 
-// errno keeps what an earlier call left there.
+// errno keeps the value that an earlier call left.
 TEST(PosixFiles, DoNotTakeAnEarlierInterruptionForTheirOwn) {
   errno = EINTR;
   put("x", "1");
@@ -60,7 +60,7 @@ TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {
   CHECK(files.link(path("x"), path("y")).has_value());
   LONGS_EQUAL(EEXIST, files.link(path("x"), path("y")).error().code);
   CHECK(files.rename(path("x"), path("y")).has_value());
-  CHECK(files.read(path("x"), 9).has_value());  // two names of one file: nothing happened
+  CHECK(files.read(path("x"), 9).has_value());  // two names for one file: nothing happened
   CHECK(files.unlink(path("x")).has_value());
   LONGS_EQUAL(ENOENT, files.unlink(path("x")).error().code);
   CHECK(files.sync_folder(folder.path()).has_value());
@@ -102,7 +102,7 @@ TEST(PosixFiles, ReportAFullDisk) {
 
 TEST(PosixFiles, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
   put("x", "content");
-  // A service may be started without standard input: then the first file that it opens is number 0.
+  // A service may be started without standard input; the first file that it opens is then number 0.
   const int input = ::dup(0);
   ::close(0);
   const auto content = files.read(path("x"), 100);
@@ -117,7 +117,7 @@ TEST(PosixFiles, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
 }
 
 TEST(PosixFiles, GoOnWithWhatASignalInterrupts) {
-  // A pipe that is full makes a write wait, as a slow disk does.
+  // A full pipe makes a write wait, as a slow disk does.
   int ends[2] = {};
   LONGS_EQUAL(0, ::pipe2(ends, O_CLOEXEC));
   ::fcntl(ends[1], F_SETPIPE_SZ, 4096);

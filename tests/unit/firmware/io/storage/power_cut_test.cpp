@@ -1,4 +1,4 @@
-// A save that is stopped at every call, in every way, from every state in which it may start.
+// A save that is stopped at every call, in every way, from every possible initial state.
 #include <cerrno>
 #include <set>
 #include <string>
@@ -15,7 +15,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// The contents that are damaged and stand under a name that this program reads or keeps.
+/// The damaged contents under a name that this program reads or keeps.
 std::set<std::string> damaged_of(const Content& content) {
   std::set<std::string> found;
   for (const auto& [name, content_of] : content) {
@@ -31,14 +31,14 @@ bool holds(const Content& content, const std::string& wanted) {
   return false;
 }
 
-/// Which set a file holds; −1 is garbage, or no such file.
+/// Which set a file holds; −1: garbage, or no such file.
 int set_in(const Content& content, const std::string& name) {
   const auto found = content.find(name);
   const auto set = decode(found == content.end() ? "" : found->second);
   return set ? which(*set) : -1;
 }
 
-/// Every way to be disturbed at one call.
+/// Every kind of mishap at one call.
 std::vector<Mishap> mishaps(int call) {
   std::vector<Mishap> all;
   for (const bool takes_effect : {false, true}) {
@@ -66,7 +66,7 @@ TEST_GROUP(PowerCut) {
     return LearnedStore("/d", channel, files).load().has_value();
   }
 
-  /// What the board may find after the cut, and that it goes on from there.
+  /// Checks what the board may find after the cut, and that it can continue.
   void check_survivor(const Start& start, const Content& content, int before) const {
     const int now = loaded(content);
     expect(now == before || now == saved_set, "load() gives the old set or the new one");
@@ -79,7 +79,7 @@ TEST_GROUP(PowerCut) {
       expect(loaded(later) == saved_set, "what was saved again is there after another cut");
   }
 
-  /// Returns the number of disks that a power cut left.
+  /// Returns the number of different disks that a power cut may leave.
   int check_save(const Start& start, const Mishap& mishap, std::set<Content>& checked) {
     context = std::string(start.name) + ", call " + std::to_string(mishap.at_call) + ", error " +
               std::to_string(mishap.error) + (mishap.takes_effect ? ", takes effect" : "") +
@@ -162,8 +162,8 @@ TEST(PowerCut, AtEveryCallOfForgettingLeavesTheOldSetOrNone) {
 }
 
 TEST(PowerCut, NeverLeavesOneFileUnderBothNames) {
-  // Two names of one file are one version: the save must not pass through that state, or damage to
-  // that file would find no other.
+  // Two names for one file are only one version: the save must not pass through that state, because
+  // after damage to that file there would be no other.
   const Content two{{current, text(2, 2)}, {previous, text(1, 1)}};
   for (int call = 0; call < 12; ++call) {
     Disk disk(two);

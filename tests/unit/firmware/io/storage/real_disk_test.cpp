@@ -1,4 +1,4 @@
-// The store where a real folder does not let it write.
+// The store in real folders where it may not write.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -28,7 +28,7 @@ TEST_GROUP(RealDisk) {
   std::string file(const std::string& ending = "") const {
     return folder.path() + "/learned-2.toml" + ending;
   }
-  /// What a save answers in a process that was prepared for it.
+  /// The result of a save in a process prepared in this way.
   template <class Preparation>
   std::string saved_after(Preparation preparation) {
     Child child([&](int answer) {
@@ -47,7 +47,7 @@ TEST_GROUP(RealDisk) {
 TEST(RealDisk, KeepsTheOldSetWhenTheDiskIsFull) {
   CHECK(store.save(nth_set(1)).has_value());
   const std::string answer = saved_after([] {
-    // A file may have 100 bytes: the first write is cut short, the next one fails.
+    // Files are limited to 100 bytes: the first write is cut short, the next one fails.
     static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
     const rlimit small{100, 100};
     setrlimit(RLIMIT_FSIZE, &small);
@@ -71,7 +71,7 @@ TEST(RealDisk, SaysThatAFolderIsReadOnlyAndStillLoads) {
   CHECK(store.save(nth_set(1)).has_value());
   chmod(folder.path().c_str(), 0555);
   const std::string answer = saved_after([] {
-    // Root may write where the mode says otherwise.
+    // Root may write regardless of the mode.
     constexpr uid_t nobody = 65534;
     if (geteuid() == 0 && setuid(nobody) != 0) _exit(1);
   });

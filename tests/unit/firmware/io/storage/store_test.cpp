@@ -48,7 +48,7 @@ TEST(LearnedStore, DatesWhatIdentifyFoundByItsFirstSave) {
   DOUBLES_EQUAL(0.0, identified_s(set), 0.0);
   set.identification.deviation_ratio = {0.0, 0.2, 0.1, 0.05};
   DOUBLES_EQUAL(1.7e9, identified_s(set), 0.0);
-  // A later calibration stores the muscle again, as the loop has it: without a date.
+  // A later calibration stores the muscle again, without a date, as the loop has it.
   now_s += 60.0;
   DOUBLES_EQUAL(1.7e9, identified_s(set), 0.0);
   LONGS_EQUAL(2, dated.load()->learned->version);
@@ -86,7 +86,7 @@ TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
     CHECK_FALSE(kept->has_muscle);
     CHECK(kept->senses == set.senses);
     LONGS_EQUAL(1, kept->version);
-    // Still the muscle, when there was none to forget.
+    // It still holds the muscle, because there was nothing to forget the second time.
     CHECK(decode(text_of(path + ".cleared"))->has_muscle);
   }
 }
@@ -146,7 +146,7 @@ TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
   const int before = failing.calls();
   CHECK(unsure.save(nth_set(1)).has_value());
   LONGS_EQUAL(1, disk.survivors().size());
-  // And once: from then on it is sure.
+  // Only once: from then on the save is known to be on the disk.
   const int with_sync = failing.calls() - before;
   CHECK(unsure.save(nth_set(1)).has_value());
   LONGS_EQUAL(before + 2 * with_sync - 1, failing.calls());
@@ -213,8 +213,8 @@ TEST(LearnedStore, LeavesNothingButItsFilesBehind) {
   LONGS_EQUAL(2, disk.names.size());
 }
 
-/// As a power cut between the two renames of a save may leave them: a third name could not be
-/// renamed over the second of the same file.
+/// A power cut between the two renames of a save may leave this state: a third name could not be
+/// renamed over the second name of the same file.
 TEST(LearnedStore, LeavesNothingBehindWhereBothNamesAreOneFile) {
   save(1);
   save(2);
@@ -244,7 +244,7 @@ TEST(LearnedStore, MakesSureOfTheFolderWhenItCouldNotForget) {
     static_cast<void>(whole.load());
     return before + counted.calls() - before;
   }();
-  // The first call that fails from here on is the folder's, once the previous set is gone.
+  // The first call after this that fails is the folder's, after the previous set is gone.
   int failed = 0;
   for (int at = calls; at < calls + 20; ++at) {
     Disk trial;

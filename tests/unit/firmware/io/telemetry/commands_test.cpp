@@ -31,7 +31,7 @@ TEST_GROUP(CanCommands) {
     CHECK(taken.answer.has_value());
     return static_cast<Refusal>(read_answer(*taken.answer).refusal);
   }
-  /// The session that was granted; 0: none was.
+  /// The granted session; 0: none was granted.
   std::uint16_t claim(Master & who) {
     who.session = who.name;
     const std::uint16_t nonce = nonce_for(who);
@@ -39,7 +39,7 @@ TEST_GROUP(CanCommands) {
         nonce == 0 ? nonce : read_answer(*take(who.frame(Opcode::lease, nonce)).answer).granted;
     return who.session;
   }
-  /// What a first claim is told; 0: it is refused.
+  /// The nonce that a first claim is answered with; 0: the claim is refused.
   std::uint16_t nonce_for(Master & who) {
     const auto answer = read_answer(*take(who.frame(Opcode::lease)).answer);
     LONGS_EQUAL(answer.granted == 0 ? 8 : 12, answer.refusal);
@@ -118,7 +118,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::no_lease);
   Master next;
   CHECK(claim(next) != 0);
-  // A frame of the earlier session.
+  // A frame from the earlier session.
   Master earlier = gone;
   CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_lease_holder);
   CHECK(refusal_of(next.frame(Opcode::lease, releases)) == Refusal::none);
@@ -161,7 +161,7 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
 }
 
 TEST(CanCommands, TheNextNonceAndSessionDifferWhateverTheRandomNumbersAre) {
-  // 0 is nobody's; the low 16 bits count.
+  // 0 means nobody; only the low 16 bits count.
   const std::vector<std::uint32_t> numbers{0, 7, 0x10000, 9, 7, 0x20007, 8, 9, 0, 10};
   std::size_t taken = 0;
   Leases twice{settings.lease_s, 1, [&] { return numbers.at(taken++); }};
@@ -214,7 +214,7 @@ TEST(CanCommands, ANonceIsGoodForOneClaimAndForAsLongAsALease) {
   CHECK(late.granted != nonce);
   const auto taking = master.frame(Opcode::lease, late.granted);
   LONGS_EQUAL(0, read_answer(*take(taking).answer).refusal);
-  // The same frame once more, with nothing in between, and after the lease.
+  // The same frame once more, immediately and after the lease has expired.
   LONGS_EQUAL(12, read_answer(*take(taking).answer).refusal);
   now += 1001ms;
   LONGS_EQUAL(12, read_answer(*take(taking).answer).refusal);
@@ -231,8 +231,8 @@ TEST(CanCommands, OfTwoWhoClaimTheFirstToRepeatTheNonceIsGranted) {
   LONGS_EQUAL(8, read_answer(*take(master.frame(Opcode::lease, nonce)).answer).refusal);
 }
 
-/// What docs/can.md says of recordings: while its lease lasts a circle of a session's frames
-/// passes.
+/// As docs/can.md says about recordings: during its lease a full circle of a session's frames is
+/// accepted.
 TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) {
   claim(master);
   std::vector<hal::CanFrame> circle;
@@ -244,7 +244,7 @@ TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) 
     now += 50ms;
     CHECK(refusal_of(circle.at(static_cast<std::size_t>(i) % 16)) == Refusal::none);
   }
-  // Of single ones, those pass that are 12 to 15 commands old.
+  // Single frames are accepted when they are 12 to 15 commands old.
   for (std::size_t age = 0; age < 16; ++age) {
     claim(master);
     now += 2s;
@@ -385,7 +385,7 @@ TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
 }
 
 TEST(CanCommands, NoNonceIsGoodBeforeOneWasTold) {
-  // Also not in the first second of the board's clock.
+  // Not even in the first second of the board's clock.
   Leases fresh{settings.lease_s, 1, [] { return 0x1234U; }};
   CHECK(fresh.claim(0, 1, 1.0, 0, hal::Time(0)) == Refusal::claim_again);
   LONGS_EQUAL(0x1234, fresh.nonce(0));

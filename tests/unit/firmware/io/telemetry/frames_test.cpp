@@ -1,5 +1,5 @@
-// What is put into a signal comes out of it: rounded to the nearest quantum, at the range's end
-// when it lies beyond, and "not available" when it is NaN.
+// A signal's value is read back rounded to the nearest quantum, limited to the range, and as "not
+// available" when it is NaN.
 #include "telemetry/frames.hpp"
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// A scaled signal, from the row's quantity to what a listener reads; NaN: not available.
+/// A scaled signal, from the row's quantity to what a receiver reads; NaN: not available.
 struct Signal {
   const char* name;
   float Row::*quantity;
@@ -54,7 +54,7 @@ double model(const Row& row) {
   const auto m = unpacked(tracking(1, row), supercoil_tracking_unpack);
   return m.model_m == -8388608 ? NAN : supercoil_tracking_model_m_decode(m.model_m);
 }
-/// The model is 0: the error is the position.
+/// The model is 0, so the error is the position.
 double error(const Row& row) {
   const auto m = unpacked(tracking(1, row), supercoil_tracking_unpack);
   return m.error_m == -32768 ? NAN : supercoil_tracking_error_m_decode(m.error_m);
@@ -130,7 +130,7 @@ bool is_right(const Signal& signal, float value) {
   const double back = read(signal, value);
   if (std::isnan(value)) return std::isnan(back);
   const double expected = std::fmin(std::fmax(value, signal.lowest), signal.highest);
-  // Half a quantum, and the rounding of the largest raw number times the scale.
+  // Half a quantum, plus the rounding of the largest raw number times the scale.
   return std::abs(back - expected) <= 0.5 * signal.quantum * (1.0 + 1e-6);
 }
 
@@ -141,7 +141,7 @@ TEST_GROUP(Frames){};
 TEST(Frames, EverySignalGivesBackWhatItWasGivenToHalfAQuantum) {
   for (const Signal& signal : signals) {
     const bool holds = rc::check(signal.name, [&] {
-      // Most within the range, some far beyond it.
+      // Most are within the range, some far beyond it.
       const auto thousandths = *rc::gen::inRange(-1'500'000, 1'500'001);
       const double part = thousandths * 1e-6;
       RC_ASSERT(is_right(signal, static_cast<float>(part * signal.highest)));

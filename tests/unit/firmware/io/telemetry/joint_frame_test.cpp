@@ -1,4 +1,4 @@
-// What Joint tells, read by the codec that cantools generated.
+// What Joint reports, read by the codec that cantools generated.
 #include "telemetry/joint_frame.hpp"
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 constexpr double lever_m = 0.015;
 constexpr int angle_not_available = -524288;
 
-/// At 15 mm.
+/// With a lever of 15 mm.
 float at_deg(double angle_deg) {
   return static_cast<float>(lever_m * angle_deg * 3.14159265358979 / 180.0);
 }
@@ -106,7 +106,7 @@ TEST(JointFrame, HeatAndPowerAreOfTheMuscleThatIsNamed) {
       1e-9);
 }
 
-/// By the lever's integral: 15 mm at 0, less 4 mm to 30°.
+/// From the lever's integral: 15 mm at 0, falling by 4 mm to 30°.
 TEST(JointFrame, TheAngleIsThatOfALeverWhichDependsOnIt) {
   constexpr std::array radii_m{0.012, 0.015, 0.011};
   constexpr double end_rad = 3.14159265358979 / 6.0;
@@ -161,13 +161,13 @@ TEST(JointFrame, NoNumberIsNotAvailableAndTooMuchIsTheLargest) {
   LONGS_EQUAL(-32768, told(JointPart::antagonist_heat, agonist, &antagonist).antagonist_hottest_c);
   LONGS_EQUAL(524287,
               told(JointPart::antagonist_power, agonist, &antagonist).antagonist_resistance_ohm);
-  // The same before the antagonist's first row.
+  // The same before the first row of the antagonist.
   LONGS_EQUAL(-32768, told(JointPart::antagonist_heat, agonist, nullptr).antagonist_coldest_c);
   LONGS_EQUAL(131071, told(JointPart::antagonist_power, agonist, nullptr).antagonist_applied_w);
   for (const float huge : {1e30F, endless}) {
     with(huge);
     motion = told(JointPart::motion, agonist, &antagonist);
-    // No lever turns by an endless arc.
+    // No lever turns through an infinite arc.
     LONGS_EQUAL(huge == endless ? angle_not_available : 524287, motion.angle_deg);
     LONGS_EQUAL(huge == endless ? angle_not_available : 524287, motion.reference_deg);
     LONGS_EQUAL(131071, told(JointPart::effort, agonist, &antagonist).effort_w);

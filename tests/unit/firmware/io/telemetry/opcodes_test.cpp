@@ -30,10 +30,10 @@ TEST(Opcodes, HaveTheNamesOfTheProtocol) {
 TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
   for (const Verb verb : {Verb::compare_supply, Verb::compare_current, Verb::compare_rise})
     CHECK(std::isnan(sent(verb, -0.25).value));
-  // Nor does an ampere too few forget the comparison, as 0 V does.
+  // A current of 0 A does not forget the comparison, but 0 V does.
   CHECK(std::isnan(sent(Verb::compare_current, 0.0).value));
   DOUBLES_EQUAL(0.0, sent(Verb::compare_supply, 0.0).value, 0.0);
-  // Nor are volts ever a rise.
+  // Volts are never taken for a rise.
   CHECK(std::isnan(sent(Verb::compare_supply, 1000.0).value));
   CHECK(meant(Opcode::compare, 1037.5).verb == Verb::compare_rise);
   DOUBLES_EQUAL(37.5, meant(Opcode::compare, 1037.5).value, 0.0);

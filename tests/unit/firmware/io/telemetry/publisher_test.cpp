@@ -44,7 +44,7 @@ TEST_GROUP(Publisher) {
   test::TestBus bus;
   LoopTiming timing;
 
-  /// A row a millisecond.
+  /// One row per millisecond.
   void publish(Publisher & publisher, int from_ms, int to_ms) {
     for (int ms = from_ms; ms < to_ms; ++ms) {
       publisher.offer(row_at(ms * 1ms));
@@ -101,7 +101,7 @@ TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
   LONGS_EQUAL(dropped, publisher.dropped());
   bus.answer = hal::Status::ok;
   publish(publisher, 20, 21);
-  // The newest eight of those that waited, and the new one, in their order.
+  // The newest eight of the waiting frames and the new one, in order.
   LONGS_EQUAL(9, bus.sent.size());
   LONGS_EQUAL(20, micrometres(bus.sent.back()));
   LONGS_EQUAL(12, micrometres(bus.sent.front()));
@@ -129,7 +129,7 @@ TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
   publisher.poll(20ms, [](std::uint8_t) { return false; });
   LONGS_EQUAL(0x080 + 5, bus.sent.at(0).id);
   LONGS_EQUAL(31, bus.sent[0].data[0]);
-  // Once; and again when it was reset.
+  // Sent once, and again after a reset.
   bus.sent.clear();
   publisher.offer(row_at(21ms, Fault::over_travel));
   publisher.offer(row_at(22ms));
@@ -163,7 +163,7 @@ TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
   LONGS_EQUAL(0xFFFFF, m.late_s);  // no tick since
 }
 
-/// Of three channels: a muscle alone, and a joint whose agonist is the last one.
+/// Three channels: a single muscle, and a joint whose agonist is the last channel.
 TEST(Publisher, TellsAJointByTheAgonistsNodeOnePartAfterTheOther) {
   std::vector<ChannelSettings> channels(3);
   channels[2].joint = {.direction = 1, .lever = control::Lever(0.02), .other_channel_offset = -1};
@@ -185,7 +185,7 @@ TEST(Publisher, TellsAJointByTheAgonistsNodeOnePartAfterTheOther) {
     LONGS_EQUAL(0, supercoil_joint_unpack(&m, frame.data.data(), frame.length));
     return m;
   };
-  // No row of the antagonist yet.
+  // There is no row of the antagonist yet.
   for (int ms = 0; bus.sent.size() < 6; ++ms)
     publish_to(ms, {0, 2});
   LONGS_EQUAL(-32768, joint_of(bus.sent[4]).antagonist_hottest_c);
@@ -220,7 +220,7 @@ TEST(Publisher, SendsAnswersBeforeTheMessagesThatWaitAndEmergenciesBeforeThem) {
   answer.id = 0x245;
   publisher.send(answer);
   publisher.offer(row_at(50ms, Fault::heater_open));
-  // However many answers wait, they take no emergency's place.
+  // However many answers wait, they do not displace an emergency.
   for (int i = 0; i < 100; ++i)
     publisher.send(answer);
   bus.answer = hal::Status::ok;

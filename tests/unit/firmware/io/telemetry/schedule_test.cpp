@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Frames of each millisecond, over some time.
+/// The number of frames in each millisecond.
 std::vector<int> frames_per_ms(Schedule& schedule, int milliseconds) {
   std::vector<int> counts;
   for (int ms = 0; ms < milliseconds; ++ms) {
@@ -44,8 +44,7 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
   }
 }
 
-/// What docs/can.md says of supercoild's rounds of 5 ms, and of the simulated board's ticks of 1
-/// ms.
+/// As docs/can.md says about supercoild's rounds of 5 ms and the simulated board's ticks of 1 ms.
 TEST(Schedule, SendsAMessageOnceForEachLookAtTheBus) {
   Rates rates = default_rates();
   rates[static_cast<std::size_t>(Message::measurement)] = 1000.0;
@@ -92,7 +91,7 @@ TEST(Schedule, CountsTheBitsOfAFrameAtItsWorst) {
   LONGS_EQUAL(135, max_bits(8));
 }
 
-/// Those without a joint have the load, and the places of their messages, that they had before.
+/// Nodes without a joint keep their load and the places of their messages.
 TEST(Schedule, OnlyTheNodeOfAJointTellsIt) {
   CanSettings can;
   can.rates_Hz = {};
@@ -122,7 +121,7 @@ TEST(Schedule, TellsTheLoadOfTheBus) {
   Rates rates{};
   rates[static_cast<std::size_t>(Message::measurement)] = 100.0;
   rates[static_cast<std::size_t>(Message::timing)] = 10.0;
-  // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once, and 4 x 135 of
+  // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once, and 4 x 135 for
   // Boot.
   DOUBLES_EQUAL(55890.0 / 500e3, bus_load(std::vector<Rates>(4, rates), 500e3), 1e-12);
 }

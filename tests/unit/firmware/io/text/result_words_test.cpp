@@ -10,7 +10,7 @@ using namespace supercoil;
 
 namespace {
 
-/// Of each result what docs/running.md says that it means: | `name` | of | means |
+/// The meaning of each result in docs/running.md: | `name` | of | means |
 std::map<std::string, std::string> documented() {
   std::ifstream file(SUPERCOIL_DOCS "/running.md");
   std::map<std::string, std::string> rows;

@@ -1,4 +1,4 @@
-// A CAN bus on which the daemon's telemetry thread and a test meet.
+// A CAN bus that connects the daemon's telemetry thread with a test.
 #pragma once
 
 #include <deque>
@@ -25,12 +25,12 @@ class MeetingBus final : public hal::CanBus {
   }
   hal::CanState state() const override { return hal::CanState::active; }
 
-  /// The test's.
+  /// For the test.
   void order(const hal::CanFrame& frame) {
     const std::lock_guard lock(mutex_);
     orders_.push_back(frame);
   }
-  /// All frames of the board with this identifier so far.
+  /// All frames that the board has sent with this identifier.
   std::vector<hal::CanFrame> heard(std::uint16_t id) const {
     const std::lock_guard lock(mutex_);
     std::vector<hal::CanFrame> found;

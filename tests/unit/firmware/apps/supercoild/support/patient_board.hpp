@@ -1,4 +1,4 @@
-// A board whose threads may be starved: a machine that is busy with something else is no fault.
+// A board that tolerates starved threads: a busy test machine must not cause a fault.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace supercoil::test {
 
-/// At 200 Hz.
+/// Runs at 200 Hz.
 inline RigSettings patient_board() {
   RigSettings s = rough_board();
   s.board.rate_Hz = s.firmware.rate_Hz = 200.0;
@@ -26,7 +26,7 @@ inline RigSettings patient_board() {
   return s;
 }
 
-/// What a daemon knows of it besides; it stores in this folder.
+/// The daemon's configuration for these settings; it stores in this folder.
 inline config::BoardConfig config_of(const BoardSettings& settings, const std::string& folder) {
   config::BoardConfig config;
   config.name = "test";

@@ -1,4 +1,4 @@
-// The simulated board at the pace of the clock, so that real threads can drive it.
+// The simulated board in step with the real clock, so that real threads can drive it.
 #pragma once
 
 #include "supercoil/hal_linux/monotonic_clock.hpp"
@@ -7,7 +7,7 @@
 
 namespace supercoil::test {
 
-/// Used by the loop's thread alone, once that runs.
+/// Only the loop's thread uses it once that thread runs.
 class RealTimeBoard final : public hal::Clock {
  public:
   explicit RealTimeBoard(const host_sim::SimulatedBoardSettings& settings)

@@ -7,15 +7,15 @@
 
 namespace supercoil::test {
 
-/// All bits set, none, the sign's alone, all but that: of these are made the raw values at the ends
-/// of ranges.
+/// All bits set, none, only the sign bit, all but the sign bit: the raw values at the ends of
+/// ranges consist of these bytes.
 inline rc::Gen<std::uint8_t> extreme_byte() {
   return rc::gen::weightedOneOf<std::uint8_t>(
       {{1, rc::gen::element<std::uint8_t>(0x00, 0xFF, 0x80, 0x7F)},
        {1, rc::gen::inRange<std::uint8_t>(0, 0xFF)}});
 }
 
-/// Bytes behind the frame's length are 0, as in a frame that was read.
+/// Bytes beyond the frame's length are 0, as in a frame that was read.
 inline hal::CanFrame any_frame() {
   hal::CanFrame frame;
   frame.id = *rc::gen::inRange<std::uint16_t>(0, 0x800);

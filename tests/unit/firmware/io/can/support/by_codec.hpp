@@ -14,7 +14,7 @@
 
 namespace supercoil::test {
 
-/// In the order of a message's signals; NaN: not available, or not in this frame.
+/// In the order of the message's signals; NaN: not available, or not in this frame.
 using Values = std::array<double, can::max_signals>;
 
 inline Values values(std::initializer_list<double> read) {

@@ -1,4 +1,4 @@
-// The signals of a frame, as the generated codec has them.
+// The signals of a frame as the generated codec unpacks them.
 #pragma once
 
 #include <CppUTest/TestHarness.h>

@@ -1,4 +1,4 @@
-// What a board's text is read as, and what a mistaken one is answered.
+// What is read from a board's text, and the problems that are reported for a wrong one.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace supercoil::test {
 
-/// expected: without the last line's end.
+/// expected: without the final line break.
 inline void check_problems(const std::string& expected, const std::string& text) {
   STRCMP_EQUAL((expected + "\n").c_str(), problems_of(text).c_str());
 }
@@ -26,7 +26,7 @@ inline config::BoardConfig read_board(const std::string& text) {
   return config.value();
 }
 
-/// part: of the problems that the board's text has.
+/// part: of the problems in the board's text.
 inline void check_answer(const std::string& part, const std::string& text) {
   STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
 }

@@ -1,4 +1,4 @@
-// A board with one joint of two muscles that differ.
+// A board with one joint, turned by two different muscles.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace supercoil::test {
 
-/// Its position is the first channel's.
+/// Its position is that of the first channel.
 inline const std::string second_channel = R"([[channel]]
 enable = {line = "EN2"}
 pwm = {device = "pwm", number = 1}

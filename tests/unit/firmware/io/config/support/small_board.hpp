@@ -1,4 +1,4 @@
-// The smallest board that is in order, and what becomes of it when a part of its text is replaced.
+// The smallest valid board, and what is read when a part of its text is replaced.
 #pragma once
 
 #include <string>
@@ -50,7 +50,7 @@ max_W = 4.5
 max_travel_m = 0.025
 )";
 
-/// The text with the first `old` in it replaced.
+/// The text with the first occurrence of `old` replaced.
 inline std::string replaced(std::string text, const std::string& old,
                             const std::string& replacement) {
   const std::size_t at = text.find(old);
@@ -61,7 +61,7 @@ inline std::string small_board_with(const std::string& old, const std::string& r
   return replaced(small_board, old, replacement);
 }
 
-/// Every problem of the text, a line each; empty when it is in order.
+/// All problems of the text, one per line; empty when it is valid.
 inline std::string problems_of(const std::string& text) {
   const auto config = config::parse_board_config(text, "b.toml");
   return config ? "" : config::to_text(config.error());

@@ -14,7 +14,7 @@
 
 namespace supercoil::test {
 
-/// What is in "/d".
+/// The names in "/d".
 inline recorder::ListFolder names_on(const Disk& disk) {
   return [&disk](const std::string& folder) -> Result<std::vector<std::string>> {
     std::vector<std::string> names;
@@ -30,13 +30,13 @@ inline recorder::RecorderSettings settings_on(const Disk& disk) {
   return settings;
 }
 
-/// Adds the ticks of a time, and of each channel the fault that it has from some time on.
+/// Adds ticks over time, with the fault that each channel has from some time on.
 struct Ticks {
   recorder::FlightRecorder& recorder;
   std::int64_t time_ns = 0;
   Fault faults[2] = {Fault::none, Fault::none};
 
-  /// Up to and with this time.
+  /// Up to and including this time.
   void until(double time_s) {
     for (; time_ns <= std::llround(time_s * 1e9); time_ns += tick_ns) {
       recorder.add(row(time_ns, 0, faults[0]));
@@ -48,7 +48,7 @@ struct Ticks {
   void reset() { faults[0] = faults[1] = Fault::none; }
 };
 
-/// The base of a test group.
+/// The base class of a test group.
 struct RecorderOnADisk : Utest {
   Disk disk;
   SimulatedFiles files{disk};
@@ -63,7 +63,7 @@ struct RecorderOnADisk : Utest {
     CHECK_TEXT(read.has_value(), read ? "" : read.error().text().c_str());
     return *read;
   }
-  /// One line for each note; problems begin with "! ".
+  /// One line per note; problems begin with "! ".
   std::string notes() {
     std::string all;
     for (const auto& note : recorder.take_notes())
@@ -72,7 +72,7 @@ struct RecorderOnADisk : Utest {
   }
 };
 
-/// Every tick of both channels from one time to another, in order and whole.
+/// Every tick of both channels between these times, in order and complete.
 inline void check_rows(const std::vector<Row>& rows, double from_s, double to_s) {
   const std::int64_t from_ns = std::llround(from_s * 1e9);
   const std::int64_t to_ns = std::llround(to_s * 1e9);

@@ -1,4 +1,4 @@
-// Rows for tests: each tells by its content which it is.
+// Rows for tests, each identifiable by its content.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ inline std::string_view bytes_of(const std::vector<Row>& rows) {
   return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)};
 }
 
-/// A whole file of these rows of two channels, with a fault on channel 2 at 5 s.
+/// A complete file with these rows of two channels and a fault on channel 2 at 5 s.
 inline std::string file_of(const std::vector<Row>& rows) {
   recorder::Header header;
   header.rows = rows.size();

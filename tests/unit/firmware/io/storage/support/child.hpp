@@ -1,4 +1,4 @@
-// A child process, for what would end or change the test's own.
+// A child process, for work that would end or change the test's own process.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace supercoil::test {
 
-/// Runs work(pipe's end to write to) in a child process, which ends after it without clean-up.
+/// Runs work(write end of a pipe) in a child process, which then exits without clean-up.
 class Child {
  public:
   template <class Work>
@@ -33,7 +33,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Waits for at most this many bytes of what the child wrote; fewer at its end.
+  /// Waits for at most this many bytes from the child; returns fewer at its end.
   std::string read(std::size_t bytes) const {
     std::string text(bytes, '\0');
     std::size_t have = 0;
@@ -44,7 +44,7 @@ class Child {
     return text.substr(0, have);
   }
 
-  /// Sends a signal (0: none) and waits for the end; the status is waitpid's.
+  /// Sends a signal (0: none) and waits for the end; returns the status of waitpid.
   int end(int signal) {
     if (signal != 0) kill(pid_, signal);
     int status = 0;

@@ -1,4 +1,4 @@
-// Files of the operating system, at one of which the process dies.
+// Files of the operating system during one of whose calls the process dies.
 #pragma once
 
 #include <csignal>
@@ -12,7 +12,7 @@ namespace supercoil::test {
 
 using storage::NewFile;
 
-/// Real files whose process dies at a call: before it (even numbers) or after it (odd).
+/// Real files whose process dies at one call: before it (even numbers) or after it (odd).
 class DeadlyFiles final : public storage::Files {
  private:
   template <class Call>
@@ -36,7 +36,7 @@ class DeadlyFiles final : public storage::Files {
     return around([&] { return files_.create(path); });
   }
   Result<void> write(const NewFile& file, std::string_view content) override {
-    // In two parts, so that the process also dies between them.
+    // In two parts, so that the process can also die between them.
     const auto half = around([&] { return files_.write(file, content.substr(0, 100)); });
     return half ? around([&] { return files_.write(file, content.substr(100)); }) : half;
   }

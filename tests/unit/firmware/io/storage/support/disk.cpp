@@ -23,7 +23,7 @@ std::vector<void (*)(Names&, const NameChange&)> outcomes(const NameChange& chan
   return {none, gain, both};
 }
 
-/// What may be read from a file after the cut.
+/// What may be read from a file after a power cut.
 std::vector<std::string> contents(const Inode& inode) {
   if (!inode.dirty) return {inode.seen};
   const std::string& text = inode.seen;
@@ -34,7 +34,7 @@ std::vector<std::string> contents(const Inode& inode) {
           garbage,      text + text};
 }
 
-/// Every way to give each of the named files one of the contents that it may have.
+/// Every way to give each named file one of its possible contents.
 void add_contents(const Names& names, std::set<Content>& all) {
   std::vector<Content> found{{}};
   for (const auto& [name, inode] : names) {
@@ -88,7 +88,7 @@ std::vector<Content> Disk::survivors() const {
         next.push_back(std::move(after));
       }
     }
-    // Different ways to the same names need to be followed only once.
+    // Different ways to the same names are followed only once.
     const std::set<Names> different(next.begin(), next.end());
     possible.assign(different.begin(), different.end());
   }

@@ -1,4 +1,4 @@
-// A disk that keeps apart what programs see and what survives a power cut.
+// A disk that keeps what programs see separate from what survives a power cut.
 #pragma once
 
 #include <map>
@@ -14,21 +14,21 @@ using Content = std::map<std::string, std::string>;
 struct Inode {
   std::string seen;
   std::string synced;
-  bool dirty = false;  ///< seen is not known to be on the disk
+  bool dirty = false;  ///< seen may not be on the disk yet
 };
 using InodePtr = std::shared_ptr<Inode>;
 
 /// A change of a folder's names that is not on the disk yet. In a rename the new name and the loss
-/// of the old one may arrive one without the other, but the file is never without a name.
+/// of the old one may arrive separately, but the file is never without a name.
 struct NameChange {
-  std::string gains;  ///< this name becomes the inode's; empty: none
+  std::string gains;  ///< this name now refers to the inode; empty: none
   InodePtr inode;
-  std::string loses;  ///< this name goes; empty: none
+  std::string loses;  ///< this name is removed; empty: none
 };
 
-/// What a power cut leaves is more than any file system would do: every subset of the changes of
-/// names since the folder was synced, whatever their order, and of each file not synced nothing, a
-/// part, zeros, garbage, or all.
+/// Simulates worse power cuts than any file system allows: every subset of the changes of names
+/// since the folder was synced, in any order, and for each unsynced file nothing, a part, zeros,
+/// garbage, or all.
 class Disk {
  public:
   explicit Disk(const Content& content = {});
@@ -39,7 +39,7 @@ class Disk {
   void sync_names();
   /// What programs see now.
   Content seen() const;
-  /// Everything that a power cut may leave, without repetitions.
+  /// Everything that a power cut may leave, without duplicates.
   std::vector<Content> survivors() const;
 
  private:

@@ -1,4 +1,4 @@
-// Learned sets for tests: any that is valid, and a row of different ones.
+// Learned sets for tests: any valid one, and a series of different ones.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace supercoil::test {
 
-/// The n-th of a row of valid sets; each differs from the others in every quantity. n >= 0.
+/// The n-th of a series of valid sets; each differs from the others in every quantity. n >= 0.
 inline board::Learned nth_set(int n) {
   const double factor = 1.0 + 1e-3 * n;
   board::Learned set;
@@ -22,20 +22,20 @@ inline board::Learned nth_set(int n) {
   return set;
 }
 
-/// What decoding says of a file.
+/// The answer of decoding a file.
 inline std::string answer(const std::string& text) {
   const auto set = storage::decode(text);
   return set ? "in order" : set.error().text();
 }
 
-/// Which of the row a set is, whatever its version; −1 when it is none of them, or a mixture.
+/// The number of a set in the series, whatever its version; −1 if it is not in it, or a mixture.
 inline int which(const board::Learned& set) {
   const int n = static_cast<int>(std::lround(set.calibration.position_offset_m * 1e4));
   return n >= 0 && board::same_content(set, nth_set(n)) ? n : -1;
 }
 
-/// Doubles from lowest to highest with all their bits at random, of every magnitude in the range;
-/// lowest > 0.
+/// Doubles from lowest to highest with all bits random, of every magnitude in the range; lowest >
+/// 0.
 inline rc::Gen<double> any_magnitude(double lowest, double highest) {
   return rc::gen::map(
       rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>()), [=](std::uint64_t bits) {
@@ -45,7 +45,7 @@ inline rc::Gen<double> any_magnitude(double lowest, double highest) {
       });
 }
 
-/// Both signs, zeros, and numbers too small to be normal.
+/// Both signs, zeros, and subnormal numbers.
 inline rc::Gen<double> any_offset() {
   const auto sign = rc::gen::element(-1.0, 1.0);
   const auto size = rc::gen::oneOf(any_magnitude(1e-12, 1.0),
@@ -54,7 +54,7 @@ inline rc::Gen<double> any_offset() {
   return rc::gen::apply([](double a, double b) { return a * b; }, sign, size);
 }
 
-/// None, or one with all its bits at random.
+/// None, or one with all bits random.
 inline rc::Gen<board::SenseComparison> comparisons() {
   return rc::gen::oneOf(rc::gen::just(board::SenseComparison{}),
                         rc::gen::apply(
@@ -88,7 +88,7 @@ inline rc::Gen<board::Identification> identifications() {
           any_magnitude(1e-9, 10.0), any_magnitude(1.0, 2e11)));
 }
 
-/// Any set that passes check(), the ends of the ranges among them.
+/// Any set that passes check(), including the ends of the ranges.
 inline rc::Gen<board::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,

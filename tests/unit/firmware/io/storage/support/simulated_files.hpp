@@ -1,4 +1,4 @@
-// Files on a simulated disk, of which any call can fail or be the one at which the power goes.
+// Files on a simulated disk; any call can fail, or the power can go at it.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace supercoil::test {
 
-/// What happens at one call, counted from 0 over all calls.
+/// What happens at one of the calls, which are counted from 0.
 struct Mishap {
   int at_call = -1;  ///< never
-  /// An error number; 0: the power goes at this call, and nothing reaches the disk any more.
+  /// An error number; 0: the power goes at this call and nothing reaches the disk any more.
   int error = 0;
   bool for_good = false;      ///< every later call fails as well
-  bool takes_effect = false;  ///< the call did its work all the same, a write the first half of it
+  bool takes_effect = false;  ///< the call succeeded all the same; of a write, its first half
 };
 
 class SimulatedFiles final : public storage::Files {
@@ -23,7 +23,7 @@ class SimulatedFiles final : public storage::Files {
   explicit SimulatedFiles(Disk& disk, Mishap mishap = {}) : disk_(disk), mishap_(mishap) {}
 
   int calls() const { return calls_; }
-  /// Calls that changed something on the disk or had it do something.
+  /// Calls that changed something on the disk or made it do something.
   int changes() const { return changes_; }
 
   Result<std::string> read(const std::string& path, std::size_t limit_bytes) override;

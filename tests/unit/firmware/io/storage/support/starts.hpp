@@ -1,4 +1,4 @@
-// The disks on which a save may start.
+// The states of the disk in which a save may start.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace supercoil::test {
 inline const std::string current = "/d/learned-3.toml";
 inline const std::string previous = current + ".previous";
 inline constexpr int channel = 3;
-inline constexpr int saved_set = 9;  ///< which set the save is of
+inline constexpr int saved_set = 9;  ///< the set that is saved
 inline constexpr int none = -2;
 
 inline std::string text(int n, std::uint32_t version) {
@@ -23,10 +23,10 @@ inline std::string text(int n, std::uint32_t version) {
 }
 
 inline std::string damaged(int n, std::uint32_t version) {
-  return text(n, version).substr(0, 200 + version);  // no two are the same
+  return text(n, version).substr(0, 200 + version);  // all different
 }
 
-/// Which set a disk gives when the board starts with it; −1 is garbage.
+/// The set that a board starts with from this disk; −1: garbage.
 inline int loaded(const Content& content) {
   Disk disk(content);
   SimulatedFiles files(disk);

@@ -11,7 +11,7 @@
 
 namespace supercoil::test {
 
-/// The base of a test group.
+/// The base class of a test group.
 struct StoreOnADisk : Utest {
   const std::string path = "/d/learned-3.toml";
   Disk disk;

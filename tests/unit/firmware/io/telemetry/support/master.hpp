@@ -1,4 +1,4 @@
-// Who commands a node: makes frames, reads their answers.
+// A master that commands a node: makes frames and reads the answers.
 #pragma once
 
 #include <supercoil.h>
@@ -13,7 +13,7 @@ struct Master {
   can::Node node = 1;
   std::uint16_t session = 0;
   std::uint8_t counter = 0;
-  std::uint16_t name = 0x1234;  ///< by which it knows the answer to its claim
+  std::uint16_t name = 0x1234;  ///< identifies the answer to its claim
 
   hal::CanFrame frame(std::uint8_t opcode, float value = 0.0F) {
     supercoil_command_t m{};

@@ -20,7 +20,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// No content of a file that is a number.
+/// Contents of a file that are not a number.
 const auto no_numbers = {
     std::string(),
     std::string("\n"),
@@ -147,7 +147,7 @@ TEST(Attribute, RefusesWhatIsNotText) {
 
 TEST(Attribute, DoesNotHangOnAPipeInItsPlace) {
   folder.make_pipe("pipe");
-  // A pipe without a reader refuses a writer with ENXIO; with one it is seen to be no file.
+  // Without a reader, a pipe refuses a writer with ENXIO; with one it turns out not to be a file.
   for (const auto use : {hal_linux::Attribute::Use::read, hal_linux::Attribute::Use::write,
                          hal_linux::Attribute::Use::both}) {
     CHECK_FALSE(hal_linux::Attribute::open(folder / "pipe", use).has_value());

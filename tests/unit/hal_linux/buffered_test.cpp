@@ -88,7 +88,7 @@ TEST(BufferedPwm, ReadsNothingBackWhileAWriteIsUnderWay) {
   LONGS_EQUAL(-1, pwm.read_back());
   pwm.serve();
   LONGS_EQUAL(500, pwm.read_back());
-  // The same step again is a write again.
+  // The same step is written again.
   check_status(hal::Status::ok, pwm.set(500));
   LONGS_EQUAL(-1, pwm.read_back());
 }

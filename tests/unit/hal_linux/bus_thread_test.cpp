@@ -1,4 +1,4 @@
-// Real threads; also run under ThreadSanitizer. No test depends on how fast they are.
+// Uses real threads; also runs under ThreadSanitizer. No test depends on their speed.
 #include "supercoil/hal_linux/bus_thread.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Slow final : BusDevice {
     started.push_back(MonotonicClock::time());
     std::this_thread::sleep_for(started.size() == 1 ? first : then);
   }
-  std::vector<hal::Time> started;  ///< to be looked at when the bus has ended
+  std::vector<hal::Time> started;  ///< read only after the bus has ended
   std::chrono::nanoseconds first{};
   std::chrono::nanoseconds then{};
 };
@@ -101,7 +101,7 @@ TEST(ABus, ThatIsTooSlowLeavesPeriodsOutAndCountsThem) {
   CHECK(bus->health().max_round_ns.load() >= 3'000'000);
 }
 
-/// A round that begins late makes the time to the next one shorter, never longer.
+/// A late round shortens the time to the next one and never lengthens it.
 TEST(ABus, ThatIsFastEnoughIsServedInEveryPeriod) {
   auto bus = started(10ms);
   wait_for_rounds(*bus, 10);
@@ -124,7 +124,7 @@ TEST(ABus, DoesNotCatchUpWhatItLeftOut) {
   auto bus = started(2ms);
   wait_for_rounds(*bus, 6);
   bus.reset();
-  // The first of these may be late itself, so that the second comes sooner after it.
+  // The first of these rounds may itself be late, which shortens the time to the second.
   CHECK(slow.started.at(5) - slow.started.at(1) >= 3 * 2ms);
 }
 

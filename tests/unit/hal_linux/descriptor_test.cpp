@@ -134,7 +134,7 @@ TEST(Descriptor, PassesOnWhyACallFailed) {
 }
 
 TEST(Descriptor, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
-  // A service may be started without standard input: then the first file that it opens is number 0.
+  // A service may be started without standard input; the first file that it opens is then number 0.
   const int input = ::dup(0);
   next(Call::open, "/file", [] { return 0; });
   {

@@ -19,7 +19,7 @@ using namespace supercoil::test;
 
 TEST_GROUP(DevWatchdog) {
   TemporaryFolder dev;
-  // What the driver is like.
+  // The properties of the driver.
   unsigned options = WDIOF_MAGICCLOSE | WDIOF_SETTIMEOUT;
   int max_s = 60;
   int has_s = 30;
@@ -146,7 +146,7 @@ TEST(DevWatchdog, PassesOnWhyItCouldNotBeFed) {
 
 TEST(DevWatchdog, IsHeldBySomebodyElseOrNotThere) {
   fail_next(Call::open, "/watchdog", EBUSY);
-  // The path of a file that is not open is the one that was asked for.
+  // For a file that is not open, the error names the path that was asked for.
   STRCMP_CONTAINS("watchdog: Device or resource busy", open(5.0).error().text().c_str());
   dev.remove("watchdog");
   LONGS_EQUAL(ENOENT, open(5.0).error().code);

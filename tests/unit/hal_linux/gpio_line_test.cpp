@@ -25,7 +25,7 @@ TEST_GROUP(GpioLine) {
     add("gpiochip0", "raspberrypi-exp-gpio", {"BT_ON", "WL_ON"});
     processor = add("gpiochip1", "pinctrl-bcm2711", {"ID_SDA", "", "GPIO5", "GPIO17"});
   }
-  // A chip that stays open would be a line that stays held.
+  // An open chip would mean that a line is still held.
   void teardown() override {
     LONGS_EQUAL(0, gpio_kernel().opened);
   }
@@ -137,7 +137,7 @@ TEST(GpioLine, SaysWhoHoldsIt) {
   gpio_kernel().fails_with = EPERM;
   STRCMP_EQUAL("cannot take line 'GPIO17' of gpiochip1 'pinctrl-bcm2711': Operation not permitted",
                answer("pinctrl-bcm2711", "GPIO17").c_str());
-  // Who holds it may be gone by the time of asking.
+  // The process that holds the line may be gone when its name is read.
   gpio_kernel().fails_with = EBUSY;
   STRCMP_EQUAL("cannot take line 'GPIO17' of gpiochip1 'pinctrl-bcm2711': Device or resource busy",
                answer("pinctrl-bcm2711", "GPIO17").c_str());

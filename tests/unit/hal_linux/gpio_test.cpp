@@ -1,4 +1,4 @@
-// What can be tried without a GPIO chip: how it is told that there is none.
+// What can be tested without a GPIO chip: the report that there is none.
 #include <cerrno>
 #include <string>
 

@@ -15,11 +15,11 @@ using namespace supercoil::test;
 
 namespace {
 
-/// A scan of voltage0 and voltage2 as the kernel gives it: 2 + 2 bytes, 4 of padding, the time.
+/// A scan of voltage0 and voltage2 in the kernel's format: 2 + 2 bytes, 4 of padding, the time.
 std::string scan(int voltage0, int voltage2, std::int64_t time_ns) {
   std::string bytes;
   for (const int counts : {voltage0, voltage2}) {
-    // be:u12/16>>2, and bits beside it that do not count.
+    // be:u12/16>>2, with irrelevant bits around it.
     const int stored = counts << 2 | 0xC003;
     bytes += static_cast<char>(stored >> 8);
     bytes += static_cast<char>(stored & 0xFF);
@@ -128,7 +128,7 @@ TEST(IioScan, CallsAPartOfAScanAnError) {
     const auto again = opened();
     arrives(whole + whole.substr(0, bytes));
     CHECK(again->input(0).latest().status == hal::Status::io_error);
-    // Nothing of it is taken.
+    // None of the scan is used.
     const auto fresh = opened();
     check(hal::Status::io_error, 0, 0, fresh->input(0).latest());
   }

@@ -1,4 +1,4 @@
-// Why a converter's buffer cannot be set up, in words.
+// The reasons why a converter's buffer cannot be set up, in words.
 #include <cerrno>
 #include <string>
 

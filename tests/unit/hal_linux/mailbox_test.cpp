@@ -11,7 +11,7 @@ using supercoil::hal_linux::Mailbox;
 
 namespace {
 
-/// Long enough that a torn copy would be seen.
+/// Long enough for a torn copy to show.
 struct Letter {
   std::array<std::uint64_t, 32> words{};
 

@@ -35,7 +35,7 @@ TEST(MonotonicClock, WakesAtTheTimeOrLater) {
 }
 
 TEST(MonotonicClock, ReturnsAtOnceFromATimeThatIsPast) {
-  next(Call::clock_nanosleep, "", [] { return 0; });  // not even asked
+  next(Call::clock_nanosleep, "", [] { return 0; });  // not even called
   for (const hal::Time wake : {hal::Time(0), hal::Time(-1), hal::Time(-5s), clock.now() - 1ns}) {
     const hal::Time woke = clock.wait_until(wake);
     CHECK(woke > wake && woke <= clock.now());

@@ -1,4 +1,4 @@
-// Whatever state a PWM output was left in, it is brought to rest without a refused write.
+// A PWM output is brought to rest without a refused write, whatever state it was left in.
 #include <cstdint>
 #include <ostream>
 #include <string>
@@ -17,7 +17,7 @@ using namespace supercoil::test;
 namespace {
 
 rc::Gen<std::int64_t> nanoseconds() {
-  // Often the same few, so that equal ones and neighbours come together.
+  // A few values are frequent, so that equal and neighbouring ones meet.
   return rc::gen::oneOf(rc::gen::element<std::int64_t>(0, 1, 99'999, 100'000, 100'001, 1'000'000),
                         rc::gen::inRange<std::int64_t>(0, 2'000'000'000));
 }
@@ -57,12 +57,12 @@ TEST(PwmLeftOver, NeverHeatsMoreThanBefore) {
     PwmKernel kernel(left);
     const auto pwm = SysfsPwm::open({"pca9685", 5, 100'000, 4095, kernel.root()});
     RC_ASSERT(pwm.has_value());
-    // A period that changes leaves the duty at 0; an inversed output is disabled first.
+    // While the period changes the duty is 0; an inversed output is disabled first.
     RC_ASSERT(kernel.max_on <= left.on());
   }));
 }
 
-/// A longer period would turn it on.
+/// A longer period would turn the output on.
 TEST(PwmLeftOver, ThatIsInversedAndAlwaysOffStaysOff) {
   PwmKernel kernel({50'000, 50'000, true, true});
   CHECK(SysfsPwm::open({"pca9685", 5, 100'000, 4095, kernel.root()}).has_value());

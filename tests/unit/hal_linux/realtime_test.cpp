@@ -83,7 +83,7 @@ TEST(Realtime, DoesNotBelieveASystemThatOnlySaysYes) {
   next(Call::set_scheduling, "", [] { return 0; });
   check_failed(set_fifo_priority(::pthread_self(), 80),
                "accepted, but the thread does not have it");
-  // Nor one that leaves another priority than was asked for, where this program may have one.
+  // Nor may it leave a different priority than requested, if this program may have one.
   const sched_param none{};
   sched_param higher{};
   higher.sched_priority = 2;
@@ -155,7 +155,7 @@ TEST(Realtime, AsksForThePriorityThatIsWanted) {
     });
     CHECK(thread.has_value());
   }
-  // Not every program may have it, but 1 is one that there is.
+  // Not every program may have it, but 1 is a valid priority.
   CHECK(step.reason.find("Invalid argument") == std::string::npos);
   if (step.worked) LONGS_EQUAL(1, priority);
 }

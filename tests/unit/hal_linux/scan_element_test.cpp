@@ -90,7 +90,7 @@ TEST(ScanElements, ValuesComeBackFromTheirBytes) {
     const std::uint64_t mask =
         type.bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << type.bits) - 1;
     const std::uint64_t bits = *rc::gen::arbitrary<std::uint64_t>() & mask;
-    // What lies beside the value is not defined.
+    // The bits around the value are undefined.
     const std::uint64_t stored = (dirt & ~(mask << type.shift)) | bits << type.shift;
     std::array<std::byte, 8> bytes{};
     for (std::size_t i = 0; i < type.bytes(); ++i) {
@@ -105,7 +105,7 @@ TEST(ScanElements, ValuesComeBackFromTheirBytes) {
 
 TEST(ScanElements, LieAsTheKernelLaysThem) {
   const auto type = [](const char* text) { return *parse_scan_type(text); };
-  // Documentation: 2 bytes, 6 of padding, 8 of time.
+  // The kernel's documentation: 2 bytes, 6 of padding, 8 of time.
   std::vector<ScanElement> one = {{1, type("le:s64/64>>0"), 0}, {0, type("le:s16/16>>0"), 0}};
   LONGS_EQUAL(16, lay_out(one));
   LONGS_EQUAL(0, one[0].offset);

@@ -70,7 +70,7 @@ TEST(SocketCanLoss, InterfaceThatVanishedComesBackUnderAnotherNumber) {
   wait_for_the_next_look();
   check_hears();
   LONGS_EQUAL(9, kernel.bound_to);
-  LONGS_EQUAL(1, kernel.filters.size());  // also of the new socket
+  LONGS_EQUAL(1, kernel.filters.size());  // set on the new socket too
 }
 
 TEST(SocketCanLoss, IsNoticedBySendingToo) {
@@ -88,7 +88,7 @@ TEST(SocketCanLoss, LooksForItSeldom) {
   kernel.set_down("can0");
   check_gone();
   kernel.set_up("can0");
-  kernel.option_error = ENOMEM;  // so that every look opens a socket in vain
+  kernel.option_error = ENOMEM;  // every attempt opens a socket in vain
   const int before = kernel.sockets;
   const hal::Time begin = MonotonicClock::time();
   long calls = 0;
@@ -104,7 +104,7 @@ TEST(SocketCanLoss, LooksForItSeldom) {
 
 TEST(SocketCanLoss, InterfaceThatIsDownAtFirstMayComeUpLater) {
   kernel.set_down("can0");
-  kernel.receive_errors.clear();  // no socket is open that could hear of it
+  kernel.receive_errors.clear();  // no socket is open that could receive it
   open();
   check_gone();
   kernel.set_up("can0");

@@ -76,7 +76,7 @@ TEST(SocketCan, GivesFramesInTheirOrderAndThenNothing) {
   check(hal::Status::ok, can->receive(frame));
   LONGS_EQUAL(0x202, frame.id);
   LONGS_EQUAL(0, frame.length);
-  CHECK((frame.data == std::array<std::uint8_t, 8>{}));  // nothing is left of the one before
+  CHECK((frame.data == std::array<std::uint8_t, 8>{}));  // nothing is left of the previous frame
   check(hal::Status::not_ready, can->receive(frame));
 }
 
@@ -87,7 +87,7 @@ TEST(SocketCan, FrameThatWaitedIsAsOldAsItIs) {
   const hal::Time after = MonotonicClock::time();
   std::this_thread::sleep_for(200ms);
   check(hal::Status::ok, can->receive(frame));
-  // Two clocks are read one after the other, and a busy machine may do something in between.
+  // The two clocks are read one after the other, and a busy machine may delay in between.
   CHECK(frame.received > before - 100ms);
   CHECK(frame.received < after + 100ms);
 }
@@ -102,7 +102,7 @@ TEST(SocketCan, SendsAFrameAsItIs) {
   LONGS_EQUAL(8, first->data[7]);
   const auto second = kernel.sent();
   LONGS_EQUAL(1, second->len);
-  LONGS_EQUAL(0, second->data[1]);  // what is beyond the length is nobody's business
+  LONGS_EQUAL(0, second->data[1]);  // bytes beyond the length are not sent
 }
 
 TEST(SocketCan, RefusesWhatIsNoFrame) {
@@ -129,9 +129,9 @@ TEST(SocketCan, PassesOverFramesOfOtherKinds) {
   kernel.deliver(0x201 | CAN_RTR_FLAG);
   canfd_frame fd{};
   fd.can_id = 0x201;
-  fd.len = 8;  // its packet is longer all the same
+  fd.len = 8;  // the packet itself is longer
   kernel.deliver(&fd, sizeof(fd));
-  kernel.deliver(&fd, 7);  // a part of a frame
+  kernel.deliver(&fd, 7);  // part of a frame
   kernel.deliver(&fd, 0);
   can_frame too_long{};
   too_long.can_id = 0x201;
@@ -177,7 +177,7 @@ TEST(SocketCan, HearingTheBusProvesThatBusOffHasPassed) {
   kernel.from_this_machine = true;
   kernel.deliver(0x201);
   check(hal::Status::ok, can->receive(frame));
-  CHECK(can->state() == hal::CanState::bus_off);  // another program of this machine is no proof
+  CHECK(can->state() == hal::CanState::bus_off);  // a frame from this machine is no proof
   kernel.from_this_machine = false;
   kernel.deliver(0x201);
   check(hal::Status::ok, can->receive(frame));

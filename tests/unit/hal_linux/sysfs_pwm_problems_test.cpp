@@ -1,4 +1,4 @@
-// Why a PWM output cannot be opened, in words; nothing may hang or end the program.
+// The reasons why a PWM output cannot be opened, in words; nothing may hang or end the program.
 #include <cerrno>
 #include <string>
 
@@ -69,7 +69,7 @@ TEST(SysfsPwmProblems, AreNoneWhereUdevGivesTheFilesAMomentLater) {
   PwmKernel kernel({}, false);
   fail_next(Call::access, "/pwm5/period", EACCES, 3);
   next(Call::access, "/pwm5/period", [] { return 0; });
-  fail_next(Call::access, "/pwm5/period", EACCES);  // nobody asks once it may be written
+  fail_next(Call::access, "/pwm5/period", EACCES);  // not called once the file may be written
   STRCMP_EQUAL("open", answer(place(kernel)).c_str());
   LONGS_EQUAL(1, waiting());
   reset_calls();

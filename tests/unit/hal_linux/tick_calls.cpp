@@ -1,4 +1,4 @@
-// What the loop calls in a tick neither allocates, locks nor throws, also when devices fail.
+// The calls of the loop in a tick neither allocate, lock nor throw, even when devices fail.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr int ticks = 1000;
 
-/// How often it called what it must not; says so.
+/// Counts and prints the calls that were not allowed.
 template <class Work>
 int judged(const char* what, Work work) {
   const WatchedCalls calls = counted([&] {
@@ -52,7 +52,7 @@ PwmFiles pwm_files(const TemporaryFolder& folder) {
           attribute(folder, "enable", "1\n"), attribute(folder, "polarity", "normal\n")};
 }
 
-/// Of two inputs and the time; the device gives zeros without end.
+/// A scan of two inputs and the time; the device returns endless zeros.
 ReadyScan ready_scan(const TemporaryFolder& folder) {
   const ScanType counts = *parse_scan_type("be:u12/16>>2");
   const ScanType time = *parse_scan_type("le:s64/64>>0");

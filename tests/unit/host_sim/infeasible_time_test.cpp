@@ -1,4 +1,4 @@
-// Which part of a run followed a reference that the muscle could not follow.
+// The fraction of a run with a reference that the muscle could not follow.
 #include "runner/infeasible_time.hpp"
 
 #include <cmath>
@@ -67,13 +67,13 @@ TEST(InfeasibleTime, BeginsAndEndsWithTheReference) {
     for (; time_s < end_s - 0.5 * step_s; time_s += step_s)
       found.add(limit, asked, time_s);
   };
-  // At a limit, which the reference does not ask for.
+  // At a limit, although the reference does not ask for it.
   follow_asked(LimitedBy::minimum, false, 1.0);
   CHECK_FALSE(found.found());
   follow_asked(LimitedBy::nothing, true, 2.0);
   CHECK_FALSE(found.found());
   follow_asked(LimitedBy::maximum, true, 3.0);
-  // Noise.
+  // A gap due to noise.
   follow_asked(LimitedBy::nothing, true, 3.1);
   follow_asked(LimitedBy::maximum, true, 4.0);
   follow_asked(LimitedBy::minimum, false, 5.0);

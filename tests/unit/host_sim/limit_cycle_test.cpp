@@ -1,4 +1,4 @@
-// Which runs are told to oscillate under a reference that moves, and with which period.
+// Which runs are reported to oscillate under a moving reference, and with which period.
 #include "runner/limit_cycle.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ TEST_GROUP(LimitCycle) {
   LimitCycle cycle;
   double time_s = 0.0;
 
-  /// Once down and up again.
+  /// One cycle, down and up again.
   void turn(double lasts_s) {
     cycle.add(LimitedBy::minimum, time_s + 0.5 * lasts_s);
     cycle.add(LimitedBy::nothing, time_s + 0.7 * lasts_s);
@@ -27,7 +27,7 @@ TEST_GROUP(LimitCycle) {
     cycle.add(LimitedBy::maximum, time_s);
   }
 
-  /// As a run of this scenario tells; NaN: none.
+  /// The period that a run of this scenario reports; NaN: none.
   static double period_of_run_s(const std::string& text) {
     const Scenario scenario = read(text);
     Simulation simulation(scenario);
@@ -46,9 +46,9 @@ TEST(LimitCycle, OneIsFoundByCyclesThatLastAlike) {
   CHECK_TRUE(std::isnan(cycle.period_s(25.0)));
   turn(0.5);
   DOUBLES_EQUAL(0.5, cycle.period_s(25.0), 1e-9);
-  // Of a reference that comes again as soon it is none.
+  // If the reference recurs as fast, it is not a limit cycle.
   CHECK_TRUE(std::isnan(cycle.period_s(1.4)));
-  // Where nothing was followed none has passed.
+  // Time in which nothing is followed does not count.
   cycle.interrupt();
   time_s += 1000.0;
   for (int i = 0; i < 12; ++i)
@@ -71,7 +71,7 @@ TEST(LimitCycle, ALoopOfTooMuchGainIsToldUnderAMovingReference) {
   DOUBLES_EQUAL(0.47, period_s, 0.05);
 }
 
-/// Nor noise, the steps of a reference, friction, a quick sine, or a muscle that is not linear.
+/// Noise, steps of a reference, friction, a fast sine and a non-linear muscle are none either.
 TEST(LimitCycle, NothingElseIsTold) {
   for (const char* law : {"pi", "learned_ff"}) {
     for (const char* rest :

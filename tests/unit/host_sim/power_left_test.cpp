@@ -1,4 +1,4 @@
-// What the board's limiter leaves, followed by the forecast as the board itself does.
+// The power that the board's limiter leaves; the forecast computes it as the board itself does.
 #include "runner/power_left.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using supercoil::test::read;
 
 namespace {
 
-/// Cold, and derated from the first kelvin on: every temperature shows in the power.
+/// Cold, and derated from the first kelvin on, so that every temperature affects the power.
 BoardSettings derated(double max_time_constant_s) {
   BoardSettings board = firmware_of(read(""));
   ChannelSettings& channel = board.channels[0];
@@ -28,7 +28,7 @@ BoardSettings derated(double max_time_constant_s) {
   return board;
 }
 
-/// To the last bit, while it is heated and while it cools.
+/// The forecast agrees to the last bit, while heating and while cooling.
 void check_follows_the_boards_interval(const BoardSettings& board) {
   constexpr double forecast_step_s = 5e-3;
   constexpr double measured_supply_V = 12.0;

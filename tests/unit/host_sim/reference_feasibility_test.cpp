@@ -1,4 +1,4 @@
-// Whether a reference can be followed, told before it is run.
+// Whether a reference can be followed, predicted before it is run.
 #include "runner/reference_feasibility.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ using supercoil::test::read;
 
 namespace {
 
-/// Its heat follows a power within 22 s, and the reference wants it in 4 s.
+/// The heat needs 22 s to follow a power, and the reference demands it in 4 s.
 const std::string slow =
     "simulation.duration_s = 120.0\n[plant]\nthermal_mass_J_per_K = 2.0\n"
     "[muscle]\nthermal_mass_J_per_K = 2.0\n[controller]\nkind = 'learned_ff'\n";
@@ -25,7 +25,7 @@ double infeasible_ratio(const Scenario& scenario) {
   return reference_feasibility(scenario)->infeasible_ratio;
 }
 
-/// As its controller counts it.
+/// The infeasible time as the controller counts it in a run.
 InfeasibleTime found_in_run(const Scenario& scenario) {
   Simulation simulation(scenario);
   Summary summary({});
@@ -66,7 +66,7 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsFeasibleAsItSays) {
     scenario.start.reference.terms[0].angular_frequency_rad_per_s /= slowing;
     return infeasible_ratio(scenario);
   };
-  // What is left is the way from rest to the middle.
+  // What remains is the way from rest to the middle.
   const double coming_up = 0.01;
   CHECK_COMPARE(with(0.99 * f->feasible_motion_ratio, 1.0), <, coming_up);
   CHECK_COMPARE(with(1.05 * f->feasible_motion_ratio, 1.0), >, 5.0 * coming_up);
@@ -81,7 +81,7 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsFeasibleAsItSays) {
   STRCMP_CONTAINS("; it is shaped", describe_reference(shaped).c_str());
 }
 
-/// Where its controller goes by the same muscle.
+/// The controller uses the same muscle.
 TEST(ReferenceFeasibility, AgreesWithWhatARunFinds) {
   const Scenario scenario = read(
       "simulation.duration_s = 100.0\nplant.thermal_mass_J_per_K = 0.5\n"
@@ -94,7 +94,7 @@ TEST(ReferenceFeasibility, AgreesWithWhatARunFinds) {
   CHECK_COMPARE(infeasible_ratio(scenario), <, 1.5 * found);
 }
 
-/// Badly cooled, for all that its board knows: at rest it may be too hot for 18 mm.
+/// Badly cooled according to its board's bounds: at rest it may be too hot for 18 mm.
 TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   const std::string hot =
       "simulation.duration_s = 100.0\n[thermal]\ntransfer_ratio = [0.25, 2.2]\n"
@@ -116,11 +116,11 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
       "time; the muscle holds 12.1 mm for good (limited_by temperature)",
       describe_reference(high).c_str());
   STRCMP_CONTAINS("limited_by temperature)", describe_reference(high).c_str());
-  // What is told to be held is held.
+  // A position that is reported as held is held.
   const Scenario held = steps_of(std::to_string(0.999 * f->held_m));
   DOUBLES_EQUAL(0.0, infeasible_ratio(held), 0.01);
   STRCMP_EQUAL("asks for no more than the muscle can do", describe_reference(held).c_str());
-  // A sine may lead there for a short time, or stay below.
+  // A sine may exceed it for a short time, or stay below.
   const auto sine_about = [&](const std::string& offset_m) {
     return read(hot + "[reference]\nkind = 'sine'\namplitude_m = 0.005\noffset_m = " + offset_m);
   };
@@ -131,7 +131,7 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   CHECK_TRUE(std::isinf(too_high->feasible_slowing));
 }
 
-/// What it is told to end in, it ends in; where it is shaped it is held.
+/// The run ends in the predicted fault at about the predicted time; a shaped reference causes none.
 TEST(ReferenceFeasibility, ASetPointBeyondWhatIsHeldIsToldWithItsEnd) {
   const auto step_to = [](const std::string& to_m, const std::string& shape) {
     return read("simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = " + to_m +
@@ -176,7 +176,7 @@ TEST(ReferenceFeasibility, ALoadTakesItsPartOfWhatIsHeld) {
   DOUBLES_EQUAL(infeasible_ratio_of_run(beyond), infeasible_ratio(beyond), 0.1);
 }
 
-/// How wrong senses may be that were never compared depends on the supply that they read.
+/// The error of senses that were never compared depends on the supply voltage that they read.
 TEST(ReferenceFeasibility, GoesByTheSupplyThatThereIs) {
   const Scenario scenario = read(
       "simulation.duration_s = 60.0\nsenses.error_ratio = 0.0\n"
@@ -212,7 +212,7 @@ TEST(ReferenceFeasibility, AMuscleThatIsTooWeakCannotEvenHoldTheMiddle) {
   STRCMP_CONTAINS("not even its middle can be held", told.c_str());
 }
 
-/// A step by 15 mm through a quick model, held for long.
+/// A step of 15 mm through a fast model, held for long.
 TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
   const auto step_for = [](const std::string& duration_s, const std::string& shape) {
     return read("simulation.duration_s = " + duration_s + "\ncontroller.kind = 'learned_ff'\n" +
@@ -234,7 +234,7 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
   const InfeasibleTime ran = found_in_run(step_for("100.0", "false"));
   CHECK_TRUE(ran.found());
   DOUBLES_EQUAL(long_run->first_lasts_s, ran.first_lasts_s(), 0.5);
-  // Shaped, it is the reference that waits.
+  // If shaped, the reference waits instead.
   const auto shaped = reference_feasibility(step_for("100.0", "true"));
   const InfeasibleTime shaped_ran = found_in_run(step_for("100.0", "true"));
   CHECK_TRUE(shaped_ran.found());
@@ -247,13 +247,13 @@ TEST(ReferenceFeasibility, OfStepsItTellsHowOften) {
                               "hold_s = 30.0\n");
   const auto f = reference_feasibility(steps);
   CHECK(f->limited_by == LimitedBy::maximum);
-  // With the time in which the slow muscle catches up.
+  // Including the time in which the slow muscle catches up.
   CHECK_COMPARE(f->infeasible_ratio, >, 0.4);
   CHECK_COMPARE(f->infeasible_ratio, <, 0.7);
   DOUBLES_EQUAL(1.0, f->feasible_motion_ratio, 0.0);
 }
 
-/// What may be written is told at once: in a run of every tick this would take hours.
+/// It answers at once for anything that may be written; a run of every tick would take hours.
 TEST(ReferenceFeasibility, OfSinesThatAreFarApartItTellsAsSoon) {
   const auto f = reference_feasibility(
       read("simulation.duration_s = 1e6\n[reference]\nkind = 'multisine'\noffset_m = 0.011\n"

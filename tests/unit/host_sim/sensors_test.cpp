@@ -1,4 +1,4 @@
-// Sensors as laboratories have them.
+// Sensors like those in laboratories.
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -10,7 +10,7 @@ using namespace supercoil::host_sim;
 
 namespace {
 
-/// Channels 0 and 1 turn a joint; 2 is a muscle of its own.
+/// Channels 0 and 1 turn a joint; channel 2 is a single muscle.
 SimulatedBoardSettings three_muscles() {
   SimulatedBoardSettings settings;
   settings.channels.resize(3);
@@ -20,7 +20,7 @@ SimulatedBoardSettings three_muscles() {
   return settings;
 }
 
-/// Without firmware: the supply is on, and each switch at a duty.
+/// A board without firmware: the supply is on, and each switch has a duty.
 struct Driven {
   explicit Driven(const SimulatedBoardSettings& settings) : board(settings) {
     board.pump.stuck_closed = true;

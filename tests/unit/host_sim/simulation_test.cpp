@@ -54,8 +54,8 @@ TEST(Simulation, DependsOnItsSeed) {
   CHECK(first.back().measured_m != second.back().measured_m);
 }
 
-/// Of a muscle that is identified, as such: it may be asked to answer, and is held still by more
-/// power than any muscle of a constant cooling would be.
+/// The muscle counts as identified: it may be asked to answer. The draught holds it still with more
+/// power than any muscle with constant cooling would need.
 TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
   const std::string text =
       "simulation.duration_s = 46.0\nsensor.position.noise_rms_m = 1e-5\n"
@@ -64,7 +64,8 @@ TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
   LearnedMuscles learned;
   learned[0].emplace();
   learned[0]->muscle = read(text).start.muscle;
-  learned[0]->muscle.stiffness_N_per_m *= 1.001;  // found, and not what was configured
+  learned[0]->muscle.stiffness_N_per_m *=
+      1.001;  // identified, so different from the configured one
   learned[0]->calibration.cold_resistance_Ohm = 10.0;
   learned[0]->response_ratio = 1.0;
   const auto known = parse_scenario(text, "s.toml", learned);
@@ -76,7 +77,7 @@ TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
 TEST(Simulation, GivesNoPowerOutsideTheLimits) {
   for (const TickRecord& r : records_of(read("simulation.duration_s = 60.0\npower.max_W = 3.0"))) {
     CHECK(r.applied_power_W >= 0.0 && r.applied_power_W <= 3.0);
-    // The finest PWM has steps of 13 nW.
+    // The finest PWM step is 13 nW.
     CHECK_EQUAL(r.limited, std::abs(r.applied_power_W - r.power_W) > 1e-7);
   }
 }
@@ -126,7 +127,7 @@ sensor.position = {noise_rms_m = 0.0, resolution_bits = 0}
 }
 
 TEST(Simulation, PiTracksAsTheTrialDid) {
-  // docs/paper.md: 225 µm before the change, on another implementation.
+  // docs/paper.md: 225 µm before the change, from another implementation.
   const Scenario scenario = read("simulation.duration_s = 100.0\ncontroller.kind = 'pi'");
   DOUBLES_EQUAL(225.0, rms_um(scenario, 60.0, 100.0), 5.0);
 }
@@ -138,7 +139,7 @@ TEST(Simulation, MracPresetATracksTenTimesBetterThanPi) {
 }
 
 TEST(Simulation, EstimateThatMovesWithItsErrorIsNotTrusted) {
-  // Two sines that leave θ1 30 % off for good: the running error alone is small all the time.
+  // Two sines that leave θ1 30 % off for good: the running error alone is always small.
   const Scenario scenario = read(R"(
 simulation.duration_s = 200.0
 power.max_W = 5.0
@@ -161,8 +162,8 @@ TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
     const char* rate;
     double max_m;
   };
-  // At 100 Hz preset a, made for 1 kHz, sits at the power limits half of the time, and each
-  // crossing of a limit that falls into another tick sets the two tens of µm apart for a while.
+  // At 100 Hz preset a, made for 1 kHz, is at the power limits half of the time. Each limit
+  // crossing that falls into another tick separates the two by tens of µm for a while.
   for (const Case& c : {Case{"100.0", 60e-6}, Case{"1000.0", 1e-6}, Case{"10000.0", 1e-6}}) {
     const std::string start = std::string("simulation = {duration_s = 30.0, rate_Hz = ") + c.rate +
                               "}\nestimator.kind = 'none'\n";

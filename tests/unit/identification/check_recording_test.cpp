@@ -16,7 +16,7 @@ using supercoil::identification::Recording;
 using supercoil::identification::resample;
 using supercoil::identification::Samples;
 
-/// 200 rows of 10 ms, in lines 2 to 201, that nothing is wrong with.
+/// 200 valid rows of 10 ms, in lines 2 to 201.
 Recording good_recording() {
   Recording r;
   for (std::size_t i = 0; i < 200; ++i) {
@@ -150,6 +150,6 @@ TEST(Resample, KeepsEnergyAtAnOddRate) {
   for (const double power_W : samples.power_W)
     energy_J += power_W * samples.step_s;
   DOUBLES_EQUAL(2.0 * (samples.end_s() + samples.step_s - r.time_s[100]), energy_J, 1e-9);
-  // The position is a line but for the jitter of 4 ms, and half an interval of the average.
+  // The position is linear except for the jitter of 4 ms and half an averaging interval.
   DOUBLES_EQUAL(1e-5 * samples.time_s(80) / 0.013, samples.position_m[80], 8e-6);
 }

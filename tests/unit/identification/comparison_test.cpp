@@ -1,4 +1,4 @@
-// Models are chosen by what they were not fitted to, and what is no muscle is said to be none.
+// Models are chosen by data that they were not fitted to; data that no muscle makes is reported.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -54,7 +54,7 @@ TEST(Comparison, TellsAMaterialThatTransforms) {
 TEST(Comparison, TellsMotionThatPowerDoesNotExplain) {
   Samples samples = random_steps(120.0, full_W, 23);
   record(other_muscle(), noise_m, 24, samples);
-  // Somebody pulls at it, louder and louder.
+  // A disturbance that grows and grows pulls at the muscle.
   for (std::size_t k = 0; k < samples.size(); ++k)
     samples.position_m[k] += 2e-4 * samples.time_s(k) * std::sin(0.7 * samples.time_s(k));
   const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
@@ -66,7 +66,7 @@ TEST(Comparison, TellsAChangeAndNoChange) {
   record(other_muscle(), noise_m, 26, samples);
   const Fit part = fit_model({}, samples, {0.0, 60.0});
   CHECK(max_change(part, fit_model({}, samples, {0.0, 120.0})).deviations < 3.0);
-  // From 60 s on everything moves a quarter further.
+  // From 60 s on every motion is a quarter larger.
   for (std::size_t k = 3000; k < samples.size(); ++k)
     samples.position_m[k] *= 1.25;
   const Change change = max_change(part, fit_model({}, samples, {0.0, 120.0}));

@@ -14,7 +14,7 @@ namespace {
 using namespace supercoil::identification;
 using namespace supercoil::identification::test;
 
-/// With one effect that a linear model lacks.
+/// A muscle with one effect that a linear model lacks.
 Muscle random_muscle(std::size_t effect, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const auto between = [&](double low, double high) {
@@ -61,9 +61,9 @@ TEST(Deviations, CoverTheFitOfTheNextMinute) {
       within_half += apart <= deviation ? 1 : 0;
     }
   }
-  // Gain and time constant of each: 95 % are within two deviations of a normal distribution.
+  // Gain and time constant of each: in a normal distribution 95 % are within two deviations.
   CHECK(within >= 54);
-  // And they are not simply wide.
+  // They are not simply wide.
   CHECK(within_half <= 55);
 }
 
@@ -78,12 +78,12 @@ TEST(Deviations, CountSamplesThatAreAlikeOnce) {
     filtered[i] = state = 0.9 * state + white[i];
   }
   DOUBLES_EQUAL(1.0, correlated_samples(white), 0.05);
-  // (1 + 0.9)/(1 − 0.9), less what is below the limit of 0.05.
+  // (1 + 0.9)/(1 − 0.9), minus the part below the limit of 0.05.
   DOUBLES_EQUAL(18.0, correlated_samples(filtered), 2.0);
 }
 
 TEST(Deviations, OfWhiteNoiseAreLeastSquares) {
-  // A mean of 5,000 values of variance 4: 2/√5000, and the jackknife's twice its variance on top.
+  // A mean of 5,000 values of variance 4: 2/√5000, plus twice the jackknife's variance of it.
   std::mt19937 random(2);
   std::normal_distribution<double> normal(0.0, 2.0);
   Eigen::VectorXd residual(5000);

@@ -23,7 +23,7 @@ std::size_t index_of(const Fit& fit, double Muscle::*member) {
   return 0;
 }
 
-/// Within so much of the truth, and within three of its own deviations.
+/// Within this ratio of the truth, and within three of the fit's own deviations.
 void check_found(const Fit& fit, const Muscle& truth, double Muscle::*member, double ratio) {
   const std::size_t i = index_of(fit, member);
   const double expected = truth.*member;
@@ -72,7 +72,7 @@ TEST(FitModel, FindsEachEffect) {
     Effect effect;
     double Muscle::*member;
     double value;
-    double ratio;  ///< found within
+    double ratio;  ///< of the truth, within which it is found
   };
   for (const Case& c : {Case{Effect::drift, &Muscle::drift_m_per_s, -4e-5, 0.02},
                         Case{Effect::force, &Muscle::force_ratio, 2.5, 0.02},
@@ -109,7 +109,7 @@ TEST(FitModel, SeesNothingAfterItsSpan) {
   const Fit before = fit_model({}, samples, {0.0, 30.0});
   for (std::size_t k = 1501; k < samples.size(); ++k)
     samples.position_m[k] += 0.002 * std::sin(static_cast<double>(k));
-  // Sizes are the whole recording's, and with them where the search starts.
+  // Scales are those of the whole recording, and so is the start of the search.
   const Fit after = fit_model({}, samples, {0.0, 30.0});
   DOUBLES_EQUAL(before.muscle.time_constant_s, after.muscle.time_constant_s, 2e-3);
 }

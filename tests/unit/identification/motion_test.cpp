@@ -12,7 +12,7 @@ namespace {
 using namespace supercoil::identification;
 using namespace supercoil::identification::test;
 
-/// Euler's method on what docs/recordings.md says, for one muscle.
+/// Euler's method for the equations in docs/recordings.md, for one muscle.
 class Equations {
  public:
   Equations(const Muscle& muscle, double max_W)
@@ -68,7 +68,7 @@ class Equations {
   std::array<double, 5> plays_{};
 };
 
-/// The largest difference over the stroke, in 40 s of steps of up to 2 W.
+/// The largest difference relative to the stroke, in 40 s of steps of up to 2 W.
 double difference(const Muscle& muscle) {
   Samples samples = random_steps(40.0, 2.0, 3);
   const auto predicted = motion(muscle, samples, 2.0, samples.size());
@@ -103,7 +103,7 @@ TEST(Motion, StartsWarmAndMovingWhereItIsTold) {
 TEST(Motion, OfEachEffectIsTheEquations) {
   struct Effect {
     void (*set)(Muscle&);
-    double allowed;  ///< over the stroke
+    double allowed;  ///< relative to the stroke
   };
   constexpr std::array<Effect, 6> effects{{
       {[](Muscle& m) {

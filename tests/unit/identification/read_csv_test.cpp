@@ -1,4 +1,4 @@
-// Recordings as laboratories write them, and what is said of those that cannot be read.
+// Recordings as laboratories write them, and the problems of those that cannot be read.
 #include <cmath>
 #include <string>
 

@@ -55,7 +55,7 @@ Bytes can_at(std::uint32_t bit_rate) {
   const Bytes kind = attribute(IFLA_INFO_KIND, Bytes(4));
   const Bytes data =
       attribute(IFLA_CAN_STATE, Bytes(4)) + attribute(IFLA_CAN_BITTIMING, bytes_of(timing));
-  // The kernel marks parts that hold others.
+  // The kernel marks attributes that contain others.
   const Bytes info = attribute(IFLA_INFO_DATA | NLA_F_NESTED, data);
   return answer(name + attribute(IFLA_LINKINFO, kind + info));
 }
@@ -65,7 +65,7 @@ Bytes can_at(std::uint32_t bit_rate) {
 TEST_GROUP(CheckCanLink) {
   TemporaryFolder root;
   const Machine machine{root / "proc", root / "sys", root / "dev"};
-  // No machine has it: its bit rate is that of none.
+  // No machine has this interface, so it has no bit rate either.
   const std::string folder = "sys/class/net/supercoil-no0/";
 
   void setup() override {
@@ -114,7 +114,7 @@ TEST(CheckCanLink, FindsTheBitRateInTheKernelsAnswer) {
   LONGS_EQUAL(500000, *bit_rate_in(can_at(500000)));
   CHECK_FALSE(bit_rate_in(can_at(0)).has_value());
   CHECK_FALSE(bit_rate_in(answer(attribute(IFLA_IFNAME, Bytes(6)))).has_value());
-  // Cut anywhere, or with a length that leads nowhere: no rate, no harm.
+  // Truncated anywhere, or with a length that leads nowhere: no rate and no harm.
   const Bytes whole = can_at(500000);
   for (std::size_t size = 0; size + sizeof(can_bittiming) < whole.size(); ++size)
     CHECK_FALSE(bit_rate_in(Bytes(whole.begin(), whole.begin() + static_cast<long>(size))));
@@ -136,12 +136,12 @@ TEST(CheckCanLink, AsksTheKernelForTheBitRateOfThisInterface) {
     std::memcpy(&link, question.data() + sizeof(header), sizeof(link));
     UNSIGNED_LONGS_EQUAL(question.size(), header.nlmsg_len);
     LONGS_EQUAL(RTM_GETLINK, header.nlmsg_type);
-    // Without this the kernel answers nothing.
+    // Without this flag the kernel does not answer.
     CHECK((header.nlmsg_flags & NLM_F_REQUEST) != 0);
     LONGS_EQUAL(if_nametoindex("lo"), link.ifi_index);
     return can_at(250000);
   });
-  // Every machine has this one; a bit rate it has only here.
+  // Every machine has this interface; it has a bit rate only in this test.
   const auto rate = can_bit_rate("lo");
   CHECK(rate.has_value());
   UNSIGNED_LONGS_EQUAL(250000, *rate);

@@ -13,7 +13,7 @@ using namespace supercoil::test;
 
 namespace {
 
-/// As in proc(5).
+/// The format of proc(5).
 std::string stat(const std::string& name, unsigned flags, int priority, int policy) {
   return "17 (" + name + ") S 1 17 17 0 -1 " + std::to_string(flags) +
          " 0 0 0 0 1 2 0 0 -51 0 1 0 100 0 0 18446744073709551615 0 0 0 0 0 0 0 2147483647 0 1 0 "
@@ -68,7 +68,7 @@ TEST(CheckRivals, TakesNoHarmFromWhatEndsMeanwhile) {
   check_finding("ok", "none above", "", found());
   CHECK_FALSE(parse_thread_stat("").has_value());
   CHECK_FALSE(parse_thread_stat(") 1 (").has_value());
-  // Whole but for one bracket.
+  // Complete except for one bracket.
   const std::string whole = stat("x", of_user, 90, SCHED_FIFO);
   CHECK(parse_thread_stat(whole).has_value());
   CHECK_FALSE(parse_thread_stat(whole.substr(whole.find('(') + 1)).has_value());

@@ -54,7 +54,7 @@ TEST(CheckRights, SaysWhatRefusesThePriority) {
   may("0000000000800000");
   check_finding("warning", "although CAP_SYS_NICE is there", "cpu.rt_runtime_us", priority(EPERM));
   STRCMP_CONTAINS("not priority 80 of SCHED_FIFO", told.findings.back().found.c_str());
-  // A sandbox that accepts and does nothing.
+  // A sandbox that accepts the call but does nothing.
   may("0000000000000000");
   check_finding("warning", "accepted, but the thread does not have it", "LimitRTPRIO=99",
                 priority(0));

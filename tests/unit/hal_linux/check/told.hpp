@@ -1,4 +1,4 @@
-// Keeps what a check tells.
+// Records the findings of a check.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Told {
   }
 };
 
-/// found and remedy: parts of them; an empty remedy asks for none.
+/// found and remedy: parts of the texts; an empty remedy requires that there is none.
 inline void check_finding(const std::string& severity, const std::string& found,
                           const std::string& remedy, const hal::Finding& finding) {
   STRCMP_EQUAL(severity.c_str(), hal::text(finding.severity));

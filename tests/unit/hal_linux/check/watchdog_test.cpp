@@ -16,7 +16,7 @@ TEST_GROUP(CheckWatchdog) {
   TemporaryFolder root;
   const Machine machine{root / "proc", root / "sys", root / "dev"};
   const std::string first = "sys/class/watchdog/watchdog0/";
-  /// Some device that can be had everywhere, in the place of one.
+  /// A device that exists everywhere stands in for the watchdog.
   const std::string device = "/dev/null";
   bool opened = false;
 
@@ -25,7 +25,7 @@ TEST_GROUP(CheckWatchdog) {
     root.write(first + "dev", "1:3\n");
     root.write(first + "state", "inactive\n");
     root.write(first + "nowayout", "0\n");
-    // Opening starts it.
+    // Opening would start it.
     next(Call::open, device, [this] {
       opened = true;
       return -1;
@@ -81,7 +81,7 @@ TEST(CheckWatchdog, SaysThatItIsNotKnown) {
 }
 
 TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
-  // /dev/watchdog has numbers of its own, which no folder shows.
+  // /dev/watchdog has its own numbers, which no folder shows.
   root.write(first + "dev", "250:0\n");
   set_device(10, 130);
   check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));

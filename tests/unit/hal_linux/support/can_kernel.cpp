@@ -44,7 +44,7 @@ void CanKernel::lose_carrier(const std::string& name) const {
 }
 
 void CanKernel::set_down(const std::string& name) {
-  // The kernel has the file, but it cannot be read.
+  // The kernel still shows the file, but it cannot be read.
   net.remove(name + "/carrier");
   receive_errors.push_back(ENETDOWN);
 }

@@ -1,4 +1,4 @@
-// Compares outcomes of calls, by their text.
+// Compares the statuses of calls by their text.
 #pragma once
 
 #include <CppUTest/TestHarness.h>

@@ -1,4 +1,4 @@
-// Devices that do as they are told, for tests of what stands before them.
+// Fake devices, for tests of the code that uses them.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace supercoil::test {
 
-/// May be told from another thread what to answer.
+/// Another thread may set its answer.
 struct FakeAdc final : hal::AdcChannel {
   hal::Sample latest() override {
     const int now = ++reads;

@@ -1,5 +1,5 @@
-// GPIO chips that are none. gpio_kernel_v1.cpp and _v2.cpp put libgpiod's functions before them, in
-// the place of the library.
+// Fake GPIO chips. gpio_kernel_v1.cpp and _v2.cpp implement libgpiod's functions on them and
+// replace the library.
 #pragma once
 
 #include <cerrno>
@@ -28,8 +28,8 @@ struct FakeChip {
 
 struct GpioKernel {
   std::map<std::string, FakeChip> chips;  ///< by path
-  int opened = 0;                         ///< chips, still open
-  int fails_with = 0;                     ///< errno of every set, get and request; 0: none
+  int opened = 0;                         ///< chips that are open
+  int fails_with = 0;                     ///< errno of every set, get and request; 0: no error
 
   FakeChip* open(const std::string& path) {
     const auto chip = chips.find(path);
@@ -71,7 +71,7 @@ struct GpioKernel {
   }
 };
 
-/// The one of this program.
+/// The only instance in this program.
 inline GpioKernel& gpio_kernel() {
   static GpioKernel only;
   return only;

@@ -9,7 +9,7 @@ using supercoil::test::gpio_kernel;
 
 namespace {
 
-// Never looked into: the library's names for our own objects.
+// Opaque: the library's types for our own objects.
 gpiod_chip* handle(FakeChip* chip) {
   return reinterpret_cast<gpiod_chip*>(chip);
 }

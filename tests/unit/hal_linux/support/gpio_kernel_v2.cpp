@@ -9,7 +9,7 @@ using supercoil::test::FakeChip;
 using supercoil::test::FakeLine;
 using supercoil::test::gpio_kernel;
 
-// The library only declares these.
+// The library only declares these types.
 struct gpiod_line_settings {
   bool output;
   int value;
@@ -38,7 +38,7 @@ FakeLine& line_of(gpiod_line_info* line) {
 const char* text_or_null(const std::string& text) {
   return text.empty() ? nullptr : text.c_str();
 }
-/// The kernel knows no other line in this request.
+/// The request holds only this line.
 FakeLine* line_of(gpiod_line_request* request, unsigned offset) {
   return request->offset == offset ? request->line : nullptr;
 }

@@ -1,4 +1,4 @@
-// A PWM chip of sysfs that accepts and refuses as the kernel does.
+// A sysfs PWM chip that accepts and refuses writes as the kernel does.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace supercoil::test {
 /// Which writes are refused.
 enum class Rules {
   strict,        ///< 6.1: any state with period 0 or duty above the period
-  since_6_8,     ///< the same, but from one such state to another is allowed
-  enabled_only,  ///< the same of an enabled output only
+  since_6_8,     ///< the same, except from one such state to another
+  enabled_only,  ///< the same, but only while the output is enabled
 };
 
 struct PwmState {
@@ -23,13 +23,13 @@ struct PwmState {
   bool enabled = false;
   bool inversed = false;
 
-  /// The part of the time in which the output is high.
+  /// The fraction of time in which the output is high.
   double on() const;
   friend bool operator==(const PwmState&, const PwmState&) = default;
 };
 
 /// One chip, pwmchip3 at devices/soc/i2c-1/1-0040, with 16 outputs of which one can be exported.
-/// While it lives, writes to attributes come here.
+/// During its lifetime it receives the writes to attributes.
 class PwmKernel {
  public:
   explicit PwmKernel(const PwmState& left = {}, bool exported = true, Rules rules = Rules::strict,
@@ -43,8 +43,8 @@ class PwmKernel {
   TemporaryFolder tree;
   PwmState state;
   std::vector<std::string> writes;    ///< "duty_cycle 0"
-  std::vector<std::string> refusals;  ///< the same, of those answered with EINVAL
-  double max_on = 0.0;                ///< of all states that were accepted
+  std::vector<std::string> refusals;  ///< of these, the ones answered with EINVAL
+  double max_on = 0.0;                ///< over all states that were accepted
 
  private:
   long write(const std::string& path, std::string_view text);

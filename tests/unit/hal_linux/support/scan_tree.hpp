@@ -1,4 +1,4 @@
-// A converter with a buffer, as files; what is written to an attribute stands in it.
+// A converter with a buffer, as files; a value written to an attribute becomes its content.
 #pragma once
 
 #include <cstdint>

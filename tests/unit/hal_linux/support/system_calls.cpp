@@ -49,7 +49,7 @@ std::string path_of(int file) {
   return {path.data(), static_cast<std::size_t>(size < 0 ? 0 : size)};
 }
 
-/// The answer that waits for such a call.
+/// The pending answer for such a call.
 std::optional<Answer> waiting_for(Call call, const std::string& path) {
   const std::lock_guard guard(state().lock);
   auto& all = state().waiting;
@@ -123,7 +123,7 @@ long instead(Call call, const std::string& path, const Real& real) {
   return real();
 }
 
-/// The calls that return an errno instead of setting it.
+/// For calls that return an errno instead of setting it.
 template <class Real>
 int errno_instead(Call call, const Real& real) {
   if (auto answer = supercoil::test::waiting_for(call, "")) return static_cast<int>(-(*answer)());

@@ -21,7 +21,7 @@ void make_parents(const std::string& path) {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  // In memory, as sysfs is; a disk makes the property tests take a minute.
+  // In memory, like sysfs; on a disk the property tests take a minute.
   const bool memory = ::access("/dev/shm", W_OK) == 0;
   std::string name =
       (memory ? "/dev/shm" : std::filesystem::temp_directory_path().string()) + "/supercoil-XXXXXX";
@@ -36,7 +36,7 @@ TemporaryFolder::~TemporaryFolder() {
 void TemporaryFolder::write(std::string_view name, std::string_view content) const {
   make_parents(*this / name);
   const std::string path = *this / name;
-  // Not truncated first: ext4 then writes the file to the disk when it is closed.
+  // Not truncated first, because ext4 would then write the file to the disk when it is closed.
   std::ofstream(path, std::ios::binary | std::ios::app).close();
   std::fstream(path, std::ios::binary | std::ios::in | std::ios::out) << content;
   std::filesystem::resize_file(path, content.size());

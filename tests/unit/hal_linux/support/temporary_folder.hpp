@@ -1,4 +1,4 @@
-// A real directory tree, in the place of /sys or /dev.
+// A real directory tree that stands in for /sys or /dev.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace supercoil::test {
 
-/// Removed with all that is in it.
+/// Removed with everything in it.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -18,12 +18,12 @@ class TemporaryFolder {
   /// "name" in this folder.
   std::string operator/(std::string_view name) const { return path_ + "/" + std::string(name); }
 
-  /// Makes a file, and the folders above it; replaces what it held.
+  /// Makes a file and its parent folders; replaces the previous content.
   void write(std::string_view name, std::string_view content) const;
   std::string read(std::string_view name) const;
   void make_folder(std::string_view name) const;
   void make_pipe(std::string_view name) const;
-  /// A link `name` to `target`, which stands in this folder too.
+  /// A link `name` to `target` in the same folder.
   void link(std::string_view name, std::string_view target) const;
   void remove(std::string_view name) const;
 

@@ -1,4 +1,4 @@
-// From where the runs of a study draw: distributions, and points of the unit cube.
+// What the runs of a study draw from: distributions, and points of the unit cube.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -15,7 +15,7 @@ namespace {
 
 using Kind = Distribution::Kind;
 
-/// Which of `parts` equal parts of the line the runs' points are in.
+/// Which of `parts` equal intervals the runs' points fall into.
 std::set<int> parts_reached(const Sampler& sampler, std::size_t dimension, int parts) {
   std::set<int> reached;
   for (std::size_t run = 0; run < static_cast<std::size_t>(parts); ++run)
@@ -63,7 +63,7 @@ TEST(Distribution, EachOfAListIsAsLikely) {
   DOUBLES_EQUAL(0.0, list.at(0.333), 0.0);
   DOUBLES_EQUAL(1.0, list.at(0.334), 0.0);
   DOUBLES_EQUAL(2.0, list.at(1.0 - 1e-16), 0.0);
-  DOUBLES_EQUAL(2.0, list.at(1.0), 0.0);  // as a correlated one may round
+  DOUBLES_EQUAL(2.0, list.at(1.0), 0.0);  // as rounding may give for a correlated draw
 }
 
 TEST_GROUP(Sampler){};
@@ -113,7 +113,7 @@ TEST(Sampler, SeedsGiveOtherPointsAndOneSeedTheSame) {
   }
 }
 
-// A campaign of one machine goes on at another, and parts of it are merged.
+// A campaign can be continued on another machine, and its parts can be merged.
 TEST(Sampler, PointsAreTheSameOnEveryMachine) {
   DOUBLES_EQUAL(0.67377268775118748, Sampler(Sampling::random, 1, 2, 1).point(0)[0], 0.0);
   DOUBLES_EQUAL(0.76004956538987722, Sampler(Sampling::sobol, 1, 2, 1).point(5)[1], 0.0);

@@ -1,4 +1,4 @@
-// How often, how certain, and what decides.
+// Rates, their confidence intervals, and the quantities that decide.
 #include "campaign/statistics.hpp"
 
 #include <cmath>
@@ -9,7 +9,7 @@ using namespace supercoil::host_sim::campaign;
 
 TEST_GROUP(CampaignStatistics){};
 
-// R: binom.test(5, 100)$conf.int, and likewise.
+// R: binom.test(5, 100)$conf.int, and so on.
 TEST(CampaignStatistics, IntervalIsTheExactOne) {
   const Rate some = rate_of(5, 100);
   DOUBLES_EQUAL(0.05, some.rate(), 1e-15);

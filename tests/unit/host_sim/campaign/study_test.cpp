@@ -1,4 +1,4 @@
-// A study as its author writes it, and the scenarios that its runs become.
+// A study as its author writes it, and the scenarios of its runs.
 #include "campaign/study.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using namespace supercoil::host_sim::campaign;
 
 namespace {
 
-/// The text as a file of its own, as long as this lives.
+/// The text as a file that exists for the lifetime of this object.
 class StudyFile {
  public:
   explicit StudyFile(const std::string& text)
@@ -49,7 +49,7 @@ void check_problem(const std::string& expected, const std::string& text) {
   STRCMP_CONTAINS(expected.c_str(), supercoil::config::to_text(study.error()).c_str());
 }
 
-/// A draw of a stiffness, with more lines of it.
+/// A draw of a stiffness, with additional lines.
 std::string draw(const std::string& lines) {
   return "[[draw]]\nkeys = 'plant.stiffness_N_per_m'\n" + lines + "\n";
 }
@@ -215,7 +215,7 @@ TEST(Study, DrawsOfAGroupGoTogether) {
   };
   DOUBLES_EQUAL(1.0, correlation("1.0"), 1e-6);
   DOUBLES_EQUAL(-1.0, correlation("-1.0"), 1e-6);
-  // Of two normal variables with correlation 0.5 the ranks have 6/pi asin(0.25) = 0.4826.
+  // The ranks of two normal variables with correlation 0.5 have 6/pi asin(0.25) = 0.4826.
   DOUBLES_EQUAL(0.4826, correlation("0.5"), 0.05);
   DOUBLES_EQUAL(0.0, correlation("0.0"), 0.06);
 }

@@ -93,7 +93,7 @@ TEST(Statistics, TheIntervalIsStudents) {
   CHECK_EQUAL(5, s.runs);
   DOUBLES_EQUAL(3.0, s.mean, 1e-12);
   DOUBLES_EQUAL(5.0, s.worst, 0.0);
-  // t of four degrees of freedom, 2.77645, times √(2.5/5).
+  // t for four degrees of freedom, 2.77645, times √(2.5/5).
   DOUBLES_EQUAL(2.7764451 * std::sqrt(0.5), s.half_width, 1e-6);
 }
 

@@ -24,13 +24,13 @@ modes::Excitation begun() {
   return excitation;
 }
 
-/// ψ/η of a muscle at its mean rise while it is identified.
+/// ψ/η of a muscle at its mean rise during identification.
 struct Identified {
-  double found_s = NAN;  ///< NaN: nothing was
+  double found_s = NAN;  ///< NaN: nothing was found
   double true_s = 0.0;
 };
 
-/// As docs/muscles.md has it.
+/// As in docs/muscles.md.
 double transfer_W_per_K(const PresetMuscle& muscle, double rise_K) {
   HeatTransfer heat;
   heat.set(muscle.parameters, muscle.effects, fit_step_s);
@@ -69,7 +69,7 @@ Identified identify_preset(MusclePreset preset, double cooling_ratio, double max
 TEST_GROUP(CoolingFit){};
 
 TEST(CoolingFit, FindsTheTimeConstantWhereHeatTransferDoesNotDependOnTheRise) {
-  // b and c: the force grows with temperature, by up to six times, and b softens.
+  // In b and c the force grows with temperature, by up to six times, and b softens.
   struct Case {
     MusclePreset preset;
     double max_W;

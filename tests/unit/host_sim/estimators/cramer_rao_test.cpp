@@ -29,7 +29,7 @@ void check_percent(const control::Theta& expected, const control::Theta& bound, 
 
 TEST_GROUP(CramerRao){};
 
-// An independent computation of the same, with scipy, gave these figures.
+// These figures are from an independent computation with scipy.
 TEST(CramerRao, TwoSecondsFromRestAreAsComputedElsewhere) {
   CramerRaoBound bound(experiment_from(0.0), {.motion = false, .bias = false});
   check_percent({0.53, 0.10, 0.03, 0.06}, bound.until(2.0), 0.06);

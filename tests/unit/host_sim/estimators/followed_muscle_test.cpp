@@ -1,5 +1,5 @@
-// Least squares on muscles that are not its own model: what it takes for a change, and what it
-// forgets then. Many muscles: tests/unit/control/muscles_study.cpp.
+// Least squares on muscles that differ from its model: what it takes for a change, and what it then
+// forgets. For many muscles see tests/unit/control/muscles_study.cpp.
 #include "unit/host_sim/estimators/support/followed_muscle.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -12,9 +12,9 @@ using test::FollowedMuscle;
 
 namespace {
 
-constexpr double period_s = 25.132741;  ///< of the sine
+constexpr double period_s = 25.132741;  ///< period of the sine
 
-/// The latest detection over phases of the sine.
+/// The latest detection over all phases of the sine.
 double slowest_s(FollowedMuscle muscle, int phases) {
   double slowest = 0.0;
   for (int i = 0; i < phases; ++i) {
@@ -70,7 +70,7 @@ TEST(Changes, ALoadLeavesTheta2AndTheta3) {
   muscle.load_N = 0.1;
   for (const Course motion : {Course::sine, Course::steps, Course::random_steps}) {
     muscle.motion = motion;
-    // With the load 4.5 W hold 19 mm.
+    // With the load, 4.5 W hold 19 mm.
     muscle.max_m = motion == Course::sine ? 0.020 : 0.015;
     for (int i = 0; i < 4; ++i) {
       muscle.change_at_s = 100.0 + 7.0 * i;
@@ -121,7 +121,7 @@ TEST(Changes, TimesAndPowersFollowTheMuscle) {
 }
 
 TEST(Changes, AnUnexcitedDirectionNeitherDriftsNorStopsTheOthers) {
-  // The sine of 0.25 rad/s hardly shows θ1; what the model does not describe would take its place.
+  // The sine of 0.25 rad/s hardly shows θ1; unmodelled effects would be attributed to it.
   FollowedMuscle muscle = followed(MusclePreset::real);
   muscle.run(900.0, [&](const FollowedMuscle::Tick& tick) {
     const auto& theta = tick.estimator.parameters();

@@ -21,7 +21,7 @@ constexpr Trial steady_muscle(double noise_m) {
           .duration_s = 1e6};
 }
 
-/// θ is 10 % off, this way and that.
+/// θ is 10 % off, in both directions.
 FilterSettings near_by() {
   FilterSettings settings;
   settings.initial = settings.scale.nominal.cwiseProduct(Theta{0.9, 1.1, 0.9, 1.1});
@@ -94,7 +94,7 @@ TEST(MuscleFilter, ItsErrorsAreAsLargeAsItSays) {
     for (int seed = 1; seed <= seeds; ++seed) {
       Bench bench(steady_muscle(10e-6), static_cast<std::uint64_t>(seed));
       FilterSettings settings = near_by();
-      // Farther off, the linearisation makes it surer than right (docs/estimators.md).
+      // Farther off, the linearisation makes it overconfident (docs/estimators.md).
       settings.prior_logarithm = 0.01;
       settings.prior_bias_W = 0.005;
       settings.forgetting_s = INFINITY;
@@ -110,7 +110,7 @@ TEST(MuscleFilter, ItsErrorsAreAsLargeAsItSays) {
       const Theta weighed = block.llt().solve(error);
       mean += error.dot(weighed) / seeds;
     }
-    // 4 by χ²; 12 seeds tell it to ± 1.6. What counts as noise beside the sensor's makes it less.
+    // 4 by χ²; 12 seeds determine it to ± 1.6. Counting other effects as noise makes it smaller.
     CHECK_COMPARE(mean, <, 6.0);
     CHECK_COMPARE(mean, >, 0.5);
   }

@@ -1,4 +1,4 @@
-// The table that the program must show, row by row (docs/paper.md).
+// The table that the program must print, row by row (docs/paper.md).
 #include "paper/reproduction.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace supercoil::host_sim::paper;
 
 namespace {
 
-/// "id case" → measured, of all parts; computed once for all tests.
+/// "id case" → measured value, for all parts; computed once for all tests.
 const std::map<std::string, std::string>& table() {
   static const auto rows = [] {
     std::map<std::string, std::string> result;
@@ -128,7 +128,7 @@ TEST(Reproduction, ErrataAreComputed) {
 }
 
 TEST(Reproduction, Equation17HoldsUntilThePowerIsClipped) {
-  // What is left without clipping is the discretisation's: 1 ms steps.
+  // The error that remains without clipping comes from the discretisation: 1 ms steps.
   CHECK_COMPARE(number("errata.eq17 not clipped"), <, 0.002);
   CHECK_COMPARE(number("errata.eq16 clipped"), >, 3.0 * number("errata.eq17 not clipped"));
 }

@@ -41,12 +41,12 @@ TEST(BundlePlant, OfOneMuscleIsThatMuscle) {
     alone.step(power_W[0], 0.1);
   }
   DOUBLES_EQUAL(alone.temperature_rise_K(), bundle.temperature_rise_K(0), 0.0);
-  // The load is subtracted at another place of the sum.
+  // The load is subtracted at a different place in the sum.
   DOUBLES_EQUAL(alone.position_m(), bundle.position_m(), 1e-12);
   DOUBLES_EQUAL(alone.velocity_m_per_s(), bundle.velocity_m_per_s(), 1e-12);
 }
 
-/// Side by side they lift three times the load as one lifts it.
+/// Three muscles side by side lift three times the load as one muscle lifts it.
 TEST(BundlePlant, EqualMusclesMoveThreeTimesTheLoadAsOneMovesIt) {
   const BundledMuscle one = real_in_bundle();
   BundledMuscle shared = one;

@@ -123,7 +123,7 @@ TEST_GROUP(GuideFriction) {
     friction.set(muscle, effects);
     mechanics.set(muscle, 0.0, h_s);
   }
-  /// Without a spring, so that nothing but friction holds it. The force changes along a line.
+  /// Without a spring, so that only friction holds the mass. The force changes linearly.
   void push(double force_N, double time_s) {
     const double step_N = (force_N - pushed_N) / static_cast<double>(std::lround(time_s / h_s));
     for (int i = 0; i < std::lround(time_s / h_s); ++i) {
@@ -137,7 +137,7 @@ TEST(GuideFriction, HoldsWithoutDriftWhatIsLessThanStaticFriction) {
   push(0.9 * coulomb_N, 60.0);
   push(0.9 * coulomb_N, 5.0);
   const double rested_m = motion.position_m;
-  // A bristle yields as it bends: z = z0 (1 − exp(−x/z0)), z0 where static friction would be.
+  // A bristle yields as it bends: z = z0 (1 − exp(−x/z0)), where z0 is that of static friction.
   const double max_m = 1.2 * effects.friction_bristle_m;
   DOUBLES_EQUAL(-max_m * std::log(1.0 - 0.9 / 1.2), rested_m, 1e-7);
   push(0.9 * coulomb_N, 100.0);
@@ -161,8 +161,8 @@ TEST(GuideFriction, SlidesAgainstCoulombFriction) {
 }
 
 TEST(GuideFriction, TurnsTheWorkOfASlowLoopIntoHeat) {
-  // Moved to and fro by a stiff spring: all work that the damper does not take is friction's,
-  // Coulomb's times the path, but for the reversals.
+  // Moved to and fro by a stiff spring: the work that the damper does not take is friction's, which
+  // is Coulomb's force times the path, except at the reversals.
   muscle.damping_Ns_per_m = 0.5;
   effects.friction_static_ratio = 1.0;
   set();
@@ -201,7 +201,7 @@ TEST(GuideFriction, StaysBoundedAtAnySpeed) {
 TEST_GROUP(Mechanics){};
 
 TEST(Mechanics, TheSeriesAndTheClosedFormAreTheSame) {
-  // As long as both hold: the first by its own choice, the second by a limit that is exceeded.
+  // Where both are valid: the first by its own choice, the second because a limit is exceeded.
   for (const double damping : {0.0001, 0.05, 2.4, 2.0, 10.0}) {
     control::PhysicalParameters muscle;
     muscle.damping_Ns_per_m = damping;

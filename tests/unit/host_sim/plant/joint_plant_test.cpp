@@ -58,7 +58,7 @@ struct JointDeviations {
   test::Deviation tension;
 };
 
-/// At the end of each hold of a case.
+/// Deviations at the end of each hold of a case.
 JointDeviations joint_deviations(JointPlant& plant, double tick_s, const nlohmann::json& c) {
   const auto ticks = std::lround(c.at("hold_s").get<double>() / tick_s);
   JointDeviations found;
@@ -85,7 +85,7 @@ TEST(JointPlant, AgreesWithAnIndependentSolver) {
   CHECK(cases.size() >= 12);
   for (const auto& c : cases) {
     const std::string name = c.at("name");
-    // Where a muscle becomes slack its spring and damper end, within a step of the mechanics.
+    // When a muscle becomes slack, its spring and damper end within a step of the mechanics.
     const bool smooth = name.rfind("slack", 0) != 0;
     JointPlant plant(settings_from(c), joint_tick_s);
     const JointDeviations found = joint_deviations(plant, joint_tick_s, c);
@@ -151,10 +151,10 @@ TEST(JointPlant, SlackOfOneCableIsSharedByBothSpringsWhileBothAreTaut) {
 TEST(JointPlant, ASlackMuscleMovesNothingUntilItHasTakenTheSlackUp) {
   JointPlantSettings settings = equal_muscles();
   settings.pretension_N = 0.0;
-  settings.spring_Nm_per_rad = 0.01;  // holds the joint where nothing pulls
+  settings.spring_Nm_per_rad = 0.01;  // holds the joint when no muscle pulls
   settings.agonist.slack_m = 0.004;
   const control::PhysicalParameters& muscle = settings.agonist.parameters;
-  // That contracts the free muscle by half of the slack, and by twice of it.
+  // These contract the free muscle by half the slack, and by twice the slack.
   const double slack_W = 0.004 * muscle.stiffness_N_per_m * muscle.heat_transfer_W_per_K /
                          muscle.force_per_kelvin_N_per_K;
   JointPlant plant(settings, joint_tick_s);
@@ -238,7 +238,7 @@ TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesS
   DOUBLES_EQUAL(expected_rad / 0.6, turned_rad(softens, 6.0), 1e-8);
 }
 
-/// An arm of 40 g at 15 mm: at rest the springs hold what its sine leaves of the muscles' moment.
+/// At rest the springs take the muscles' moment less that of the arm of 40 g at 15 mm.
 TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
   JointPlantSettings settings = equal_muscles();
   const double arm_m = 0.015;
@@ -260,7 +260,7 @@ TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
   }
 }
 
-/// The muscle's pull has the arm's moment at every angle, and at 0 it is the cold muscle's.
+/// The muscle's pull balances the arm's moment at every angle; at 0 the cold muscle's pull does.
 TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightAloneDrawsBack) {
   JointPlantSettings settings;
   const double lever_m = settings.lever.zero_radius_m();
@@ -286,7 +286,7 @@ TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightAloneDrawsBack) {
   }
 }
 
-/// At the angle 0 both cold muscles are in balance, each at its own lever.
+/// At the angle 0 the cold muscles are in balance, each at its own lever.
 TEST(JointPlant, TurnsAsFarAsBothLeversLetTheForcesTurnIt) {
   JointPlantSettings settings = equal_muscles();
   settings.antagonist_lever_ratio = 0.5;

@@ -1,4 +1,4 @@
-// learned_ff on muscles that are not linear or hard to feed back. On the paper's muscle:
+// learned_ff on muscles that are not linear or hard to feed back. For the paper's muscle see
 // tests/unit/control/tracking/learned_feedforward_test.cpp.
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ double steps_of_15_mm(double time_s) {
   return levels_m[static_cast<std::size_t>(time_s / 20.0) % levels_m.size()];
 }
 
-/// 1 kHz, 10 µm of noise, 16 bits over 40 mm, a PWM of 12 bits; the muscle is believed to be
+/// 1 kHz, 10 µm of noise, 16 bits over 40 mm, a PWM of 12 bits; the controller believes in
 /// `parameters`.
 struct LearningLoop {
   PhysicalParameters parameters{};
@@ -38,9 +38,9 @@ struct LearningLoop {
   double (*reference_m)(double) = sine_of_18_mm;
   bool learn = true;
   bool find_period = false;
-  double soft_from_s = 1e9;  ///< from then on a quarter of the stiffness is gone
+  double soft_from_s = 1e9;  ///< from then on the stiffness is a quarter lower
 
-  /// Of the last so many seconds.
+  /// Over the last `last_s` seconds.
   double rms_um(double duration_s, double last_s) const {
     Controller law(settings(), loop_step_s);
     host_sim::Plant plant(parameters, effects, loop_step_s);
@@ -138,7 +138,7 @@ TEST(LearnedFeedforwardOnMuscles, FollowsARealMuscleAndAgainAfterItSoftened) {
 TEST(LearnedFeedforwardOnMuscles, FollowsAHardMuscleAndAgainAfterItSoftenedWhileWarmOrCold) {
   LearningLoop loop = believed_cold(host_sim::MusclePreset::real_hard);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 11.0);
-  // Softened at 116.8, 118.9 or 121 s it is coldest: there a change shows no direction.
+  // At 116.8, 118.9 or 121 s the muscle is coldest, where a change shows no direction.
   for (const double soft_from_s : {100.0, 116.0, 116.8, 118.9, 121.0}) {
     loop.soft_from_s = soft_from_s;
     CHECK(loop.rms_um(soft_from_s + 6.0 * sine_period_s, 3.0 * sine_period_s) <= 16.0);

@@ -1,4 +1,4 @@
-// Effects as tests want them, and how far a simulated muscle is from what scipy says.
+// Effects from reference data, and the deviation of a simulated muscle from scipy's results.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline host_sim::PlantEffects real_muscle() {
   return host_sim::preset_muscle(host_sim::MusclePreset::real).effects;
 }
 
-/// As tests/reference/muscle_effects.py names them.
+/// With the names that tests/reference/muscle_effects.py uses.
 inline host_sim::PlantEffects effects_from(const nlohmann::json& json) {
   host_sim::PlantEffects effects;
   std::size_t found = 0;
@@ -28,7 +28,7 @@ inline host_sim::PlantEffects effects_from(const nlohmann::json& json) {
   return effects;
 }
 
-/// The largest distance between two histories over the largest value of the true one.
+/// The largest distance between two histories, relative to the largest true value.
 struct Deviation {
   double largest = 0.0;
   double scale = 0.0;
@@ -45,7 +45,7 @@ struct Deviations {
   Deviation velocity;
 };
 
-/// At the end of each hold of a case. plant: of the case's muscle, at rest.
+/// Deviations at the end of each hold of a case. plant: the case's muscle, at rest.
 template <class Plant>
 Deviations deviations(Plant& plant, double tick_s, const nlohmann::json& c) {
   const auto ticks = std::lround(c.at("hold_s").get<double>() / tick_s);

@@ -19,7 +19,7 @@ using supercoil::test::content;
 
 namespace {
 
-/// Lets no file grow beyond a size while it lives, as a full disk does not.
+/// During its lifetime no file can grow beyond this size, as on a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) {

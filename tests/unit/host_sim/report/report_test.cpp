@@ -81,7 +81,7 @@ TEST(Report, AJointsTraceHasItsAngleAndReferenceByItsLever) {
   joint.plant.lever = control::Lever(-90.0 * rad_per_deg, 90.0 * rad_per_deg, radii_m);
   const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
   TickRecord record;
-  // By hand: at 45 degrees the lever is 25 mm, at -90 10 mm.
+  // By hand: the lever is 25 mm at 45 degrees and 10 mm at -90.
   record.position_m = 0.0225 * 45.0 * rad_per_deg;
   record.model_m = -0.015 * 90.0 * rad_per_deg;
   writer->add(record, std::nullopt);

@@ -1,4 +1,4 @@
-// [bundle]: what is read of it, and the boards and runs that come of it.
+// [bundle]: how it is read, and the boards and runs that it makes.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -18,7 +18,7 @@ void check_bundle_answer(const char* expected, const std::string& text) {
   STRCMP_EQUAL((std::string("s.toml:") + expected + "\n").c_str(), problems(text).c_str());
 }
 
-/// Followed for a while; the second muscle is cooled more, and the third one loses its wire.
+/// Followed for a while; the second muscle cools better, and the third one loses its wire.
 const std::string followed =
     "[simulation]\nduration_s = 10.0\n[bundle]\nmuscles = 3\n[reference]\noffset_m = 0.008\n"
     "amplitude_m = 0.0\n";
@@ -65,7 +65,7 @@ TEST(BundleScenario, TheBoardBelievesItToBeOneMuscleWithThePowerOfEach) {
   CHECK(board.channels[0].supervision.proof_of_response);
   CHECK_FALSE(board.channels[1].supervision.proof_of_response);
   CHECK_FALSE(check(board).has_value());
-  // What is said in [muscle] goes before that.
+  // Values in [muscle] take precedence.
   DOUBLES_EQUAL(30.0,
                 read("[bundle]\n[muscle]\nstiffness_N_per_m = 30.0").start.muscle.stiffness_N_per_m,
                 0.0);

@@ -1,4 +1,4 @@
-// The board that comes of [joint], and what its operator asks of both muscles.
+// The board that [joint] makes, and what its operator commands for both muscles.
 #include <CppUTest/TestHarness.h>
 
 #include "runner/board_of.hpp"
@@ -22,7 +22,7 @@ TEST(JointBoard, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
   LONGS_EQUAL(1, board.joints[0].antagonist);
   DOUBLES_EQUAL(0.012, board.joints[0].lever.zero_radius_m(), 0.0);
   DOUBLES_EQUAL(0.7, board.joints[0].co_contraction_W, 0.0);
-  // As of a board whose file says nothing of it.
+  // The default of a board whose file does not mention it.
   DOUBLES_EQUAL(0.5 * 4.5, board.joints[0].max_co_contraction_W, 1e-12);
   LONGS_EQUAL(2, board.channels.size());
   const ChannelSettings& agonist = board.channels[0];
@@ -48,7 +48,7 @@ TEST(JointBoard, TheOperatorAsksBothToPullHarder) {
   const Snapshot& antagonist = simulation.loop().channel(1).snapshot();
   while (!simulation.done()) {
     const double time_s = simulation.step().time_s;
-    // In watts of the antagonist, which is believed to move the joint twice as far for a watt.
+    // In watts of the antagonist, which is believed to move the joint twice as far per watt.
     if (time_s > 1.0 && time_s < 9.9) DOUBLES_EQUAL(0.25, antagonist.reference, 1e-9);
   }
   DOUBLES_EQUAL(0.5, antagonist.reference, 1e-9);
@@ -56,7 +56,7 @@ TEST(JointBoard, TheOperatorAsksBothToPullHarder) {
   CHECK(antagonist.mode == Mode::joint);
 }
 
-/// More than a limit that is half of what they can pull with: the scenario says what may be asked.
+/// The default limit would be half of what they can pull with; the scenario sets what is allowed.
 TEST(JointBoard, TheOperatorMayAskForAllThatTheMusclesCanPullWith) {
   const Scenario scenario = read(
       "simulation.duration_s = 1.0\n[joint]\n"

@@ -1,4 +1,4 @@
-// [joint]: what is read of it, and the runs that come of it.
+// [joint]: how it is read, and the runs that it makes.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -151,7 +151,7 @@ TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
   const control::Lever& lever = s.start.joint->plant.lever;
   DOUBLES_EQUAL(0.015, lever.zero_radius_m(), 1e-12);
   CHECK(firmware_of(s).joints[0].lever == lever);
-  // The muscles move an inertia at the lever of the angle 0.
+  // The muscles move an inertia at the lever of angle 0.
   DOUBLES_EQUAL(s.start.joint->plant.inertia_kg_m2 / (0.015 * 0.015), s.start.muscle.moving_mass_kg,
                 1e-12);
   check_joint_answer(
@@ -175,7 +175,7 @@ TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
   DOUBLES_EQUAL(0.005, last.position_m, 1e-4);
   const double angle_rad = simulation.joint()->angle_rad();
   DOUBLES_EQUAL(lever.arc_m(angle_rad), last.position_m, 1e-9);
-  // At rest the muscle's pull at its lever there holds the spring, which holds the pretension at 0.
+  // At rest the muscle's pull at that lever balances the spring, which holds the pretension at 0.
   const double pull_N =
       s.start.joint->plant.pretension_N + 8.6e-3 * last.temperature_rise_K - 16.0 * last.position_m;
   const double spring_Nm = 0.006 * angle_rad + s.start.joint->plant.pretension_N * 0.015;
@@ -241,7 +241,7 @@ TEST(JointScenario, ASpringOpposesOneMuscle) {
   CHECK_FALSE(last.antagonist.has_value());
   DOUBLES_EQUAL(0.004, last.position_m, 1e-4);
   DOUBLES_EQUAL(last.position_m, simulation.joint()->position_m(), 0.0);
-  // At rest the muscle's heat holds spring, own stiffness and load.
+  // At rest the muscle's heat balances the spring, its own stiffness and the load.
   const double force_N = 56.0 * last.position_m + 0.0005 / 0.015;
   DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
 }

@@ -1,4 +1,4 @@
-// [plant] with effects and presets, and what of the board's senses goes with them.
+// [plant] with effects and presets, and the settings of the board's senses that go with them.
 #include <sstream>
 #include <string>
 
@@ -25,7 +25,7 @@ TEST(PlantKeys, AreAllOffByDefault) {
 
 TEST(PlantKeys, EveryEffectHasAKey) {
   for (const EffectRange& range : effect_ranges) {
-    // Between the default and the end of the range that is further away.
+    // Between the default and the farther end of the range.
     const double fallback = PlantEffects{}.*range.member;
     const double end = range.max - fallback > fallback - range.min ? range.max : range.min;
     double value = fallback + 0.01 * (end - fallback);

@@ -10,10 +10,7 @@ using namespace supercoil;
 using namespace supercoil::host_sim;
 using supercoil::test::read;
 
-namespace {
-
-/// Reads a scenario that must be in order.
-}  // namespace
+namespace {}  // namespace
 
 TEST_GROUP(ReadScenario){};
 

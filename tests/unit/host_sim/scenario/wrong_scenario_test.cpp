@@ -1,4 +1,4 @@
-// What a mistaken scenario is answered: file, line, key, value and what is allowed.
+// The problems reported for a wrong scenario: file, line, key, value and what is allowed.
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -180,7 +180,7 @@ TEST(WrongScenario, MracSaysWhichPremiseFails) {
 }
 
 TEST(WrongScenario, WhatFixedPointCannotHold) {
-  // What these were before they were refused: other controllers than in double, without a word.
+  // Before these were refused, they silently became other controllers than in double.
   for (const char* text : {
            "controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}",
            "controller = {kind='pd_ff', arithmetic='q8.24', derivative_filter_rad_per_s=1000.0}",

@@ -1,4 +1,4 @@
-// What a poll does, and what it leaves for the next.
+// What a poll does, and what it leaves for the next one.
 #include "socketcand/server.hpp"
 
 #include <string>
@@ -26,7 +26,7 @@ TEST_GROUP(SocketcandServer) {
   void say(const std::string& text) {
     boost::asio::write(client, boost::asio::buffer(text));
   }
-  /// What has come after so many polls.
+  /// The text that has arrived after this many polls.
   std::string hear(int polls) {
     for (int i = 0; i < polls; ++i)
       server->poll();
@@ -65,7 +65,7 @@ TEST(SocketcandServer, AnOkComesAloneAndWhatIsHeardThenFollowsWithTheNextWord) {
   STRCMP_EQUAL("< frame 123 0000000000.000000  >", hear(4).c_str());
 }
 
-/// Whatever this machine's clock says.
+/// Independently of this machine's clock.
 TEST(SocketcandServer, AClientsFrameIsToldByTheBoardsClock) {
   connect();
   tcp::socket other(io);
@@ -80,7 +80,7 @@ TEST(SocketcandServer, AClientsFrameIsToldByTheBoardsClock) {
   STRCMP_EQUAL("< frame 123 0000000007.000000  >< frame 201 0000000007.000000  >", hear(8).c_str());
 }
 
-/// Each try to accept fails at once then: a poll must not try until one succeeds.
+/// Every attempt to accept fails at once then: a poll must not retry until one succeeds.
 TEST(SocketcandServer, APollEndsWithoutFreeDescriptors) {
   connect();
   rlimit before{};
@@ -92,7 +92,7 @@ TEST(SocketcandServer, APollEndsWithoutFreeDescriptors) {
   for (int i = 0; i < 10; ++i)
     server->poll();
   const std::size_t clients = server->clients();
-  // What checks this needs one itself, under UBSan.
+  // Under UBSan the check itself needs a descriptor.
   setrlimit(RLIMIT_NOFILE, &before);
   LONGS_EQUAL(0, clients);
   for (int i = 0; i < 1000 && server->clients() == 0; ++i) {

@@ -9,14 +9,14 @@
 
 namespace supercoil::test {
 
-/// One that is right.
+/// Reads a scenario that must be valid.
 inline host_sim::Scenario read(const std::string& text) {
   auto scenario = host_sim::parse_scenario(text, "s.toml");
   if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
   return *scenario;
 }
 
-/// What is said of it.
+/// The problems that are reported for it.
 inline std::string problems(const std::string& text) {
   const auto scenario = host_sim::parse_scenario(text, "s.toml");
   return scenario ? "in order" : config::to_text(scenario.error());

@@ -1,4 +1,4 @@
-// Recordings of muscles that the tests know.
+// Recordings of muscles that are known to the tests.
 #pragma once
 
 #include <random>
@@ -10,7 +10,7 @@ namespace supercoil::identification::test {
 inline constexpr double full_W = 3.0;
 inline constexpr double noise_m = 1e-5;
 
-/// Unlike where a fit starts.
+/// Different from the start of a fit.
 inline Muscle other_muscle() {
   Muscle muscle;
   muscle.gain_m_per_W = 0.009;

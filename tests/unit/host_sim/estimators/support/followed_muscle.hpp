@@ -1,4 +1,4 @@
-// A simulated muscle that adaptive_ff makes follow a reference, as least squares sees it.
+// A simulated muscle that follows a reference under adaptive_ff, as least squares sees it.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ namespace supercoil::test {
 
 enum class Course { sine, steps, random_steps };
 
-/// 10 µm of noise, 16 bits over 40 mm, 1 kHz, a PWM of 12 bits. Times stretch with the muscle's
-/// thermal time constant: the sine has 0.25 rad/s on the paper's, steps last 20 s, random ones 5 to
-/// 30 s.
+/// 10 µm of noise, 16 bits over 40 mm, 1 kHz, a PWM of 12 bits. Times scale with the muscle's
+/// thermal time constant: on the paper's muscle the sine has 0.25 rad/s, steps last 20 s and random
+/// ones 5 to 30 s.
 struct FollowedMuscle {
   static constexpr double step_s = 1e-3;
 
@@ -32,9 +32,9 @@ struct FollowedMuscle {
   double max_m = 0.020;
   Course motion = Course::sine;
   unsigned seed = 1;
-  control::Theta believed = control::Theta::Ones();  ///< θ(0) over that of `parameters`
+  control::Theta believed = control::Theta::Ones();  ///< θ(0) over the true θ of `parameters`
   bool detects_changes = true;
-  // From change_at_s on:
+  // These act from change_at_s on:
   double change_at_s = 1e9;
   double stiffness_ratio = 1.0;
   double load_N = 0.0;
@@ -57,13 +57,13 @@ struct FollowedMuscle {
 
   struct Tick {
     double time_s;
-    double position_W;  ///< as seen, over the DC gain
+    double position_W;  ///< as measured, over the DC gain
     double applied_W;   ///< since the last tick
     double error_m;
     const control::LeastSquaresEstimator<double>& estimator;
   };
 
-  /// see(Tick) at each tick; it returns whether to go on.
+  /// see(Tick) is called at each tick and returns whether to continue.
   template <class See>
   void run(double duration_s, See see) const {
     control::LeastSquaresEstimator<double> estimator(least_squares(), step_s);
@@ -158,7 +158,7 @@ struct FollowedMuscle {
   }
 };
 
-/// With a preset's muscle.
+/// A muscle with the values of a preset.
 inline FollowedMuscle followed(host_sim::MusclePreset preset) {
   const host_sim::PresetMuscle muscle = host_sim::preset_muscle(preset);
   FollowedMuscle f;
@@ -174,8 +174,8 @@ inline FollowedMuscle followed(host_sim::MusclePreset preset) {
   return f;
 }
 
-/// When the first change is seen after the true one; infinity: not within 5 s. A change before
-/// counts as minus infinity.
+/// Time from the true change to the first detected one; infinity: not within 5 s. A detection
+/// before the true change counts as minus infinity.
 inline double found_after_s(const FollowedMuscle& muscle) {
   double found_s = INFINITY;
   muscle.run(muscle.change_at_s + 5.0, [&](const FollowedMuscle::Tick& tick) {

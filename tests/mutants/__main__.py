@@ -1,14 +1,14 @@
-"""Changes single lines of supervisor, board, loop, telemetry commands, storage and Linux HAL, and asks whether the
+"""Changes single lines of supervisor, board, loop, telemetry commands, storage and Linux HAL, and checks whether the
 nearest test programs notice.
 
-The lines are divided into runs of equal length. Of each run one mutant is drawn (universalmutator makes them), compiled
-and tried; one that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent, is
-replaced by the next of its run. All of it happens on copies in build/mutate. Of each test
-program one file of tests after the other is tried, the nearest first.
+The lines are divided into runs of equal length. One mutant per run is drawn (universalmutator makes them), compiled
+and tried. A mutant that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent is
+replaced by the next one of its run. Everything happens on copies in build/mutate. The files of tests in each program
+are tried one after the other, the nearest first.
 
-A run that was ended is carried on by the same command. When lines were only added to tests/unit and tests/loop since, or
-nothing but texts and tests/mutants/equivalent changed, it keeps what was killed: a test that fails still does. What
-survived is tried again. When any other file changed, or a line of a test is gone, it begins anew.
+The same command continues an interrupted run. If since then only lines were added to tests/unit and tests/loop, or only
+texts and tests/mutants/equivalent changed, killed mutants stay killed, because a test that failed still fails, and
+survivors are tried again. If any other file changed, or a line of a test is gone, everything starts from scratch.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from workshop import Failed, Workshop, code_hash, tests_of
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "build" / "mutate"
 CORES = len(os.sched_getaffinity(0))
-LEAST_KILLED = 0.90  # of the interval's lower end
+LEAST_KILLED = 0.90  # for the lower end of the interval
 AREA_OF = {file: area for area in AREAS for file in files_of(area, ROOT)}
 
 
@@ -73,7 +73,7 @@ class Run:
         self.preparing = threading.Lock()
 
     def by_file(self):
-        """What is not decided, by the file of its first mutant: a file is restored once."""
+        """Undecided runs, grouped by the file of their first mutant, so that each file is restored only once."""
         waiting = {}
         for number, run in enumerate(self.runs):
             if not self.results.decided(number):
@@ -99,7 +99,7 @@ class Run:
         try:
             shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, CORES // self.options.jobs),
                             self.green)
-            with self.preparing:  # a compiler cache has the second copy's objects from the first
+            with self.preparing:  # a compiler cache then has the objects for the second copy
                 shop.prepare(CORES, lambda text: print(f"copy {number}: {text}", flush=True))
             while time.monotonic() < self.ends:
                 for stratum in todo.get_nowait():
@@ -129,7 +129,7 @@ class Run:
                 return
 
     def unfinished(self):
-        """Runs of which a mutant is left to be tried, and none has been decided."""
+        """The number of undecided runs with mutants that have not been tried."""
         return sum(not self.results.decided(number) and len(self.results.tried(number)) < len(run)
                    for number, run in enumerate(self.runs))
 

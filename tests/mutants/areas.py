@@ -1,4 +1,4 @@
-"""Which code is mutated, and which test programs are nearest to it."""
+"""The code that is mutated, and the test programs that are nearest to it."""
 
 import dataclasses
 import functools
@@ -8,14 +8,14 @@ import subprocess
 @dataclasses.dataclass(frozen=True)
 class Area:
     name: str
-    patterns: tuple  # of files, from the root
-    programs: tuple  # built and run in this order, until one of them notices
+    patterns: tuple  # of files, relative to the root
+    programs: tuple  # built and run in this order until one notices
 
 
 WHOLE_FIRMWARE = ("core_tests", "config_tests", "loop_tests", "fault_matrix")
 AREAS = (
     Area("supervisor", ("firmware/core/supervisor/**/*",), WHOLE_FIRMWARE),
-    Area("board", ("firmware/core/board/*",), (*WHOLE_FIRMWARE, "storage_tests")),  # which has the tests of learned
+    Area("board", ("firmware/core/board/*",), (*WHOLE_FIRMWARE, "storage_tests")),  # has the tests of learned
     Area("loop", ("firmware/core/loop/*",), WHOLE_FIRMWARE),
     Area("telemetry commands",
          (*(f"firmware/io/telemetry/{name}.*" for name in ("can_endpoint", "commands", "leases", "opcodes", "run_settings")),
@@ -28,7 +28,7 @@ AREAS = (
 
 @functools.cache
 def not_built():
-    """What is for the other of libgpiod's versions."""
+    """The file for the version of libgpiod that is not installed."""
     newer = subprocess.run(["pkg-config", "--atleast-version=2", "libgpiod"]).returncode == 0
     return f"gpio_chip_v{1 if newer else 2}.cpp"
 

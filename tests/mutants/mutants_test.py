@@ -1,4 +1,4 @@
-"""The bookkeeping of toolchain/mutate: what is sampled, what is left out, and the interval."""
+"""The bookkeeping of toolchain/mutate: which mutants are sampled, which are left out, and the interval."""
 
 import pathlib
 import subprocess
@@ -59,7 +59,7 @@ class Sample(unittest.TestCase):
 
 
 class Kept(unittest.TestCase):
-    """What stays of a run when the same command is given again."""
+    """Which results of a run are kept when the same command is given again."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -133,7 +133,7 @@ class Judged(unittest.TestCase):
             shop.lock.close()
             (shop.build / "with.o").unlink()
             self.assertEqual(shop.objects("h.hpp"), {"with.o", "without.o", "h.cpp.o"})
-            # Its own source has no line of it, and is where a changed declaration does not compile.
+            # Its own source has no line of it, but shows whether a changed declaration compiles.
             self.assertEqual(shop.objects_with_code("h.hpp"), {"with.o", "h.cpp.o"})
 
     def judge(self, *verdicts):

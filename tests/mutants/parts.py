@@ -1,6 +1,6 @@
-"""Test programs in parts: one file of tests at a time, linked with nothing but what it needs.
+"""Test programs in parts: one file of tests at a time, linked only with the objects that it needs.
 
-So a mutant is compiled only into what the next part needs, parts whose code it does not change are not run, and the
+So a mutant is compiled only into the objects of the next part, parts whose code it does not change are not run, and the
 nearest part comes first.
 """
 
@@ -11,15 +11,15 @@ import shlex
 import shutil
 
 
-TRACE = ("-Wl,--trace", "-Wl,--trace")  # once names archives; twice, what is taken of them
+TRACE = ("-Wl,--trace", "-Wl,--trace")  # once it names archives, twice also the members it takes
 
 
 @dataclasses.dataclass
 class Part:
     program: str
     name: str
-    objects: frozenset  # of the build, in which a change can change it
-    command: list  # that links it
+    objects: frozenset  # of the build: a change in one of these can change the part
+    command: list  # links it
     path: pathlib.Path
     source: str
     took_s: float = 0.0
@@ -28,8 +28,8 @@ class Part:
         return self.path.name
 
     def distance(self, file):
-        """Smaller is nearer: the tests of a file have its name, and include its header. What has no tests of its own is
-        a program that tries everything."""
+        """Smaller is nearer: the tests of a file have its name or include its header. A part without a source is a whole
+        program that tries everything."""
         stem = pathlib.Path(file).stem
         tests = self.name.removesuffix("_test")
         if tests == stem:
@@ -42,14 +42,14 @@ class Part:
 
 
 def parts_of(program, tree, build, run):
-    """`run` runs a command in the build's folder, and says what it printed. Everything must have been built."""
+    """`run` runs a command in the build's folder and returns its output. Everything must have been built."""
     told = run(["ninja", "-C", build, "-t", "commands", program]).stdout
     words = shlex.split(told.splitlines()[-1].removeprefix(": && ").removesuffix(" && :"))
     at = words.index("-o")
     linked = [word for word in words if word.endswith(".o")]
     flags = [word for word in words[:at] if word not in linked]
     if shutil.which("ld.lld"):
-        flags.append("-fuse-ld=lld")  # in a third of the time
+        flags.append("-fuse-ld=lld")  # takes a third of the time
     own = [name for name in linked if name.endswith("_test.cpp.o")]
     rest = [name for name in linked if name not in own]
     (build / "parts").mkdir(exist_ok=True)
@@ -71,7 +71,7 @@ def source_of(test, tree):
 
 
 def members_of(archive, build, run):
-    """The objects of an archive by their name in it. Two may have the same."""
+    """The objects of an archive by their name in it. Two may have the same name."""
     told = run(["ninja", "-C", build, "-t", "query", archive]).stdout
     inputs = [line.strip() for line in told.split("outputs:")[0].splitlines() if line.strip().endswith(".o")]
     return {name: [path for path in inputs if pathlib.Path(path).name == name]
@@ -79,7 +79,7 @@ def members_of(archive, build, run):
 
 
 def pulled(traced, archives):
-    """Of a linker's trace: which objects of the archives it took. GNU's writes (a)b, LLVM's a(b)."""
+    """The archives' objects that a linker took, from its trace. GNU's linker writes (a)b, LLVM's a(b)."""
     for words in re.findall(r"^(\S+\.a)\((\S+\.o)\)$|^\((\S+\.a)\)(\S+\.o)$", traced, re.M):
         archive, member = words[:2] if words[0] else words[2:]
         yield from archives.get(archive, {}).get(member, [])

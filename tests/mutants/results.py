@@ -1,4 +1,4 @@
-"""What became of the mutants: kept line by line, so that a run can be ended and carried on at any time."""
+"""The results of the mutants, stored line by line, so that a run can be interrupted and continued at any time."""
 
 import collections
 import json
@@ -14,9 +14,9 @@ CONFIDENCE = 0.95
 
 class Results:
     def __init__(self, path, of, tests, known):
-        """`of` names code, seed and number of strata: results of another are set aside. Where the tests grew since, what
-        they killed stays killed, what did not compile or was the same code still does or is, and what survived is to be
-        tried again. What only the nearest program was asked about is open. Where a line of theirs is gone, nothing stays.
+        """`of` names code, seed and number of strata: results for any other are set aside. If the tests have only grown
+        since, killed mutants stay killed, mutants that did not compile or gave the same code stay so, and survivors are
+        tried again. Mutants tried only on the nearest program are open. If a line of the tests is gone, nothing is kept.
         `known`: the equivalents."""
         self.path = path
         self.lock = threading.Lock()
@@ -58,7 +58,7 @@ def key_of(row):
 
 
 def only_grew(before, now):
-    """Whether every line of every file is still there, and in its order."""
+    """Whether every line of every file is still there, in the same order."""
     for name, lines in before.items():
         rest = iter(now.get(name, []))
         if not all(line in rest for line in lines):
@@ -67,7 +67,7 @@ def only_grew(before, now):
 
 
 def interval(killed, counted):
-    """Clopper and Pearson's, of the share that is killed."""
+    """The Clopper-Pearson interval of the fraction that is killed."""
     tail = (1.0 - CONFIDENCE) / 2.0
     low = beta.ppf(tail, killed, counted - killed + 1) if killed > 0 else 0.0
     high = beta.ppf(1.0 - tail, killed + 1, counted - killed) if killed < counted else 1.0
@@ -75,7 +75,7 @@ def interval(killed, counted):
 
 
 def equivalents(folder):
-    """Of all files there, by what a mutant changes; each must have its reason."""
+    """The equivalents from all files in the folder, by what the mutant changes; each must have a reason."""
     reasons = {}
     for path in sorted(folder.glob("*.toml")):
         for each in tomllib.loads(path.read_text()).get("equivalent", []):
@@ -86,7 +86,7 @@ def equivalents(folder):
 
 
 def report(results, strata):
-    """Prints the figures; the lower end of the killed share's interval."""
+    """Prints the figures; returns the lower end of the interval of the killed fraction."""
     count = collections.Counter((row["area"], row["verdict"]) for row in results.rows)
     print(f"\n{'area':20} {'killed':>7} {'survived':>9} {'equivalent':>11} {'same code':>10} {'not compiled':>13}")
     for area in sorted({row["area"] for row in results.rows}):

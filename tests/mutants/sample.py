@@ -1,4 +1,4 @@
-"""The mutants of all lines, and a sample of them that is spread evenly over the lines."""
+"""The mutants of all lines, and a sample of them spread evenly over the lines."""
 
 import contextlib
 import dataclasses
@@ -7,13 +7,13 @@ import random
 import re
 
 RULES = ["universal.rules", "c_like.rules", "cpp.rules"]
-# Lines that do nothing by themselves.
+# Lines that have no effect of their own.
 NO_CODE = [r"^\s*(#|//|/\*|\*|using |namespace |static_assert|template|public:|private:|class |struct |enum )",
            r"^\s*[})\]]+[;,]?\s*(//.*)?$"]
-# What is declared is used: without it nothing compiles.
+# Declared names are used: without the declaration nothing compiles.
 DECLARATION = (r"\s*(?!return\b|delete\b|throw\b|else\b|if\b|for\b|while\b|case\b)"
                r"(?!.*(<<|>>))[\w:][\w:<>,&*\s\[\]]*[\s&*>][\w:]+\s*(;|=[^=]|\{|\()")
-# The code is formatted: these have spaces on both sides where they are operators of two operands, and none in types.
+# The code is formatted: these have spaces on both sides as binary operators, and none in types.
 OF_TYPES_TOO = "<>*&"
 
 
@@ -25,7 +25,7 @@ class Mutant:
     after: str
 
     def key(self):
-        """How tests/mutants/equivalent names it: without its line's number, which other changes move."""
+        """Its name in tests/mutants/equivalent: without the line number, which other changes shift."""
         return self.file, self.before.strip(), self.after.strip()
 
     def __str__(self):
@@ -33,8 +33,8 @@ class Mutant:
 
 
 def mutants_of(file, text):
-    """By line. Neither messages' texts nor inserted lines: the former harm nobody, the latter seldom compile."""
-    from universalmutator import mutator  # the rest of this file does without
+    """By line. Not in the texts of messages, which do no harm, nor as inserted lines, which seldom compile."""
+    from universalmutator import mutator  # the rest of this file does not need it
 
     source = text.splitlines(keepends=True)
     with contextlib.redirect_stdout(io.StringIO()):
@@ -49,13 +49,13 @@ def mutants_of(file, text):
 
 
 def promising(before, after):
-    """False for what cannot compile: that saves half of all attempts."""
+    """False if it cannot compile, which saves half of all attempts."""
     if after.lstrip().startswith("/*"):
         return before.rstrip().endswith(";") and not re.match(DECLARATION, before)
     first = next(i for i in range(len(before)) if not after.startswith(before[:i + 1]))
     if after[first] == "=" and before[first - 1] in OF_TYPES_TOO:
         first -= 1
-    if before[first].isdigit():  # not of a name's, and not a part of a number
+    if before[first].isdigit():  # neither part of a name nor of a number
         return not re.match(r"\w", before[first - 1]) and not re.search(r"\(\d+[-+]1\)\.|\.\(\d+[-+]1\)", after)
     if re.search(r"[%*/]\+|\+[%*/]|[%/]-|-[%*/]", after[first - 1:first + 2]):  # half of ++ or --
         return False
@@ -65,13 +65,13 @@ def promising(before, after):
 
 
 def squeezed(line):
-    """Without spaces, texts and comments at its end."""
+    """The line without spaces, texts and trailing comments."""
     return re.sub(r"\s|//.*", "", re.sub(r'"[^"]*"', '""', line))
 
 
 def strata(files, root, count, seed):
-    """`count` runs of equally many lines each; of each run all mutants, in random order: first the line, then its
-    mutant. The first that compiles and is no equivalent stands for the run."""
+    """`count` runs of equally many lines; all mutants of each run in random order: first the line, then its mutant.
+    The first one that compiles and is not an equivalent represents the run."""
     lines = []
     for file in files:
         by_line = mutants_of(file, (root / file).read_text())

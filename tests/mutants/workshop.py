@@ -1,4 +1,4 @@
-"""A copy of the tree with a build of its own, in which one mutant after the other is compiled and tried."""
+"""A copy of the tree with its own build, in which mutants are compiled and tried one after the other."""
 
 import collections
 import fcntl
@@ -14,21 +14,21 @@ import time
 
 from parts import parts_of
 
-# Without optimisation tests take ten times as long; line tables say which objects have code from which header.
-# A missing return works by luck where the compiler builds the result in place: such a mutant must not compile.
+# Without optimisation tests take ten times as long; line tables show which objects have code from which header.
+# A missing return may work by luck when the compiler builds the result in place: such a mutant must not compile.
 FLAGS = "-O1 -g1 -gno-column-info -Werror=return-type"
 PRECOMPILED = ["-DBOOST_ALL_NO_LIB", "-DEIGEN_DONT_VECTORIZE", "-isystem", "/usr/include/eigen3"]
 ENVIRONMENT = {"RC_PARAMS": "seed=20261120 max_success=100 noshrink=1"}
 NOT_BUILT = ("docs/", "toolchain/", "tests/coverage/", "tests/attack/", "tests/mutants/equivalent/",
              "tests/mutants/mutants_test.py")
 BUILT_ALL_THE_SAME = ("toolchain/cmake/", "toolchain/page/")
-FAILURE = r"error: Failure in |\nFAILED "  # of CppUTest, and of the fault matrix
+FAILURE = r"error: Failure in |\nFAILED "  # printed by CppUTest and by the fault matrix
 HEADER = re.compile(r" (\S+\.hpp)$", re.M)  # in readelf's tables
-PATIENCE = 10.0  # times what a program takes on the unchanged tree
+PATIENCE = 10.0  # times the program's time on the unchanged tree
 
 
 class Failed(Exception):
-    """Something of the unchanged tree does not work: its text says what."""
+    """Something in the unchanged tree does not work; the text says what."""
 
 
 def tree_files(root):
@@ -38,18 +38,18 @@ def tree_files(root):
 
 
 def is_test(name):
-    """Of those that are run: what they found stays true when they only grow."""
+    """Whether a file is a test that is run: its results stay valid while it only grows."""
     return name.startswith(("tests/unit/", "tests/loop/"))
 
 
 def tests_of(root):
-    """The lines of each, shortened: to see whether any is gone."""
+    """Short hashes of the lines of each test, which show whether any line is gone."""
     return {name: [hashlib.sha256(line).hexdigest()[:8] for line in (root / name).read_bytes().splitlines()]
             for name in tree_files(root) if is_test(name)}
 
 
 def code_hash(root):
-    """Of all that is neither tests nor text."""
+    """A hash of everything except tests and texts."""
     digest = hashlib.sha256()
     for name in tree_files(root):
         built = name.startswith(BUILT_ALL_THE_SAME) or not name.startswith(NOT_BUILT)
@@ -60,7 +60,7 @@ def code_hash(root):
 
 class Workshop:
     def __init__(self, root, folder, programs, jobs, green):
-        """green: by part, what it took on the unchanged tree; shared by the copies."""
+        """green: the time of each part on the unchanged tree; shared by the copies."""
         self.root = root
         self.folder = folder
         self.tree = folder / "tree"
@@ -68,14 +68,14 @@ class Workshop:
         self.programs = programs
         self.jobs = jobs
         self.green = green
-        self.mutated = None  # the file that differs from the original now
-        self.lines = []  # of its original
-        self.mutants = set()  # objects that were compiled with it
+        self.mutated = None  # the file that currently differs from the original
+        self.lines = []  # of the original file
+        self.mutants = set()  # objects that were compiled with the mutant
         self.absent = set()  # objects that must be compiled when they are needed
-        self.originals = {}  # of objects: what their code hashes to
+        self.originals = {}  # hash of each original object's code
         self.kills = collections.Counter()  # by file and part, and by part
         folder.mkdir(parents=True, exist_ok=True)
-        self.shared = folder.parent / "shared"  # by the copies: what no mutant changes
+        self.shared = folder.parent / "shared"  # by the copies: files that no mutant changes
         self.lock = open(folder / "lock", "w")
         try:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -83,7 +83,7 @@ class Workshop:
             raise Failed(f"{folder}: another toolchain/mutate is at work there") from None
 
     def prepare(self, jobs, say):
-        """The copy as the tree is, built, and every part of the programs green."""
+        """Copies and builds the unchanged tree; every part of the programs must be green."""
         self.copy()
         say("building the unchanged tree")
         self.precompile()
@@ -103,7 +103,7 @@ class Workshop:
             say(f"{program}: {sum(times):.0f} s in {len(times)} parts")
 
     def find_green(self, part):
-        """Of a part of which this or another copy knows that it is, not again."""
+        """Runs the part on the unchanged tree unless this or another copy already knows that it is green."""
         stored = self.folder / "green.json"
         known = json.loads(stored.read_text()) if stored.exists() else {}
         program = hashlib.sha256(part.path.read_bytes()).hexdigest()
@@ -141,7 +141,7 @@ class Workshop:
                 there.symlink_to((self.root / name).resolve())
 
     def precompile(self):
-        """The headers that no mutant changes, once for all copies: they take most of a compiler's time."""
+        """Compiles the headers that no mutant changes once for all copies: they take most of the compile time."""
         here, there = self.root / "tests/mutants/precompiled.hpp", self.shared / "precompiled.hpp"
         made = self.shared / "precompiled.hpp.gch"
         if made.exists() and there.read_bytes() == here.read_bytes() and made.stat().st_mtime > self.control_changed:
@@ -158,13 +158,13 @@ class Workshop:
         return done
 
     def ninja(self, targets, check=False, cached=True, jobs=None):
-        """cached: worth keeping, where a compiler cache is in use."""
+        """cached: the objects are worth keeping if a compiler cache is in use."""
         environment = os.environ | ({} if cached else {"CCACHE_DISABLE": "1"})
         return self.run(["ninja", "-C", self.build, "-j", jobs or self.jobs, *targets], check,
                         env=environment).returncode == 0
 
     def read_dependencies(self):
-        """Now, as every object is there: later some wait to be compiled."""
+        """Called while every object exists: later some have not been compiled yet."""
         self.objects_of = {}
         told = self.run(["ninja", "-C", self.build, "-t", "deps"]).stdout
         target = ""
@@ -181,12 +181,12 @@ class Workshop:
                 self.with_code.setdefault(name, set()).add(target)
 
     def objects(self, file):
-        """Which objects must be compiled again when it changes."""
+        """The objects that must be compiled again when the file changes."""
         return self.objects_of.get(str(self.tree / file), set())
 
     def objects_with_code(self, file):
-        """Of a header, those that have code from it, by their line tables, and its own source's: that tells whether a
-        changed declaration compiles."""
+        """For a header, the objects that have code from it according to their line tables, and that of its own source,
+        which shows whether a changed declaration compiles."""
         if file.endswith(".cpp"):
             return self.objects(file)
         path = pathlib.Path(file)
@@ -199,7 +199,7 @@ class Workshop:
         return hashlib.sha256(stripped.read_bytes()).hexdigest()
 
     def write(self, file, text, targets):
-        """Not newer than before: ninja compiles again what has lost its object, and nothing else."""
+        """Keeps the file's time, so that ninja compiles only those sources whose objects were removed."""
         for target in targets:
             if target not in self.originals:
                 self.originals[target] = self.code_hash(target)
@@ -213,7 +213,7 @@ class Workshop:
         os.utime(path, ns=(was.st_atime_ns, was.st_mtime_ns))
 
     def restore(self):
-        """The file's text; its objects come back when they are needed."""
+        """Restores the file's text; its objects are compiled again when they are needed."""
         if self.mutated is not None:
             self.write(self.mutated, "".join(self.lines), set())
         self.mutated = None
@@ -229,26 +229,26 @@ class Workshop:
         self.write(mutant.file, "".join(lines), targets)
 
     def compile(self, part, targets):
-        """What of a part has lost its object: with the mutant, or as it was."""
+        """Compiles the removed objects of a part, with the mutant or as they were."""
         needed = sorted(part.objects & self.absent)
         for mutated in (False, True):
             some = [target for target in needed if (target in targets) == mutated]
             if some and not self.ninja(some, cached=not mutated):
                 return False
         self.absent.difference_update(needed)
-        # All that includes the mutated file: what has no line of it may still have one of its constants.
+        # All objects that include the mutated file: one without a line of it may still have one of its constants.
         self.mutants |= self.objects(self.mutated) & set(needed)
         return True
 
     def judge(self, mutant, programs, patience_s):
-        """("invalid" | "same code" | "survived" | "killed", by which part). What nothing noticed in time has survived."""
+        """("invalid" | "same code" | "survived" | "killed", by which part). Unnoticed within the time, it has survived."""
         ends = time.monotonic() + patience_s
         targets = self.objects_with_code(mutant.file)
         verdict = self.judge_by(mutant, programs, targets, ends)
         if verdict[0] in ("same code", "in no program", "survived") and targets != self.objects(mutant.file):
-            # A constant or a default argument may be elsewhere, where no line of its own tells of it.
+            # A constant or a default argument may be used in an object without any line of the file.
             verdict = self.judge_by(mutant, programs, self.objects(mutant.file), time.monotonic() + patience_s)
-        # What no test program is linked with, none can notice.
+        # No test program can notice code that it is not linked with.
         return ("survived", "") if verdict[0] == "in no program" else verdict
 
     def judge_by(self, mutant, programs, targets, ends):
@@ -276,7 +276,7 @@ class Workshop:
         return ("survived" if any(changed.values()) else "same code"), ""
 
     def nearest_first(self, file, programs):
-        """What noticed others of the file; what is named like it; what noticed most; what takes least."""
+        """First the parts that killed other mutants of the file, then by name, number of kills and least time."""
         parts = [part for part in self.parts if part.program in programs]
         return sorted(parts, key=lambda part: (-self.kills[file, str(part)], part.distance(file), -self.kills[str(part)],
                                                part.took_s))
@@ -288,7 +288,7 @@ class Workshop:
         return self.folder / f"{part}.log"
 
     def passes(self, part, usual_s):
-        """What hangs does not pass. It is ended at its first failure."""
+        """A part that hangs does not pass. It is stopped at its first failure."""
         limit_s = None if usual_s is None else PATIENCE * usual_s + 30.0
         environment = os.environ | ENVIRONMENT | {"SUPERCOIL_REFERENCE": str(self.build / "reference")}
         with open(self.log_of(part), "w") as log:
@@ -312,7 +312,7 @@ class Workshop:
 
 
 def end_group(process):
-    """With the processes that it started itself."""
+    """Ends a process and the processes that it started."""
     try:
         os.killpg(process.pid, signal.SIGKILL)
     except ProcessLookupError:

@@ -1,4 +1,4 @@
-"""Completion in bash, zsh and fish: it is what --help says now, and each shell offers it.
+"""Completion in bash, zsh and fish: it matches the current --help, and each shell offers it.
 
     completion_test.py PROGRAMS      the folder of the built programs
 """
@@ -17,7 +17,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 KEPT = ROOT / "firmware/apps/completion"
 PROGRAMS = sys.argv.pop(1)
-# What is typed, and what must be among what is offered; "" where a file's name must be.
+# The typed text and a word that must be among those offered; "" stands for the name of a file.
 OFFERED = (
     (["supercoil", "doct"], ["doctor"]),
     (["supercoil", "--ver"], ["--version"]),
@@ -46,7 +46,7 @@ class Completion(unittest.TestCase):
             self.assertEqual(kept.read_text(), (self.path / name).read_text(), f"{name}: run toolchain/generate-completion")
 
     def test_bash(self):
-        """As its completion calls the function; and without a word from it, bash looks for files."""
+        """Calls the function as bash's completion does; if it offers nothing, bash completes files."""
         for words, wanted in OFFERED:
             with self.subTest(" ".join(words)):
                 script = (f"source {KEPT}/bash/{words[0]}; COMP_WORDS=({shlex.join(words)}); COMP_CWORD={len(words) - 1}; "
@@ -73,7 +73,7 @@ class Completion(unittest.TestCase):
         return done.stdout.splitlines()
 
     def test_zsh(self):
-        """On a terminal, as there is no other way: a key completes the line, and writes it to a file."""
+        """Works only on a terminal: a key completes the line and writes it to a file."""
         child, terminal = pty.fork()
         if child == 0:
             os.chdir(self.path)
@@ -88,7 +88,7 @@ class Completion(unittest.TestCase):
                 self.type(terminal, " ".join(words) + "\x14", told)
                 line = told.read_text().split()
                 told.unlink()
-                self.type(terminal, "\x15")  # a line of its own for the next
+                self.type(terminal, "\x15")  # an empty line for the next text
                 self.assertEqual(line, [*words[:-1], wanted[0]])
 
     def type(self, terminal, text, until_there=None, patience_s=60.0):
@@ -97,7 +97,7 @@ class Completion(unittest.TestCase):
         while until_there and not until_there.exists():
             self.assertLess(time.monotonic(), end, f"{text!r} had no answer")
             if select.select([terminal], [], [], 0.02)[0]:
-                os.read(terminal, 4096)  # or it would wait for somebody who reads
+                os.read(terminal, 4096)  # otherwise it would wait for a reader
 
 
 if __name__ == "__main__":

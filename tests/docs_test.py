@@ -1,10 +1,10 @@
-"""The documentation of faults matches firmware/core/supervisor/fault.{hpp,cpp}, and links lead somewhere.
+"""The documentation of faults matches firmware/core/supervisor/fault.{hpp,cpp}, and no link is dead.
 
-Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
-scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not. The list of
-all pages, which is the site's navigation, has each page of docs/ once, and each manual page with what it says it is. The drawing of the
-wiring is as its program draws it. What a board's operator is told to look at or to set is a key of the board's file or a signal on
-CAN, not a name in the code.
+Every fault has a page with its name, headed by its number, and a row in docs/faults/README.md with its number, group and
+scope. Links in README.md and docs/ are followed to the file and the heading; web addresses are not. The list of all
+pages, which is the site's navigation, has each page of docs/ once, and each manual page with its own description.
+The drawing of the wiring is what its program draws. Whatever an operator is told to check or to set is a key of the
+board's file or a signal on CAN, not a name in the code.
 """
 
 import pathlib
@@ -28,7 +28,7 @@ HEADING = re.compile(r"^#+\s+(.*?)\s*$", re.M)
 
 
 def faults_in_code():
-    """(name → (number, group, scope)), and what is wrong with the sources themselves."""
+    """(name → (number, group, scope)), and the problems in the sources themselves."""
     enumeration = re.search(r"enum class Fault\b.*?\{(.*?)\};", (SUPERVISOR / "fault.hpp").read_text(), re.S)
     numbers = {name: int(number) for name, number in NUMBER.findall(enumeration.group(1) if enumeration else "")}
     numbers.pop("none", None)
@@ -72,7 +72,7 @@ def problems_of_faults():
 
 
 def anchors(text):
-    """As GitHub makes them of headings."""
+    """The anchors that GitHub makes from headings."""
     for heading in HEADING.findall(CODE.sub(lambda code: code.group().strip("`"), text)):
         plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
         yield re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
@@ -115,7 +115,7 @@ def problems_of_navigation():
 
 
 def problems_of_drawing():
-    """Of the wiring, whose lines and addresses are a configuration's."""
+    """For the wiring, whose lines and addresses come from a configuration."""
     with tempfile.TemporaryDirectory() as folder:
         drawn = pathlib.Path(folder, "wiring.svg")
         subprocess.run([ROOT / "toolchain" / "wiring", drawn], check=True)
@@ -124,7 +124,7 @@ def problems_of_drawing():
 
 
 def problems_of_results():
-    """Programs say of each bad end of identify and calibrate that docs/troubleshooting.md says what to do."""
+    """For each bad end of identify and calibrate, programs refer to docs/troubleshooting.md for what to do."""
     source = (ROOT / "firmware" / "core" / "modes" / "result.hpp").read_text()
     names = re.findall(r'"(\w+)"', re.search(r"mode_result_names\{(.*?)\}", source, re.S)[1])
     page = (ROOT / "docs" / "troubleshooting.md").read_text()
@@ -135,7 +135,7 @@ def problems_of_results():
 
 
 def problems_of_keys():
-    """Of pages by which an operator mends a board: a word with a unit, in backquotes."""
+    """For pages that help an operator to repair a board: words with a unit, in backquotes."""
     docs = ROOT / "docs"
     explained = "".join((docs / page).read_text() for page in ("configuration.md", "can-protocol.md", "recorder.md", "setup.md"))
     known = set(re.findall(r"\w+", explained))

@@ -52,7 +52,7 @@ class ImageSbom(unittest.TestCase):
         self.document("supercoil", FIELDS.format("Apache-2.0", "Apache-2.0", "Apache-2.0"))
         self.install("libfoo1", "1:2.3~rc1-4")
         foo = self.document("libfoo1", FIELDS.format("GPL-2+  or MIT", "public-domain", "GPL-2+"))
-        self.install("foo-common")  # its documents are another's
+        self.install("foo-common")  # its documents belong to another package
         (foo.parent / "foo-common").symlink_to("libfoo1")
         self.install("old")
         self.document("old", "See /usr/share/common-licenses/LGPL-2.1, and `/usr/share/common-licenses/GPL-2'.\n")

@@ -1,7 +1,7 @@
-"""No `long` in what is shipped: it has 32 bits on some machines, where a count of ticks at 10 kHz ends after 2.5 days.
+"""No `long` in shipped code: on some machines it has 32 bits, and a count of ticks at 10 kHz overflows after 2.5 days.
 
-std::int64_t says how far a counter reaches, everywhere. `long long` is allowed for formats that need it, and what the
-kernel itself declares as long is named by its own type (decltype(timespec::tv_nsec)).
+std::int64_t has the same range everywhere. `long long` is allowed for formats that need it, and values that the kernel
+itself declares as long have its own type (decltype(timespec::tv_nsec)).
 """
 
 import pathlib
@@ -10,13 +10,13 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LAYERS = ["control", "hal", "firmware", "host_sim"]
-# A quote between digits separates them.
+# A quote between digits is a digit separator.
 NOT_CODE = re.compile(r"""//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])'(?:\\.|[^'\\])+'""", re.S)
 LONG = re.compile(r"(?<!long )\blong\b(?! long| double)|\b\d[\d']*[uU]?[lL]\b|%l[dui]")
 
 
 def blanked(code):
-    """The code with its comments, and its texts but for their formats, left out; lines stay where they are."""
+    """The code without comments and, except for formats, without texts; line numbers are kept."""
     def blank(found):
         text = found.group()
         kept = " ".join(re.findall(r"%l[dui]", text)) if text.startswith(("\"", "R\"")) else ""

@@ -1,8 +1,8 @@
-"""Every layer includes only what it may (docs/architecture.md).
+"""Every layer includes only what it is allowed to (docs/architecture.md).
 
-The build enforces this between our own layers and for libraries with CMake targets; header-only system libraries and
-the operating system's headers it cannot see, so their includes are read here. Nor can it see a file of tests that no list
-of sources names, and that therefore never runs; nor a link among the fuzz targets' seeds that leads nowhere.
+The build enforces this between our own layers and for libraries with CMake targets. It cannot see header-only system
+libraries and the operating system's headers, so this test reads their includes. It also finds test files that no list
+of sources names, which would never run, and dead links among the fuzz targets' seeds.
 """
 
 import pathlib
@@ -10,7 +10,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-# What a step must not touch, in std.
+# Parts of std that a step must not use.
 OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "future", "memory", "vector", "string",
              "map", "condition_variable"}
 CORE = ["supercoil/control/", "supercoil/hal/", "board/", "loop/", "modes/", "supervisor/", "boost/circular_buffer.hpp",
@@ -28,7 +28,7 @@ ALLOWED = {
     "firmware/apps": [*CORE, *IO, "apps/common/", "linux_board/", "supercoil/hal_linux/", "CLI/", "nlohmann/"],
     "host_sim/plant": ["supercoil/control/", "plant/"],
 }
-# What some folders inside may include beside that.
+# What some subfolders may include in addition.
 BESIDE = {
     "firmware/io/linux_board": ["linux_board/", "supercoil/hal_linux/"],
     "firmware/apps/supercoild": ["apps/supercoild/", "malloc.h", "poll.h"],

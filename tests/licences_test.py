@@ -1,6 +1,6 @@
-"""Every file of the tree has a licence whose text is in LICENSES: `reuse lint-file` on each, as reuse.software has it.
+"""Every file in the tree has a licence whose text is in LICENSES: runs `reuse lint-file` (reuse.software) on each.
 
-Not `reuse lint`, which looks at what was built and installed too where git does not tell it what belongs to the tree.
+Not `reuse lint`, which also checks built and installed files when git does not tell it what belongs to the tree.
 """
 
 import fnmatch

@@ -1,4 +1,4 @@
-"""The manual pages of docs/man say what the programs' --help says, and `man` finds nothing wrong with them.
+"""The manual pages in docs/man match the programs' --help, and `man` finds nothing wrong with them.
 
     man_test.py PROGRAMS      the folder of the built programs
 """

@@ -1,5 +1,5 @@
-"""toolchain/sbom: its list of components is what our sources include, what CMake looks for and what the programs are
-linked with; and what it prints is CycloneDX, as cyclonedx-python-lib reads it."""
+"""toolchain/sbom: its list of components matches the includes of our sources, the packages that CMake looks for and the
+libraries that the programs are linked with; its output is CycloneDX that cyclonedx-python-lib reads."""
 
 import fnmatch
 import importlib.machinery
@@ -42,7 +42,7 @@ def files(*patterns):
 
 
 def owners(paths):
-    """Of files, by which Debian package they are installed."""
+    """The Debian packages that install these files."""
     return {re.split("[:,]", line)[0] for line in output_of("dpkg-query", "-S", *paths).splitlines()}
 
 
@@ -115,7 +115,7 @@ class Sbom(unittest.TestCase):
                 continue
             self.assertRegex(notices, r"\nComment: " + re.escape(component["name"]) + r"\W")
             for licence in get_spdx_licensing().license_keys(component["licence"]):
-                name = {"MIT": "Expat"}.get(licence, licence)  # Debian's word for it
+                name = {"MIT": "Expat"}.get(licence, licence)  # Debian's name for it
                 self.assertIn(f"\nLicense: {name}\n ", notices)
 
     def test_a_package_is_described_by_a_valid_document(self):

@@ -1,5 +1,5 @@
-"""toolchain/version: what it prints with and without tags, in a shallow clone and without git, and that Debian takes a
-newer commit's version for newer."""
+"""toolchain/version: its output with and without tags, in a shallow clone and without git; for Debian the version of a
+newer commit is newer."""
 
 import os
 import pathlib
@@ -29,7 +29,7 @@ class Version(unittest.TestCase):
         (self.tree / "CMakeLists.txt").write_text(PROJECT.format(release))
 
     def git(self, *arguments, when="2026-11-22T15:02:33+0000"):
-        # No settings of this machine, and no repository around the test.
+        # Without this machine's settings, and without a repository around the test.
         return output_of("git", "-C", self.tree, "-c", "user.name=N", "-c", "user.email=n@n.invalid", *arguments,
                          env={"PATH": os.environ["PATH"], "GIT_CONFIG_NOSYSTEM": "1", "HOME": str(self.tree.parent),
                               "GIT_AUTHOR_DATE": when, "GIT_COMMITTER_DATE": when})
@@ -42,7 +42,7 @@ class Version(unittest.TestCase):
         return self.git("rev-parse", "--short=7", "HEAD")
 
     def version(self, tree=None):
-        # Elsewhere than the commit was made, and not in UTC.
+        # In a different time zone from the commit's, and not in UTC.
         return output_of((tree or self.tree) / "toolchain" / "version", env={"PATH": os.environ["PATH"], "TZ": "JST-9"})
 
     def assert_older(self, older, newer):
@@ -74,7 +74,7 @@ class Version(unittest.TestCase):
     def test_a_later_commit_is_newer_wherever_it_was_made(self):
         self.commit("2026-11-22T15:02:33+0900")
         first = self.version()
-        self.commit("2026-11-22T10:00:00-0300")  # seven hours later, although its clock showed less
+        self.commit("2026-11-22T10:00:00-0300")  # seven hours later, although its local time is earlier
         self.assert_older(first, self.version())
 
     def test_a_release_is_newer_than_what_led_to_it_and_older_than_what_follows(self):

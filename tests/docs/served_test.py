@@ -1,4 +1,4 @@
-"""supercoil docs: a site's files, to this machine alone, and nothing beside them."""
+"""supercoil docs serves the files of a site to this machine only, and nothing else."""
 
 import contextlib
 import http.client
@@ -18,7 +18,7 @@ PATIENCE_S = 60.0
 
 
 class Docs:
-    """The program over a folder, on a free port, until it is left."""
+    """The program, serving a folder on a free port until the context ends."""
 
     def __init__(self, folder, *options, **environment):
         self.process = subprocess.Popen([SUPERCOIL, "docs", "--folder", folder, "--port", "0", *options],
@@ -39,7 +39,7 @@ class Docs:
         self.process.communicate()
 
     def ask(self, path, method="GET", host=None):
-        """Status, type and body; the path goes as it is."""
+        """Status, type and body; the path is sent unchanged."""
         with contextlib.closing(http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)) as connection:
             connection.putrequest(method, path, skip_host=True)
             connection.putheader("Host", host or f"127.0.0.1:{self.port}")

@@ -1,8 +1,8 @@
 """The documentation's site, built by toolchain/docs and read in a real browser.
 
-Every page of docs/ is reached from the start page, no link or anchor is dead, the search finds, nothing is asked of
-another machine, and on a phone's screen no page scrolls sideways. Every command has its manual page with all options.
-The API reference has every public header, and a public class without its comment fails the build.
+Every page of docs/ can be reached from the start page, no link or anchor is dead, the search works, nothing is loaded
+from another machine, and no page scrolls sideways on a phone. Every command has a manual page with all its options.
+The API reference has every public header, and a public class without a comment fails the build.
 """
 
 import functools
@@ -29,13 +29,13 @@ from browser import Browser  # noqa: E402
 SUPERCOIL = os.environ.get("SUPERCOIL", ROOT / "build" / "release" / "bin" / "supercoil")
 SHOWN_S = 10.0
 PHONE = (360, 760)
-# The theme's column of text scrolls in place of the page.
+# In this theme the column of text scrolls instead of the page.
 BEYOND = """return Math.max(...[document.documentElement, ...document.querySelectorAll(".content")]
     .map((box) => box.scrollWidth - box.clientWidth))"""
 
 
 class Page(html.parser.HTMLParser):
-    """What a page leads to and loads, and what may be led to in it."""
+    """The links of a page, the files that it loads, and its anchors."""
 
     def __init__(self, file):
         super().__init__()
@@ -62,7 +62,7 @@ def serve(folder):
 
 
 def resolved(page, link):
-    """(file in the site, anchor), or None where the link leaves it."""
+    """(file in the site, anchor), or None if the link leaves the site."""
     parts = urllib.parse.urlsplit(link)
     if parts.scheme or parts.netloc:
         return None

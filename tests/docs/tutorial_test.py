@@ -1,7 +1,7 @@
-"""docs/tutorial.md: its files are valid, its commands run in their order and print what the page shows.
+"""docs/tutorial.md: its files are valid, its commands run in the order of the page and print what it shows.
 
-What runs in real time, over socketcand, is not run here: of that each option is looked up in the command's --help, and
-tests/can/setup_program_test.py goes that way. With --picture it draws docs/pictures/tutorial.svg again.
+Commands that run in real time, over socketcand, are not run here: their options are looked up in the command's --help,
+and tests/can/setup_program_test.py runs them. With --picture it draws docs/pictures/tutorial.svg again.
 """
 
 import os
@@ -25,7 +25,7 @@ MARK = "== block "
 
 
 def blocks():
-    """(kind, text, name of the file that it is, if any) of the page, in its order."""
+    """(kind, text, name of the file if it is one) of each block of the page, in order."""
     page = PAGE.read_text()
     for found in FENCE.finditer(page):
         name = SAVED_AS.search(page[:found.start()])
@@ -33,7 +33,7 @@ def blocks():
 
 
 def walk(folder):
-    """What each block of commands printed, by its place on the page."""
+    """The output of each block of commands, by its place on the page."""
     script = ["set -euo pipefail"]
     for place, (kind, text, name) in enumerate(blocks()):
         if kind == "toml":

@@ -1,9 +1,9 @@
-"""Writes the seeds that are no text: .venv/bin/python tests/fuzz/seeds.py [--check]
+"""Writes the seeds that are not text: .venv/bin/python tests/fuzz/seeds.py [--check]
 
---check: only says whether the seeds in the tree are those that it would write.
+--check: only compares the seeds in the tree with those that it would write.
 
-Boards and scenarios are the project's own examples, by links in corpus/; commands are there as they are. The whole
-firmware (fuzz_can_endpoint) has the seeds of fuzz_frames.
+Boards and scenarios are links in corpus/ to the project's own examples; commands are kept as text files. The whole
+firmware (fuzz_can_endpoint) uses the seeds of fuzz_frames.
 """
 
 import pathlib
@@ -28,7 +28,7 @@ def step(how, opcode, value=0.0, wait=2, channel=0, session=0x1234, counter=0):
 
 
 def knot(after_s, position_m, velocity=0.0, wait=2):
-    """As a knot it has no session in its data."""
+    """A step with a knot, which has no session in its data."""
     return struct.pack("<BBHBBH", HOLDER & ~WITH_SESSION | KNOT, wait, 0, 0, round(after_s * 1e3) << 4 & 0xF0,
                        round(after_s * 1e3) >> 4 | round(position_m * 1e7) << 8 & 0xFF00) + struct.pack(
         "<Hh", round(position_m * 1e7) >> 8, round(velocity * 1e5))
@@ -74,7 +74,7 @@ def row(time_ns, state=2, fault=0):
 
 
 def recording(rows, said):
-    """said: how many rows its header speaks of."""
+    """said: the number of rows in its header."""
     rest = (f'# Rows follow at byte 512. To read them: supercoil log FILE\nrow_bytes = 112\nrows = {said}\nchannels = 1\n'
             f'rate_Hz = 1000\nfault = 23\nfault_name = "sensor_stale"\nfault_channel = 1\nfault_time_ns = 2000000\n'
             f'rows_CRC32 = "{zlib.crc32(rows):08x}"\n')

@@ -1,4 +1,4 @@
-"""Parameters in their three forms, and the thermal pole by numpy's eigenvalues."""
+"""Parameters in their three forms, and the thermal pole from numpy's eigenvalues."""
 
 import numpy as np
 

@@ -1,6 +1,6 @@
-"""Joints of two muscles, or of one against a spring, under random powers and loads.
+"""Joints with two muscles, or with one against a spring, under random powers and loads.
 
-The muscles' own equations are those of muscle_effects.py; what is smooth of them goes to an ODE solver as it stands.
+The muscles' own equations are those of muscle_effects.py; the smooth ones go to an ODE solver as they stand.
 """
 
 import dataclasses
@@ -20,7 +20,7 @@ STRONGER = Muscle(thermal_mass_J_per_K=0.2, heat_transfer_W_per_K=0.11, stiffnes
 
 @dataclasses.dataclass(frozen=True)
 class Joint:
-    lever_m: float = 0.015  # at the angle 0
+    lever_m: float = 0.015  # at angle 0
     table_m: tuple = ()  # of levers, evenly spaced over table_rad; empty: constant
     table_rad: tuple = (-0.8, 0.7)
     inertia_kg_m2: float = 2e-5
@@ -33,14 +33,14 @@ class Joint:
 
     @property
     def directions(self):
-        """Of each muscle's contraction and of its pull, along the agonist's arc."""
+        """Directions of each muscle's contraction and pull along the agonist's arc."""
         return 1.0, -self.antagonist_lever_ratio
 
     def radius(self, angle):
         return np.interp(angle, np.linspace(*self.table_rad, len(self.table_m)), self.table_m) if self.table_m else self.lever_m
 
     def contraction(self, angle):
-        """The lever's integral from the angle 0, exact by trapezoids from kink to kink."""
+        """The lever's integral from angle 0, exact by trapezoids from kink to kink."""
         if not self.table_m:
             return self.lever_m * angle
         kinks = [at for at in np.linspace(*self.table_rad, len(self.table_m)) if min(0.0, angle) < at < max(0.0, angle)]
@@ -71,13 +71,13 @@ CASES = {  # joint, muscles, effects, load in Nm
 
 
 def pulled(joint, effects):
-    """A muscle's effects and its pretension, of each: at the angle 0 their moments are equal."""
+    """Each muscle's effects with its pretension: at angle 0 the moments are equal."""
     pretensions = [joint.pretension_N / abs(direction) for direction in joint.directions]
     return [({**OFF, **effects, "hanging_mass_kg": pretension / G}, pretension) for pretension in pretensions]
 
 
 def tensions(joint, muscles, effects, x, rises, branches):
-    """Before they are cut off at zero. An acceleration without damper, times the mass, is what the muscle pulls with."""
+    """Tensions before they are cut off at zero: the mass times the acceleration without damper is the muscle's pull."""
     found = []
     for p, direction, phi, pair, (own, pretension) in zip(muscles, joint.directions, rises, branches, pulled(joint, effects)):
         found.append(p.moving_mass_kg * acceleration(p, own, stiffness(p, own, phi), 0.0, active_force(p, own, phi),
@@ -86,12 +86,12 @@ def tensions(joint, muscles, effects, x, rises, branches):
 
 
 def split(state):
-    """Rises, position, velocity, bristle, and the two creeping branches of either muscle."""
+    """Rises, position, velocity, bristle, and the two creeping branches of each muscle."""
     return state[:2], state[2], state[3], state[4], (state[5:7], state[7:9])
 
 
 def run(joint, muscles, effects, power, load):
-    """The joint's path: what there is at each hold's end."""
+    """The joint's path: its state at the end of each hold."""
     rubbing = {**OFF, "friction_ratio": joint.friction_ratio, "hanging_mass_kg": joint.pretension_N / G}
     mass = joint.inertia_kg_m2 / joint.lever_m ** 2
     lump = Muscle(moving_mass_kg=mass)

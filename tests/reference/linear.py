@@ -63,7 +63,7 @@ def hurwitz_cases(rng):
 
 
 def realness_cases(rng):
-    """The least of Re N(jw) D(-jw) over a fine sweep of w, for stable D."""
+    """The minimum of Re N(jw) D(-jw) over a fine sweep of w, for stable D."""
     omega = np.concatenate([[0.0], np.logspace(-3, 3, 60001)])
     s = 1j * omega
     result = []
@@ -73,7 +73,7 @@ def realness_cases(rng):
                        [1.0, rng.uniform(0.1, 3.0), rng.uniform(0.1, 4.0)])
         value = (np.polyval(numerator, s) * np.conj(np.polyval(d, s))).real
         limit = numerator[0] * d[1] - numerator[1]  # of w^2 Re G for w -> infinity
-        # Left out: where the sweep is too coarse or too short to decide.
+        # Cases in which the sweep is too coarse or too short to decide are left out.
         too_close = abs(np.min(value)) < 1e-3 or abs(limit) < 1e-2
         if limit > 0 and (too_close or omega[np.argmin(value)] > 300.0):
             continue

@@ -1,4 +1,4 @@
-"""Writes the reference values that the unit tests compare with: one JSON file a topic.
+"""Writes the reference values that the unit tests compare with: one JSON file per topic.
 
 Everything here is computed with numpy and scipy from the equations in docs, never from the
 library under test. Seeds are fixed: two runs write the same files.

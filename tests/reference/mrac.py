@@ -11,7 +11,7 @@ TIMES = np.arange(1.0, 31.0)
 
 
 def run(name, preset, factor, model, limits):
-    """Not frozen at the limits: there the frozen law chatters, and has no continuous solution."""
+    """Without freezing at the limits, where the frozen law chatters and has no continuous solution."""
     muscle = Muscle()
     constants = dataclasses.replace(mrac_ode.design(preset, factor), model=model,
                                     limits=limits)

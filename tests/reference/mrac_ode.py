@@ -26,7 +26,7 @@ MODELS = {
 
 @dataclasses.dataclass
 class Design:
-    """The constants; the defaults are the paper's."""
+    """The constants; the defaults are those of the paper."""
 
     alpha: tuple = (1.0, 1.0)  # alpha(s) = [alpha0 s, alpha1]
     lambda_: tuple = (1.0, 3.0, 2.0)  # descending
@@ -38,7 +38,7 @@ class Design:
     alpha0: float = 3.0
     initial: tuple = (0.0,) * 6
     model: str = "wm16"
-    freeze: bool = False  # theta and sigma rest while the power is limited
+    freeze: bool = False  # theta and sigma are held while the power is limited
     limits: tuple = (-np.inf, np.inf)
 
 
@@ -60,7 +60,7 @@ def sine(muscle):
 
 
 class ClosedLoop:
-    """Muscle, reference model and controller. The state is cut as `parts` says."""
+    """Muscle, reference model and controller. `parts` divides the state."""
 
     sizes = {"muscle": 3, "model": 3, "power": 2, "position": 2, "phi1": 6, "phi": 6, "theta": 6,
              "sigma": 1, "r0": 1, "e1": 1}
@@ -84,7 +84,7 @@ class ClosedLoop:
         return state
 
     def power(self, t, state):
-        """Wanted and applied power, theta' and what else the slopes need."""
+        """Demanded and applied power, theta' and whatever else the slopes need."""
         c, part = self.c, lambda name: state[self.cut[name]]
         y = part("muscle")[1] * self.per_metre
         u_filtered, y_filtered = part("power"), part("position")

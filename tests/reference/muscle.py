@@ -42,7 +42,7 @@ class Muscle:
 
 
 def random_muscle(rng, damping_ratio=None):
-    """Within a factor of 4 around the paper's, its mechanics faster than its cooling.
+    """A muscle within a factor of 4 of the paper's, with mechanics faster than its cooling.
 
     damping_ratio: of the mechanics; drawn from 0.2 to 3 when not given.
     """

@@ -1,7 +1,7 @@
 """Muscles with the effects of docs/muscles.md, each alone and together, under random power.
 
-What is smooth goes to an ODE solver as it stands. What has a memory (plays, first heating, ageing) is computed along the
-temperature on a fine grid, and the mechanics follow by classical Runge-Kutta steps over it.
+Smooth effects go to an ODE solver as they stand. Effects with memory (plays, first heating, ageing) are computed along
+the temperature on a fine grid, and the mechanics follow in classical Runge-Kutta steps over it.
 """
 
 import numpy as np
@@ -98,7 +98,7 @@ def lugre(p, e, v, z):
 
 
 def smooth(p, e, power, load):
-    """[hold, (temperature, position, velocity)] at each hold's end."""
+    """[hold, (temperature, position, velocity)] at the end of each hold."""
     def slope(_, state, watts, newtons):
         phi, x, v, fast, slow, water, z = state
         rubs, bristle = lugre(p, e, v, z)
@@ -167,7 +167,7 @@ def cases():
     result = []
     for kind, compute, effects in [("smooth", smooth, SMOOTH), ("memory", with_memory, WITH_MEMORY)]:
         for name, changed in effects.items():
-            # High and low, so that loops are wide and the first heating goes on for a while.
+            # High and low, so that hysteresis loops are wide and the first heating lasts for a while.
             power = np.where(rng.uniform(size=HOLDS) < 0.5, rng.uniform(3.0, 4.5, HOLDS), rng.uniform(0.0, 1.5, HOLDS))
             load = rng.choice([0.0, 0.0, 0.05, -0.05], size=HOLDS)
             muscle = Muscle()

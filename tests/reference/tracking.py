@@ -1,4 +1,4 @@
-"""PI and PD with feedforward in closed loop, and what the reference models do."""
+"""PI and PD with feedforward in closed loop, and the motion of the reference models."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -51,7 +51,7 @@ def model_case(name):
 
 
 def trajectory():
-    """Uneven knots of two sines; between them position and two derivatives of both neighbours."""
+    """Unevenly spaced knots on two sines; each piece matches position and two derivatives of both neighbours."""
     rng = np.random.default_rng(5)
     times = np.concatenate([[0.0], np.cumsum(rng.uniform(0.02, 0.4, 30))])
     positions = 0.004 * (1.0 - np.cos(1.7 * times)) + 0.001 * (1.0 - np.cos(5.3 * times))

@@ -1,7 +1,7 @@
-"""Compiles fixed_bits.cpp with every compiler and optimisation and compares what it prints.
+"""Compiles fixed_bits.cpp with every compiler and optimisation and compares the outputs.
 
-Fixed-point results must be the same to the bit whatever compiles them: that is what lets a
-simulation on a PC stand for the board.
+Fixed-point results must be the same to the bit for every compiler, so that a simulation on a PC
+is valid for the board.
 """
 
 import argparse
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-# What has other arithmetics only, or all of them, stays out.
+# Without the files for other arithmetics only, or for all of them.
 LIBRARY = ("actuator/conversions.cpp", "actuator/parameters.cpp", "actuator/state_space.cpp",
            "linear/discretize.cpp", "linear/matrix_exponential.cpp", "linear/polynomial.cpp",
            "tracking/mrac.cpp", "tracking/mrac_matching.cpp", "tracking/mrac_premises.cpp",
@@ -35,7 +35,7 @@ def main():
     flags = ["-std=c++20", "-ffp-contract=off", "-DEIGEN_DONT_VECTORIZE", "-w",
              "-isystem", arguments.eigen, "-I", root / "control/include", "-I", root / "tests"]
     with tempfile.TemporaryDirectory() as folder:
-        # All in one: Eigen's headers take most of the time to compile.
+        # All in one unit, because Eigen's headers take most of the compile time.
         unit = pathlib.Path(folder) / "all.cpp"
         unit.write_text("".join(f'#include "{source}"\n' for source in sources))
 

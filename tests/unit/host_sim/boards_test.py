@@ -1,4 +1,4 @@
-"""supercoil-sim with the firmware of boards' own files, and with several boards on one bus."""
+"""supercoil-sim with the firmware configured by boards' own files, and with several boards on one bus."""
 
 import collections
 import csv
@@ -20,7 +20,7 @@ class Boards(ProgramCase):
             f"node-{node}/{name}" for node in (1, 2, 3) for name in ("trace.csv", "plot.svg", "summary.json"))})
         self.assertEqual((a / "can.log").read_bytes(), (b / "can.log").read_bytes())
         for node in (1, 2, 3):
-            # As if it were alone with a seed of its own.
+            # As if it were alone with its own seed.
             self.run_program("run", self.scenario(noisy + f"simulation.seed = {node}\n"), "--out", f"seed-{node}")
             trace, alone, again = ((folder / "trace.csv").read_bytes() for folder in (
                 a / f"node-{node}", self.path / f"seed-{node}", b / f"node-{node}"))
@@ -46,7 +46,7 @@ class Boards(ProgramCase):
         out = self.path / "supercoil-out/single+elbow+lifter"
         self.assertEqual({path.name for path in out.iterdir()}, {"can.log", "node-1", "node-2", "node-4"})
         for name, node, before in (("single", 1, 0), ("elbow", 2, 1), ("lifter", 4, 3)):
-            # As if it were alone with a seed of its own.
+            # As if it were alone with its own seed.
             (self.path / "alone.toml").write_text(f"simulation.seed = {1 + before}\n" + kinds[name])
             self.run_program("run", "alone.toml", "--out", f"alone-{node}", "--no-plot")
             self.assertEqual((out / f"node-{node}/trace.csv").read_bytes(), (self.path / f"alone-{node}/trace.csv").read_bytes())
@@ -130,7 +130,7 @@ class Boards(ProgramCase):
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 12000)  # at the board's 100 Hz
 
-        # The file's 0.9 W of each, on so small a sine that neither is at 0 W; after the event what that says. It follows slowly.
+        # 0.9 W each from the file, and a sine so small that neither reaches 0 W; then the event's power, which it follows slowly.
         def both_W(begin_s, end_s):
             found = [float(row["applied_power_W"]) + float(row["antagonist_applied_power_W"]) for row in rows
                      if begin_s <= float(row["time_s"]) < end_s]
@@ -143,7 +143,7 @@ class Boards(ProgramCase):
         last = 'current.device = "i2c-3/3-0049"\n'
         (self.path / "board.toml").write_text(text.replace(last, f"{last}limits.max_W = 2.0\n"))
         steps = "[reference]\nkind = 'steps'\nlevels_m = [0.007, -0.007]\nhold_s = 6.0\n"
-        event = "[[event]]\nat_s = 0.5\njoint.load_Nm = 0.0001\n"  # which changes no limit
+        event = "[[event]]\nat_s = 0.5\njoint.load_Nm = 0.0001\n"  # does not change any limit
         for channel in (1, 2):
             done = self.run_program("run", self.scenario(f"simulation.duration_s = 24.0\n[joint]\n{steps}{event}"), "--board", "board.toml",
                                     "--channel", channel, "--out", "out", "--no-plot")
@@ -152,7 +152,7 @@ class Boards(ProgramCase):
             most_W = [max(float(row[key]) for row in rows) for key in ("applied_power_W", "antagonist_applied_power_W")]
             self.assertGreater(most_W[0], 3.0)
             self.assertLess(abs(most_W[1] - 2.0), 0.05)
-            # Each muscle's limits are told, and the reference asked for more than this joint can do.
+            # The limits of each muscle are reported, and the reference asked for more than this joint can do.
             limited = [sum(row[key] == "maximum" for row in rows) / len(rows) for key in ("limited_by", "antagonist_limited_by")]
             summary = json.loads((self.path / "out/summary.json").read_text())
             self.assertEqual([summary[key].get("maximum", 0) for key in ("limited_by_ratio", "antagonist_limited_by_ratio")], limited)
@@ -194,7 +194,7 @@ class Boards(ProgramCase):
 
     def test_joints_on_one_bus_have_two_nodes_each(self):
         text = "simulation.duration_s = 2.0\n[joint]\n"
-        # Each muscle has noise of its own: the second joint's begins behind the first one's two.
+        # Each muscle has its own noise: the second joint's seeds follow the two of the first joint.
         self.run_program("run", self.scenario("simulation.seed = 3\n" + text), "--out", "alone", "--no-plot")
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--nodes", 2)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -1,4 +1,4 @@
-"""What the commands of supercoil-sim print for programs: docs/json.md."""
+"""The output of supercoil-sim's commands for programs: docs/json.md."""
 
 import csv
 import json
@@ -33,7 +33,7 @@ class Json(ProgramCase):
         (self.path / "study.toml").write_text(STUDY)
 
     def told(self, *arguments, status=0):
-        """All that is on standard output is one object, whose first keys are those of each."""
+        """Standard output is one object, which begins with the keys that all of them have."""
         done = self.run_program(*arguments, "--json")
         self.assertEqual(done.returncode, status, done.stderr)
         told = json.loads(done.stdout)
@@ -42,7 +42,7 @@ class Json(ProgramCase):
         return told
 
     def assert_rows_are_those_of(self, file, rows, text):
-        """Numbers as numbers, flags as flags, and null where the file has nothing or no finite number."""
+        """Numbers as numbers, flags as flags, and null where the file has nothing or a non-finite number."""
         with open(self.path / file) as lines:
             written = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         self.assertEqual(len(rows), len(written))

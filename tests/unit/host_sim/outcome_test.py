@@ -1,4 +1,4 @@
-"""What supercoil-sim run promises, what it finds afterwards, and that programs get the same as people."""
+"""What supercoil-sim run promises, what it finds afterwards, and that JSON has the same as the text."""
 
 import json
 import unittest
@@ -12,7 +12,7 @@ WEAK = "simulation.duration_s = 60.0\ncontroller = {kind = 'pi', proportional_W_
 
 class Outcome(ProgramCase):
     def run_of(self, text, *options):
-        """What a run prints on both channels, its status, and its summary."""
+        """A run's output and messages, its status, and its summary."""
         done = self.run_program("run", self.scenario(text), *QUIET, *options)
         return done, json.loads((self.path / "out/summary.json").read_text())
 
@@ -68,7 +68,7 @@ class Outcome(ProgramCase):
         self.assertIn("fault 20 heater_open", self.run_of(SHORT + "power.delay_s = 0.049\n", "--allow-fault")[0].stdout)
         self.assertEqual(self.run_of(SHORT + "power.delay_s = 0.048\n")[0].returncode, 0)
         self.assertEqual(["a probe" in self.check(SHORT + f"power.delay_s = {delay_s}\n")[0] for delay_s in (0.048, 0.049)], [False, True])
-        # It does what it says.
+        # The recommended controller does what was promised.
         model = ", ".join(f"{p:.4g}" for p in suits["model_poles_rad_per_s"])
         taken = (f"simulation.duration_s = 60.0\npower.delay_s = 0.04\nreference_model = {{ kind = 'poles', poles_rad_per_s = [{model}] }}\n"
                  f"controller = {{ kind = 'learned_ff', shape_reference = true, bandwidth_rad_per_s = {suits['bandwidth_rad_per_s']:.4g} }}\n")
@@ -86,7 +86,7 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(noisy)
         self.assertIn("the controller's power swung by", done.stdout)
         self.assertLess(abs(summary["power_noise_W"] / swing_W - 1.0), 0.3, (summary["power_noise_W"], swing_W))
-        # Nobody is sent away from what is recommended.
+        # The advice does not lead away from the recommended controller.
         for text in (told, done.stdout):
             self.assertIn("a sensor with less noise makes it less", text)
             self.assertNotIn("lower gains", text)
@@ -119,13 +119,13 @@ class Outcome(ProgramCase):
         done, summary = self.run_of("simulation.duration_s = 60.0\nplant.force_per_kelvin_N_per_K = 0.002\n", "--allow-fault")
         self.assertIn("the reference asked for more than the muscle can do", done.stdout)
         self.assertNotIn("power swung", done.stdout)
-        # As far as it was given: not the kilowatts that a law asks for.
+        # Only the power that was applied counts, not the kilowatts that a law demands.
         self.assertLess(summary["power_noise_W"] or 0.0, 2.25)
 
     def test_the_promise_is_beside_what_the_sensor_shows(self):
         done, summary = self.run_of(FOLLOWS)
         shown_m = summary["tracking_shown_rms_m"]
-        # Its own noise is 10 um.
+        # The sensor's own noise is 10 um.
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; it showed {1e6 * shown_m:.1f} um\n", done.stdout)
 

@@ -1,4 +1,4 @@
-"""supercoil-sim when something is wrong or ends it: exit status, messages, and what is left."""
+"""supercoil-sim when something is wrong or stops it: exit status, messages, and the files that are left."""
 
 import contextlib
 import json
@@ -212,7 +212,7 @@ class Errors(ProgramCase):
                          ["report.html", "reproduction.csv"])
 
     def start_long_run(self):
-        """A run of minutes, once it has begun to write."""
+        """A run of minutes that has already begun to write."""
         self.scenario("simulation.duration_s = 20000.0\n")
         running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot"],
                                    cwd=self.path, stderr=subprocess.PIPE, text=True)

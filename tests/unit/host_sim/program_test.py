@@ -1,4 +1,4 @@
-"""supercoil-sim as a user or a script meets it: what it writes and tells."""
+"""supercoil-sim as seen by a user or a script: what it writes and prints."""
 
 import csv
 import json
@@ -24,7 +24,7 @@ class Results(ProgramCase):
         fault, = json.loads((self.path / "out/summary.json").read_text())["faults"]
         self.assertEqual((fault["number"], fault["name"]), (20, "heater_open"))
         self.assertAlmostEqual(fault["at_s"], 12.02, delta=0.03)
-        # 10 s before and 1 s after, a row a tick.
+        # 10 s before and 1 s after, one row per tick.
         recording = (self.path / "out/flight-1.scfr").read_bytes()
         self.assertGreater(len(recording), 11000 * 112)
         self.assertLess(len(recording), 11002 * 112 + 4096)
@@ -142,7 +142,7 @@ class Results(ProgramCase):
         self.assertGreater(summary["realtime_factor"], 0)
 
     def test_the_plot_has_one_time_axis_and_names_of_states(self):
-        # The muscle follows a reference model from 15 to 20 s only.
+        # The muscle follows a reference model only from 15 to 20 s.
         self.run_program("run", self.scenario(
             "simulation.duration_s = 40.0\noperator.action = 'calibrate'\n[[event]]\nat_s = 15.0\noperator.action = 'track'\n"
             "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n"), "--out", "out", "--no-trace", "--no-can")

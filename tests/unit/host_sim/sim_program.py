@@ -1,4 +1,4 @@
-"""supercoil-sim in a folder of its own, for tests."""
+"""supercoil-sim in its own folder, for tests."""
 
 import os
 import pathlib

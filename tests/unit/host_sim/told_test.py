@@ -1,4 +1,4 @@
-"""What supercoil-sim run tells of the muscle and its reference, beforehand and afterwards."""
+"""What supercoil-sim run reports about the muscle and its reference before and after a run."""
 
 import json
 import re
@@ -6,13 +6,13 @@ import unittest
 
 from sim_program import SHORT, ProgramCase
 
-# So badly may it be cooled that it holds 12.1 mm.
+# The muscle may be cooled so badly that it holds only 12.1 mm.
 HOT = "thermal = {transfer_ratio = [0.25, 2.2], power_ratio = [1.0, 1.3]}\n"
 
 
 class Told(ProgramCase):
     def after(self, text, status=0):
-        """What a run prints, and its summary."""
+        """A run's output and its summary."""
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stdout, json.loads((self.path / "out/summary.json").read_text())
@@ -37,7 +37,7 @@ class Told(ProgramCase):
         self.assertEqual(told["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
 
     def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
-        # Through a quick model already the step to the sine's middle asks for too much.
+        # Through a fast model even the step to the middle of the sine asks for too much.
         for turn_rad_per_s, shape, poles, told in ((2.0, "false", [4.0, 5.0, 6.0], True), (2.0, "true", [4.0, 5.0, 6.0], True),
                                                  (0.2, "false", [4.0, 5.0, 6.0], True), (0.2, "false", [2.0, 2.0, 2.0], False)):
             text = (f"simulation.duration_s = 120.0\ncontroller = {{kind = 'learned_ff', shape_reference = {shape}}}\n"
@@ -78,7 +78,7 @@ class Told(ProgramCase):
                       "limited_by temperature: a smaller one\n", told)
 
     def test_a_step_is_told_alike_before_and_after(self):
-        # At rest noise is at the lowest power for a while, which no reference asks for.
+        # At rest, noise keeps the power at its minimum for a while, which no reference asks for.
         step = ("simulation.duration_s = 60.0\nplant.thermal_mass_J_per_K = 2.0\n"
                 "reference = {kind = 'step', from_m = 0.0, to_m = 0.02, at_s = 5.0}\n")
         before = json.loads(self.run_program("run", self.scenario(step), "--check", "--json").stdout)["reference"]

@@ -1,4 +1,4 @@
-"""supercoil identify as a laboratory meets it, on recordings of muscles that supercoil-sim made."""
+"""supercoil identify as seen by a laboratory, on recordings of muscles that supercoil-sim made."""
 
 import csv
 import json
@@ -149,7 +149,7 @@ class Identify(unittest.TestCase):
         subprocess.run([WRITE_SAMPLE, self.path], check=True, capture_output=True)
         done = self.identify("flight-1.scfr", status=2)
         self.assertIn("flight-1.scfr: has 2 channels: say which by --channel", done.stderr)
-        # The sample's muscle is never moved by its power: that is for the checks to say.
+        # In the sample the power never moves the muscle: the checks must report that.
         self.assertIn("flight-1.scfr:", self.identify("flight-1.scfr", "--channel", 1, status=2).stderr)
 
     def test_the_recording_is_never_written_over(self):

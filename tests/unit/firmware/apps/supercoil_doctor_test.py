@@ -1,6 +1,6 @@
-"""supercoil doctor as its owner or a script meets it, on a machine that is no board: exit status, text, JSON.
+"""supercoil doctor as seen by a user or a script on a machine that is not a board: exit status, text, JSON.
 
-On the emulated board it meets devices (tests/hil/doctor_test.py).
+tests/hil/doctor_test.py runs it on the emulated board, which has devices.
 """
 
 import fcntl
@@ -21,7 +21,7 @@ class Doctor(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.path = pathlib.Path(folder.name)
         text = SLOW.read_text()
-        # Names that no machine has, so that nothing can be touched.
+        # Names that exist on no machine, so that nothing can be touched.
         for old, new in (("pinctrl-bcm2711", "no-such-chip"), ("i2c-1/1-0040", "no-such-pwm/0"),
                          ("/dev/watchdog", "/dev/no-such-watchdog")):
             self.assertIn(old, text)

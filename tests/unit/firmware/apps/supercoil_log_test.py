@@ -1,4 +1,4 @@
-"""supercoil log as an operator or a script meets it: exit status, messages, files."""
+"""supercoil log as seen by an operator or a script: exit status, messages, files."""
 
 import collections
 import csv
@@ -124,7 +124,7 @@ class Log(unittest.TestCase):
         self.assertEqual([sequence for _, topic, sequence, _ in rows if topic == "/channel_1"], list(range(len(rows) // 2)))
 
     def test_mcap_has_a_summary(self):
-        """PlotJuggler 3 opens no file without one."""
+        """PlotJuggler 3 does not open files without a summary."""
         self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)
         with open(self.path / "r.mcap", "rb") as file:
             messages = list(mcap.reader.NonSeekingReader(file).iter_messages())

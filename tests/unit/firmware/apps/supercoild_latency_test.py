@@ -1,4 +1,4 @@
-"""supercoild --latency: what it prints, draws and refuses. Never how fast this machine is."""
+"""supercoild --latency: what it prints, draws and refuses, regardless of this machine's speed."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import unittest
 
 PROGRAM = os.environ["SUPERCOILD"]
 EXAMPLES = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"])
-# A machine that is busy with tests must not be held up: ordinary threads.
+# Ordinary threads, so that a machine busy with tests is not held up.
 GENTLE = ("--latency", "--priority", "0")
 
 
@@ -42,7 +42,7 @@ class Latency(unittest.TestCase):
             starts = [start for start, _ in h["histogram"]]
             self.assertEqual(starts, sorted(set(starts)))
             self.assertLessEqual(starts[0], h["min_us"])
-        # A tick does something, and less than a millisecond of it.
+        # A tick takes some time, but less than a millisecond.
         self.assertGreater(told["tick"]["min_us"], 0.0)
         self.assertLess(told["tick"]["p50_us"], 1000.0)
 
@@ -76,7 +76,7 @@ class Latency(unittest.TestCase):
         done = subprocess.run(["strace", "-f", "-e", "trace=openat,open", PROGRAM, *GENTLE, "--ticks", "20", "--config",
                                str(EXAMPLES / "raspberry-pi-pca9685-ads1115.toml")],
                               capture_output=True, text=True, cwd=self.path, timeout=120,
-                              # Which would trace as well, and only one may.
+                              # The leak detector would trace as well, and only one tracer is allowed.
                               env=os.environ | {"ASAN_OPTIONS": "detect_leaks=0"})
         self.assertEqual(done.returncode, 0, done.stderr)
         for folder in ("/dev/gpiochip", "/sys/class/pwm", "/sys/bus/iio", "/dev/watchdog"):
@@ -122,7 +122,7 @@ class Latency(unittest.TestCase):
     def test_it_goes_on_when_nobody_reads_its_log_any_more(self):
         reader, log = os.pipe()
         os.close(reader)
-        # Long enough to say every second how far it is.
+        # Long enough to report its progress every second.
         program = self.start("--ticks", 2500, stderr=log)
         os.close(log)
         out, _ = program.communicate(timeout=60)

@@ -1,4 +1,4 @@
-"""supercoild as its owner or a script meets it: exit status and messages."""
+"""supercoild as seen by a user or a script: exit status and messages."""
 
 import fcntl
 import json
@@ -96,7 +96,7 @@ class Program(unittest.TestCase):
         self.assertEqual(done.stdout.count("until they are compared with a meter"), 3)
 
     def test_check_prints_the_locked_memory(self):
-        # Four channels at 1 kHz, buses out of the way: most of all is the recorder.
+        # Four channels at 1 kHz without buses: the recorder takes most of the memory.
         text = re.sub(r'^bus = .*\n|, bus = "[^"]*"', "", SLOW.read_text(), flags=re.M)
         text = re.sub(r"\[\[bus\]\]\nname = .*\nclock_Hz = .*\n", "", text).replace("rate_Hz = 100.0", "rate_Hz = 1000.0")
         (self.path / "b.toml").write_text(text)
@@ -152,7 +152,7 @@ class Program(unittest.TestCase):
                          (2, "", "/etc/supercoil/board.toml: there is no such file\n"))
 
     def no_such_board(self):
-        """Names of devices that no machine has, so that nothing can be touched."""
+        """Names of devices that exist on no machine, so that nothing can be touched."""
         text = SLOW.read_text()
         for old, new in (("pinctrl-bcm2711", "no-such-chip"), ("i2c-1/1-0040", "no-such-pwm/0"),
                          ('[board]\n', f'[board]\nstorage_folder = "{self.path}"\n')):

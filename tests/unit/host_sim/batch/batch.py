@@ -1,4 +1,4 @@
-"""What every command of supercoil-sim that makes many runs must do: for tests, beside ProgramCase."""
+"""Tests for every command of supercoil-sim that makes many runs; used together with ProgramCase."""
 
 import csv
 import signal
@@ -9,11 +9,11 @@ from sim_program import PROGRAM
 
 
 class Batch:
-    ARGUMENTS = ()  # the command and what it runs
+    ARGUMENTS = ()  # the command and its arguments
     MERGES = ()  # the command that merges parts
-    KEPT_LINES = 0  # of runs.csv when a run is done
+    KEPT_LINES = 0  # lines in runs.csv when a run is done
 
-    _whole = None  # files that all tests of a class begin from
+    _whole = None  # files from which all tests of a class start
 
     def run_batch(self, *arguments, status=0):
         done = self.run_program(*arguments)
@@ -35,7 +35,7 @@ class Batch:
             return list(csv.DictReader(file))
 
     def whole(self):
-        """The files of all runs, which are in whole/ too."""
+        """The files of all runs, which are also in whole/."""
         if self._whole is None:
             self.batch("--out", "whole", "--jobs", 1)
             type(self)._whole = self.files("whole")

@@ -1,4 +1,4 @@
-"""supercoil-sim campaign as a user meets it: the same bytes whatever the jobs, resumed, in parts, replayed, damaged."""
+"""supercoil-sim campaign as seen by a user: the same bytes with any number of jobs, resumed, in parts, replayed, damaged."""
 
 import csv
 import json
@@ -13,7 +13,7 @@ from sim_program import PROGRAM, ProgramCase
 
 RECIPES = pathlib.Path(__file__).resolve().parents[4] / "examples/campaign"
 
-# Short runs, of which some fail and some cannot be.
+# Short runs, some of which fail and some of which are refused.
 STUDY = """# Brief
 [study]
 runs = 24
@@ -35,7 +35,7 @@ name = "noise"
 keys = "sensor.position.noise_rms_m"
 list = [1e-6, 1e-5]
 """
-FIRST_LINES = 2  # what made it, and the columns' names
+FIRST_LINES = 2  # the command that made it, and the column names
 
 
 class Campaign(Batch, ProgramCase):
@@ -122,7 +122,7 @@ class Campaign(Batch, ProgramCase):
 
     def test_a_clusters_jobs_give_the_whole(self):
         whole = self.whole()
-        self.path = self.path / "what's $HOME"  # a shell must leave it as it is
+        self.path = self.path / "what's $HOME"  # a shell must leave it unchanged
         self.path.mkdir()
         (self.path / "brief.toml").write_text(STUDY)
         said = self.campaign("--out", "array", "--slurm", 3, "--no-submit").stdout
@@ -139,7 +139,7 @@ class Campaign(Batch, ProgramCase):
         whole = self.whole()
         tools = self.path / "tools"
         tools.mkdir()
-        # In the place of Apptainer: `apptainer run IMAGE ARGUMENTS`.
+        # Stands in for Apptainer: `apptainer run IMAGE ARGUMENTS`.
         (tools / "apptainer").write_text('#!/bin/sh\n[ "$1 $2" = "run supercoil-sim.sif" ] || exit 1\n'
                                          f'shift 2\nexec "{PROGRAM}" "$@"\n')
         (tools / "apptainer").chmod(0o755)
@@ -162,7 +162,7 @@ class Campaign(Batch, ProgramCase):
     def test_what_submit_is_given_reaches_the_parts_alone(self):
         tools = self.path / "tools"
         tools.mkdir()
-        # What sbatch --parsable prints with clusters: a job's number and the cluster's name.
+        # sbatch --parsable with clusters prints the job's number and the cluster's name.
         (tools / "sbatch").write_text('#!/bin/sh\nfor word; do echo "$word"; done >> "$CALLS"\necho >> "$CALLS"\necho "17;mine"\n')
         (tools / "sbatch").chmod(0o755)
         self.campaign("--out", "array", "--slurm", 3, "--no-submit")

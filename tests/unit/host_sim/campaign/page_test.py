@@ -1,4 +1,4 @@
-"""report.html of a campaign: one file, campaign.csv's figures, nothing of a study taken for markup; in Chromium."""
+"""report.html of a campaign in Chromium: one file with campaign.csv's figures; no text of a study is taken for markup."""
 
 import base64
 import csv

@@ -1,4 +1,4 @@
-"""supercoil-sim compare as a user meets it: the same bytes whatever the jobs, resumed, in parts, and damaged."""
+"""supercoil-sim compare as seen by a user: the same bytes with any number of jobs, resumed, in parts, and damaged."""
 
 import csv
 import subprocess
@@ -7,7 +7,7 @@ import unittest
 from batch.batch import Batch
 from sim_program import PROGRAM, ProgramCase
 
-# Two cells of two seeds, short, each with an event.
+# Two short cells with two seeds each and an event.
 BRIEF = "[simulation]\nduration_s = 30.0\n[[event]]\nat_s = 25.0\nplant.stiffness_N_per_m = 12.0\n"
 CELLS = ["--controllers", "pi,mrac-a", "--disturbances", "brief.toml", "--seeds", "2", "--no-plot"]
 
@@ -44,7 +44,7 @@ class Compare(Batch, ProgramCase):
             self.assertIn("95 %", next(file))
             row, = [row for row in csv.DictReader(file) if (row["controller"], row["measure"]) == ("mrac-a", "peak_m")]
         mean = sum(peaks) / 2
-        half = 12.7062 * abs(peaks[0] - peaks[1]) / 2  # Student's t of one degree of freedom
+        half = 12.7062 * abs(peaks[0] - peaks[1]) / 2  # Student's t for one degree of freedom
         self.assertAlmostEqual(float(row["mean"]), mean, delta=1e-5 * mean)
         self.assertAlmostEqual(float(row["worst"]), max(peaks), delta=1e-5 * mean)
         self.assertAlmostEqual(float(row["ci95_high"]), mean + half, delta=1e-5 * mean)

@@ -1,4 +1,4 @@
-"""supercoil-sim estimators as a user meets it: the same bytes whatever the jobs, and figures that hang together."""
+"""supercoil-sim estimators as seen by a user: the same bytes with any number of jobs, and consistent figures."""
 
 import csv
 import os
@@ -16,7 +16,7 @@ PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
 class Estimators(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """All runs of one seed, on two threads: what the others are compared with."""
+        """All runs of one seed on two threads; the other runs are compared with these."""
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.whole = pathlib.Path(folder.name) / "whole"
@@ -45,7 +45,7 @@ class Estimators(unittest.TestCase):
             rows = {(row["trial"], row["estimator"], row["measure"]): row for row in csv.DictReader(file)}
         steady = {name: float(rows["nominal", name, "steady_rms_percent"]["theta1"])
                   for name in ("bound", "gradient", "least_squares", "ekf")}
-        # 40 s of one seed may lie below the bound, but not far.
+        # 40 s with one seed may be below the bound, but not by much.
         self.assertTrue(0.5 < steady["bound"] < 0.7, steady)
         self.assertTrue(0.1 * steady["bound"] < steady["least_squares"] < 3.0 * steady["bound"], steady)
         self.assertTrue(0.1 * steady["bound"] < steady["ekf"] < 3.0 * steady["bound"], steady)

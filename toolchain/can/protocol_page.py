@@ -1,4 +1,4 @@
-"""Prints docs/can-protocol.md from the DBC that is named on the command line."""
+"""Prints docs/can-protocol.md from the DBC given on the command line."""
 
 import sys
 

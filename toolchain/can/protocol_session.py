@@ -1,4 +1,4 @@
-"""The session in docs/can-protocol.md, its frames encoded by cantools from the DBC."""
+"""The session in docs/can-protocol.md, with frames encoded by cantools from the DBC."""
 
 SESSION = """
 ## A session

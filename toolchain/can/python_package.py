@@ -1,4 +1,4 @@
-"""Writes firmware/python/supercoil/generated/: what the Python package knows of the protocol, of faults and of refusals.
+"""Writes firmware/python/supercoil/generated/: the Python package's tables of the protocol, of faults and of refusals.
 
 usage: python_package.py DBC REPOSITORY FOLDER
 """
@@ -23,7 +23,7 @@ def class_name(name):
 
 
 def tables(database):
-    """Each table of names once; a signal's name is its table's."""
+    """Each table of names once; a table has the name of its signal."""
     found = {}
     for message in database.messages:
         for signal in message.signals:

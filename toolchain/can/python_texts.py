@@ -1,4 +1,4 @@
-"""Texts of the documentation, as the Python package's messages have them."""
+"""Texts from the documentation, for the messages of the Python package."""
 
 import re
 
@@ -6,12 +6,12 @@ LINK = re.compile(r"\[([^\]]*)\](?:\([^)]*\))?")
 
 
 def plain(markdown):
-    """Without links and signs of markup."""
+    """The text without links and markup."""
     return LINK.sub(r"\1", markdown).replace("`", "").replace("**", "").replace('"', "'").strip()
 
 
 def first_paragraph(page):
-    """That which follows the page's title."""
+    """The first paragraph after the page's title."""
     return page.split("\n\n")[1]
 
 
@@ -21,7 +21,7 @@ def section(page, heading):
 
 
 def table_cells(page, title):
-    """Of the table whose first column has this title: first cell -> all after it. Names in one cell share them."""
+    """For the table whose first column has this title: first cell -> the other cells. Names in one cell share them."""
     rows, inside = {}, False
     for line in page.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("| ")]
@@ -36,5 +36,5 @@ def table_cells(page, title):
 
 
 def table_rows(page, title):
-    """The same with the last cell only."""
+    """The same, but with the last cell only."""
     return {name: cells[-1] for name, cells in table_cells(page, title).items()}

@@ -1,5 +1,5 @@
-"""Prints firmware/io/can/generated/messages.hpp, every message and signal as a table, from the DBC that is named on
-the command line."""
+"""Prints firmware/io/can/generated/messages.hpp, every message and signal as a table, from the DBC given on the
+command line."""
 
 import re
 import sys

@@ -1,8 +1,8 @@
-# The libraries as other projects find them: find_package(supercoil) and pkg-config. docs/library.md.
+# How other projects find the libraries: find_package(supercoil) and pkg-config. docs/library.md.
 include(CMakePackageConfigHelpers)
 
 set(headers ${CMAKE_INSTALL_INCLUDEDIR})
-# The firmware's headers include each other by their folders: "loop/loop.hpp".
+# The firmware's headers include each other with their folder: "loop/loop.hpp".
 set(firmware_headers ${CMAKE_INSTALL_INCLUDEDIR}/supercoil/firmware)
 install(DIRECTORY control/include/ hal/include/ DESTINATION ${headers} COMPONENT development)
 install(DIRECTORY firmware/core/ firmware/io/ DESTINATION ${firmware_headers} COMPONENT development
@@ -15,7 +15,7 @@ target_include_directories(supercoil_control INTERFACE $<INSTALL_INTERFACE:${hea
 target_include_directories(supercoil_hal INTERFACE $<INSTALL_INTERFACE:${headers}>)
 target_include_directories(supercoil_core INTERFACE $<INSTALL_INTERFACE:${firmware_headers}>)
 
-# Two files: who takes control alone needs Eigen only.
+# Two files, because a project that uses only control needs only Eigen.
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/supercoil)
 install(TARGETS supercoil_control EXPORT control ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(TARGETS supercoil_hal supercoil_core supercoil_io supercoil_firmware supercoil_can_client
@@ -29,7 +29,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/supercoil-config-version.
 install(FILES toolchain/cmake/supercoil-config.cmake ${PROJECT_BINARY_DIR}/supercoil-config-version.cmake
         DESTINATION ${config_folder} COMPONENT development)
 
-# Wherever --prefix puts them.
+# Relative paths, so that they work with any --prefix.
 set(pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH to_prefix /${pkgconfig_folder} /)
 function(install_pkg_config name description requires libraries flags)

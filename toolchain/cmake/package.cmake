@@ -1,8 +1,8 @@
-# What is installed beside the programs. Its components are Debian's packages (toolchain/debian/source): board, which is the
-# default, and simulator; toolchain/cmake/library.cmake has the third, development.
+# Files installed with the programs. The components are Debian's packages (toolchain/debian/source): board, which is the
+# default, and simulator; toolchain/cmake/library.cmake has the third one, development.
 set(documents ${CMAKE_INSTALL_DOCDIR})
 
-# Debian wants manual pages compressed, and without a time in them.
+# Debian requires manual pages to be compressed, without a time stamp.
 function(supercoil_install_compressed file folder component)
   get_filename_component(name ${file} NAME)
   set(compressed ${PROJECT_BINARY_DIR}/compressed/${name}.gz)
@@ -26,7 +26,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN m
 install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/io/can/supercoil.dbc
         DESTINATION ${documents}/examples)
 
-# Debian's zsh looks below /usr in another folder than below /usr/local.
+# Debian's zsh searches different folders below /usr and below /usr/local.
 set(zsh_folder site-functions)
 if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
   set(zsh_folder vendor-completions)
@@ -40,8 +40,8 @@ supercoil_install_completion(bash ${CMAKE_INSTALL_DATADIR}/bash-completion/compl
 supercoil_install_completion(zsh ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder})
 supercoil_install_completion(fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-# Files that the administrator may change: dpkg keeps what was changed. No board.toml among them: what is wired to a
-# board, no default can know, and without it the service does not start.
+# Files that the administrator may change: dpkg keeps the changes. There is no board.toml, because no default can know
+# the wiring of a board, and without it the service does not start.
 file(GLOB boards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/io/config/examples/*.toml)
-# etc below the prefix, unless CMAKE_INSTALL_SYSCONFDIR is absolute, as it is for the package.
+# etc below the prefix, unless CMAKE_INSTALL_SYSCONFDIR is absolute, as for the package.
 install(FILES ${boards} DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/supercoil/boards)

@@ -1,5 +1,5 @@
-# Headers that most files include, parsed once for all. What a file forgets to include is found by clang-tidy and by the
-# debug preset, which do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that most files include, parsed only once. clang-tidy and the debug preset find missing includes, because they
+# do not use precompiled headers (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "" @ONLY)
 add_library(supercoil_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(supercoil_precompiled PRIVATE supercoil_control supercoil_options)
@@ -15,7 +15,7 @@ if(SUPERCOIL_TESTS)
   target_precompile_headers(supercoil_precompiled PRIVATE <rapidcheck.h>)
 endif()
 
-# For every program and library of a folder and of those below it that use control.
+# For every program and library that uses control in a folder and its subfolders.
 function(supercoil_use_precompiled folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)

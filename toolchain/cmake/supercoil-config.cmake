@@ -1,5 +1,5 @@
-# find_package(supercoil [COMPONENTS control firmware can_client]): supercoil::control needs Eigen alone; the others, which
-# come without COMPONENTS too, need Boost's headers, toml++ and tl::expected.
+# find_package(supercoil [COMPONENTS control firmware can_client]): supercoil::control needs only Eigen; the others, which
+# are also found without COMPONENTS, need Boost's headers, toml++ and tl::expected.
 include(CMakeFindDependencyMacro)
 
 set(supercoil_wanted ${supercoil_FIND_COMPONENTS})

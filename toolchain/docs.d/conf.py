@@ -1,4 +1,4 @@
-"""How Sphinx makes a site of README.md, CHANGELOG.md, docs/ and the manual pages there: toolchain/docs."""
+"""Sphinx's configuration for the site of README.md, CHANGELOG.md, docs/ and its manual pages: toolchain/docs."""
 
 import pathlib
 import re
@@ -16,11 +16,11 @@ html_title = f"supercoil {release}"
 extensions = ["myst_parser", "site_parts"]
 root_doc = "README"
 include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/api/*.md", "docs/faults/*.md", "docs/man/*.[1-8]"]
-# site_parts.adapt() makes Markdown of manual pages.
+# site_parts.adapt() converts manual pages to Markdown.
 source_suffix = dict.fromkeys([".md", ".1", ".8"], "markdown")
 exclude_patterns = sorted(entry.name for entry in ROOT.iterdir() if entry.is_dir() and entry.name != "docs")
 
-# Links, headings' anchors and formulas are a Git host's.
+# Links, anchors of headings and formulas work as on a Git host.
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 6
 myst_fence_as_directive = ["mermaid"]

@@ -1,4 +1,4 @@
-"""Manual pages (docs/man, in mdoc) as pages of Markdown for Sphinx: each option is an entry with its own anchor."""
+"""Manual pages (docs/man, in mdoc) as Markdown pages for Sphinx: each option is an entry with its own anchor."""
 
 import re
 
@@ -13,7 +13,7 @@ def plain(text):
 
 
 def prose(text):
-    """Options as code: within text two hyphens would become a dash."""
+    """Formats options as code, because in text two hyphens would become a dash."""
     found, at = [], 0
     for option in OPTION.finditer(text):
         found += [inline(text[at:option.start()]), f"`{option[0]}`"]
@@ -22,7 +22,7 @@ def prose(text):
 
 
 def styled(macro, words, name):
-    """A macro within text."""
+    """A macro in running text."""
     text = " ".join(words)
     if macro == "Xr":
         return f"[{words[0]}({words[1]})]({words[0]}.{words[1]})"
@@ -38,7 +38,7 @@ def styled(macro, words, name):
 
 
 def head(words):
-    """Of an option, or of a positional: as it is typed."""
+    """The head of an option or a positional, as it is typed."""
     text = re.sub(r"Fl (\S+)", r"-\1", " ".join(words)).replace("Ar ", "")
     return text.replace(" ,", ",")
 

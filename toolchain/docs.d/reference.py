@@ -1,16 +1,16 @@
-"""The API reference: what Doxygen found in the headers (its XML), as pages of Markdown for Sphinx."""
+"""The API reference: Doxygen's XML for the headers, as Markdown pages for Sphinx."""
 
 import pathlib
 import re
 import xml.etree.ElementTree as ET
 
 ROOTS = (pathlib.Path("control/include"), pathlib.Path("hal/include"))
-WIDTH = 76  # of a line of code in the site's column of text
+WIDTH = 76  # of a code line in the site's text column
 SPECIAL = re.compile(r"([\\`*_\[\]<>{}$#|~])")
 
 
 def headers(root, part):
-    """Each header of a part of the libraries (a folder's name), as it is included."""
+    """Each header of a part of the libraries (the name of a folder), as it is included."""
     for folder in ROOTS:
         for header in sorted((root / folder / "supercoil").glob(f"**/{part}/*.hpp")):
             yield header.relative_to(root / folder).as_posix()
@@ -22,7 +22,7 @@ def code(text):
 
 
 def prose(element):
-    """Paragraphs of a description, on lines of their own."""
+    """Paragraphs of a description, each on its own lines."""
     found = []
     for para in element.findall("para") if element is not None else []:
         parts = [inline(para.text)]
@@ -88,7 +88,7 @@ def signature(member):
     arguments = code(member.findtext("argsstring") or "")
     declared = f"{code(prefix + words)} {name}".strip()
     if len(declared + arguments) > WIDTH:
-        # A line for each parameter. Commas within a type's arguments are none of the list's.
+        # One line per parameter. Commas inside a type's arguments do not separate parameters.
         arguments = re.sub(r",(?=[^<>]*(?:<[^<>]*>[^<>]*)*$)", ",\n   ", arguments).replace("(", "(\n    ", 1)
     return f"{template_of(member)}{declared}{arguments}{value};"
 
@@ -107,7 +107,7 @@ class Reference:
                 if compound.get("kind") in kinds and compound.find("location").get("file") == header]
 
     def section(self, header):
-        """A header: what it is for, its types in the order of their lines, then its functions and values."""
+        """A header: its purpose, its types in the order of their lines, then its functions and values."""
         files = self.here(header, "file")
         lines = [f"({file.get('id')})=" for file in files]
         lines += [f"## {pathlib.PurePosixPath(header).name}", "", f'```cpp\n#include "{header}"\n```', ""]

@@ -1,11 +1,11 @@
-"""What a Git host does by itself, for Sphinx: navigation by lists of links, diagrams in Mermaid, formulas in MathML."""
+"""Features of a Git host, for Sphinx: navigation from lists of links, Mermaid diagrams, formulas in MathML."""
 
 import pathlib
 import posixpath
 import re
 
 from docutils import nodes
-from docutils.utils.math.latex2mathml import tex2mathml  # no documented interface: docutils is pinned
+from docutils.utils.math.latex2mathml import tex2mathml  # not a documented interface: docutils is pinned
 from manual import Manual
 from pygments.lexers.special import TextLexer
 from reference import Reference, headers
@@ -22,7 +22,7 @@ FAULT = re.compile(r"^\| *\d+ *\| \[(\w+)\]", re.M)
 
 
 def groups(index):
-    """(heading, [(name, page)]) of the index: each of its points begins with a page."""
+    """(heading, [(name, page)]) of the index: each of its items begins with a page."""
     found = []
     for match in PAGE_OR_GROUP.finditer(index):
         if match["group"]:
@@ -39,7 +39,7 @@ def toctree(caption, pages):
 
 
 def adapt(app, page, source):
-    """Adds the navigation, and names a page as it does where a link's text is a file's name."""
+    """Adds the navigation, and names pages as it does in links whose text is a file name."""
     if posixpath.dirname(page) == MANUAL:
         source[0] = Manual(source[0]).page()
     index = (pathlib.Path(app.srcdir) / f"{INDEX}.md").read_text()
@@ -67,7 +67,7 @@ class Mermaid(SphinxDirective):
     has_content = True
 
     def run(self):
-        # Without scripts its text is shown.
+        # Without scripts the diagram's text is shown.
         return [nodes.literal_block(text="\n".join(self.content), language="text", classes=["diagram"])]
 
 

@@ -1,4 +1,4 @@
-"""Completion of the programs' commands and options in bash, zsh and fish, from what --help says."""
+"""Completion of the programs' commands and options in bash, zsh and fish, from --help."""
 
 import re
 import subprocess
@@ -11,8 +11,8 @@ from help_text import PROGRAMS, entries, help_of, parts_of
 class Option:
     names: list[str]
     text: str
-    value: str  # as the help calls it: FILE, INT; empty: it takes none
-    values: list[str]  # that it may have; none: a file, or anything
+    value: str  # its name in the help: FILE, INT; empty: it takes none
+    values: list[str]  # allowed ones; empty: a file, or anything
 
     @property
     def may_be_file(self):
@@ -24,7 +24,7 @@ class Command:
     name: str  # "" is the program itself
     text: str = ""
     options: list[Option] = field(default_factory=list)
-    values: list[str] = field(default_factory=list)  # of its positionals, besides files
+    values: list[str] = field(default_factory=list)  # for its positionals, besides files
 
 
 def positional_values(programs, command, name, text):
@@ -60,7 +60,7 @@ def commands_of(programs, program):
 
 
 def first(text):
-    """Its first sentence, as there is little room."""
+    """Only the first sentence, because there is little room."""
     return re.split(r"(?<=[a-z)])[.;:] ", text)[0].rstrip(".")
 
 
@@ -128,7 +128,7 @@ def zsh(program, commands):
         yield "  " + quoted(last)
 
     def last_of(command):
-        # Words and files both.
+        # Both words and files.
         return "*:value:{_alternative \"values:value:(" + " ".join(command.values) + ")\" \"files:file:_files\"}" \
             if command.values else "*:file:_files"
 
@@ -185,6 +185,6 @@ def files(programs):
         commands = commands_of(programs, program)
         for name, lines in ((f"bash/{program}", bash), (f"zsh/_{program}", zsh), (f"fish/{program}.fish", fish)):
             text = list(lines(program, commands))
-            # zsh looks at the first line.
+            # zsh reads the first line.
             at = 1 if text[0].startswith("#compdef") else 0
             yield name, "\n".join([*text[:at], note, *text[at:]]) + "\n"

@@ -1,4 +1,4 @@
-"""What the programs print with --help, taken apart: for the manual pages and for completion in shells."""
+"""Parses the programs' --help, for the manual pages and for completion in shells."""
 
 import pathlib
 import re
@@ -19,20 +19,20 @@ def help_of(programs, command):
 
 
 def entries(text):
-    """(section, name, description) of each thing that a help lists."""
+    """(section, name, description) of each entry that a help lists."""
     section, lines = "", text.splitlines()
     for line, below in zip(lines, [*lines[1:], ""]):
         if re.fullmatch(r"[A-Z][\w -]*:", line):
             section = line[:-1]
         elif re.match(r"  \S", line):
-            # What does not fit its column has the description below.
+            # A name that does not fit its column has its description below.
             own_line = below.startswith(" " * DESCRIPTION_COLUMN)
             name, description = (line, below) if own_line else (line[:DESCRIPTION_COLUMN], line[DESCRIPTION_COLUMN:])
             yield section, name.strip(), description.strip()
 
 
 def commands(programs):
-    """Every command that the programs know, as it is typed."""
+    """Every command of the programs, as it is typed."""
     for program in PROGRAMS:
         yield program
         for section, name, _ in entries(help_of(programs, program)):
@@ -41,7 +41,7 @@ def commands(programs):
 
 
 def parts_of(name):
-    """Of an option or a positional as the help names it."""
+    """The parts of an option or a positional as it stands in the help."""
     parts = NAME.fullmatch(name)
     if not parts:
         raise SystemExit(f"cannot read this of the help: {name}")

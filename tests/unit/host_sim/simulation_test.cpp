@@ -64,8 +64,7 @@ TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
   LearnedMuscles learned;
   learned[0].emplace();
   learned[0]->muscle = read(text).start.muscle;
-  learned[0]->muscle.stiffness_N_per_m *=
-      1.001;  // identified, so different from the configured one
+  learned[0]->muscle.stiffness_N_per_m *= 1.001;  // identified, not the configured one
   learned[0]->calibration.cold_resistance_Ohm = 10.0;
   learned[0]->response_ratio = 1.0;
   const auto known = parse_scenario(text, "s.toml", learned);

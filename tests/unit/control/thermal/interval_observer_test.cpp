@@ -57,7 +57,7 @@ TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
 }
 
 TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
-  // Both lower bounds are not enough: after a pulse a heavier muscle stays hot for longer.
+  // The two lower bounds alone are not enough: after a pulse a heavier muscle stays hot longer.
   IntervalObserver observer({0.12, 0.20, 0.06, 0.06}, slow_step_s);
   double light_K = 0.0;
   double heavy_K = 0.0;

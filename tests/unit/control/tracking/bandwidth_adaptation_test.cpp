@@ -34,7 +34,7 @@ struct AdaptedLoop {
   }
 
   double step_s;
-  double max_rad_per_s = 8.0;  ///< bandwidth of the unadapted loop
+  double max_rad_per_s = 8.0;  ///< true bandwidth of the loop at ratio 1
   BandwidthAdaptation bandwidth;
   double true_error = 0.0;
   double lagged = 0.0;

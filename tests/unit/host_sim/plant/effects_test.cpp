@@ -137,7 +137,7 @@ TEST(GuideFriction, HoldsWithoutDriftWhatIsLessThanStaticFriction) {
   push(0.9 * coulomb_N, 60.0);
   push(0.9 * coulomb_N, 5.0);
   const double rested_m = motion.position_m;
-  // A bristle yields as it bends: z = z0 (1 − exp(−x/z0)), where z0 is that of static friction.
+  // A bristle yields as it bends: z = z0 (1 − exp(−x/z0)); static friction would be at z0.
   const double max_m = 1.2 * effects.friction_bristle_m;
   DOUBLES_EQUAL(-max_m * std::log(1.0 - 0.9 / 1.2), rested_m, 1e-7);
   push(0.9 * coulomb_N, 100.0);

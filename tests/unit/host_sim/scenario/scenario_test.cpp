@@ -10,7 +10,10 @@ using namespace supercoil;
 using namespace supercoil::host_sim;
 using supercoil::test::read;
 
-namespace {}  // namespace
+namespace {
+
+/// Reads a scenario that must be in order.
+}  // namespace
 
 TEST_GROUP(ReadScenario){};
 

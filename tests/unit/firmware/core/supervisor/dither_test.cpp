@@ -60,7 +60,7 @@ TEST(Dither, IsDecidedInTimeAtThePowerThatItAllowsAndNotAtMore) {
     const double full_K = 1.94 * power_W / transfer_W_per_K;
     return 0.13 / transfer_W_per_K * std::log(0.75 * full_K / (full_K - 135.0));
   };
-  // 1.3 times the decision time in open loop must fit into three quarters of the time that is left.
+  // A closed loop needs 1.3 times the open-loop decision time, within three quarters of the time.
   const double needed_s = plan.dither.decided_s * 1.3 / 0.75;
   DOUBLES_EQUAL(needed_s, left_s(plan.provable_W), 1e-6);
   CHECK_COMPARE(left_s(1.01 * plan.provable_W), <, needed_s);

@@ -62,7 +62,7 @@ TEST(JointInDegrees, TheAntagonistMayPullAtALeverOfItsOwn) {
       "stiffness   16 N/m at the agonist's lever, 0.0036 Nm/rad, however much both pull: linear "
       "muscles\n",
       told.c_str());
-  // The ratio grows with the antagonist's lever.
+  // This many more watts than with the agonist's lever.
   const double alike_W =
       read_in_degrees(ranged("[-20, 30.0]")).settings.joints[0].gain_ratio(c.settings.channels);
   DOUBLES_EQUAL(1.5 * alike_W, c.settings.joints[0].gain_ratio(c.settings.channels), 1e-12);

@@ -212,7 +212,7 @@ TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);
   CHECK(decode(encode(set)) == set);
-  // Neither is kept when the comparison was forgotten as well.
+  // And with neither, because the comparison was forgotten as well.
   set.senses = {};
   set.heat = {};
   CHECK(decode(encode(set)) == set);

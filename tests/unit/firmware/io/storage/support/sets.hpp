@@ -34,8 +34,8 @@ inline int which(const board::Learned& set) {
   return n >= 0 && board::same_content(set, nth_set(n)) ? n : -1;
 }
 
-/// Doubles from lowest to highest with all bits random, of every magnitude in the range; lowest >
-/// 0.
+/// Doubles from lowest to highest, of every magnitude in the range, with all bits random; lowest >
+/// 0 is required.
 inline rc::Gen<double> any_magnitude(double lowest, double highest) {
   return rc::gen::map(
       rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>()), [=](std::uint64_t bits) {

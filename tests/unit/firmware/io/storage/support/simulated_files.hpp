@@ -15,7 +15,7 @@ struct Mishap {
   /// An error number; 0: the power goes at this call and nothing reaches the disk any more.
   int error = 0;
   bool for_good = false;      ///< every later call fails as well
-  bool takes_effect = false;  ///< the call succeeded all the same; of a write, its first half
+  bool takes_effect = false;  ///< the call takes effect all the same; of a write, its first half
 };
 
 class SimulatedFiles final : public storage::Files {

@@ -18,8 +18,8 @@ from table import Table
 
 # On every board here the plant has priority over the firmware, as physics must; gpio-sim does not report pulls.
 EXPECTED_WARNINGS = {"other programs": r"supercoil-rig-p \(90\) above priority 80",
-                     "channel 1, enable released": "low while nobody drives it; its pull is unknown",
-                     "channel 2, enable released": "low while nobody drives it; its pull is unknown"}
+                     "channel 1, enable released": "low while undriven; its pull is unknown",
+                     "channel 2, enable released": "low while undriven; its pull is unknown"}
 
 # For each fault: what must be a problem, how it is reported, and what follows from the fault by itself.
 FAULTS = {
@@ -36,7 +36,7 @@ FAULTS = {
                     {}),
     "can_default": (None, "", {}),
     "hot_air": ("air", r"45 to 45 .*: must be 13 to 32 ", {}),
-    "enable_up": ("channel 2, enable released", r"^high while nobody drives it; its pull is unknown$", {}),
+    "enable_up": ("channel 2, enable released", r"^high while undriven; its pull is unknown$", {}),
 }
 # Warnings because of the fault.
 FOLLOWS = {
@@ -44,7 +44,7 @@ FOLLOWS = {
     "rail": {"channel 1, position": "the same -?[0-9]+ counts each time"},
     # Ten frames are the kernel's default.
     "can_default": {"CAN can0": "^up, 500000 bit/s, queue of 10 frames$"},
-    "no_pwm": {f"channel {n}, enable released": "not looked at: its duty is not known to be 0" for n in (1, 2)},
+    "no_pwm": {f"channel {n}, enable released": "not checked: its duty may not be 0" for n in (1, 2)},
 }
 
 

@@ -52,9 +52,9 @@ int doctor_command(const DoctorOptions& options) {
     doctor::check_machine(check, sink);
     sink({"configuration", hal::Severity::problem,
           "none: " + options.config + ": there is no such file",
-          "copy the nearest of the examples in /etc/supercoil/boards (in the sources "
-          "firmware/io/config/examples) there and correct it, docs/configuration.md has every key; "
-          "or name another with --config"});
+          "copy the closest example from /etc/supercoil/boards (in the sources: "
+          "firmware/io/config/examples) to that path and correct it (docs/configuration.md "
+          "explains every key); or name another file with --config"});
     return conclude(report, options.json);
   }
   const auto config = config::read_board_config(options.config);

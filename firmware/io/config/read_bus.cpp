@@ -45,7 +45,7 @@ void refuse_slow_buses(std::vector<Section> sections, const BoardWiring& wiring,
     std::ostringstream message;
     message << "the bus would be busy for " << std::round(1e5 * time.total_s) / 100.0 << " ms of a "
             << "tick of " << 1e3 * step_s << " ms (" << std::lround(100.0 * time.total_s / step_s)
-            << " %), and " << 100.0 * max_bus_load << " % is the most";
+            << " %); the limit is " << 100.0 * max_bus_load << " %";
     sections[i].wrong("name", message.str());
   }
 }

@@ -37,8 +37,8 @@ void refuse_load(Section& section, const telemetry::CanSettings& can,
   if (!(load > can.max_load)) return;
   std::ostringstream message;
   message << "the bus would be busy for " << std::lround(100.0 * load)
-          << " % with what is sent at a rate, and " << std::lround(100.0 * can.max_load)
-          << " % is the most (max_load): choose lower rates";
+          << " % by messages sent at a rate; the limit is " << std::lround(100.0 * can.max_load)
+          << " % (max_load): choose lower rates";
   section.wrong("bit_rate", message.str());
 }
 

@@ -91,13 +91,13 @@ hal::Finding judged(const std::string& what, const std::string& found, const Cal
   const std::string all = found + "; " + shown(time);
   if (time.calls == 0) {
     return {what, Severity::warning, all + ": cannot be timed",
-            "end what else keeps this processor busy"};
+            "stop other programs that use this processor"};
   }
   if (time.p99 <= max_direct_call) return {what, Severity::ok, all, ""};
   const std::string slow = all + ": more than " + in_us(max_direct_call);
   if (time.real_time) return {what, Severity::problem, slow, remedy};
   return {what, Severity::warning, slow,
-          "measure with the right to real time; if it stays: " + remedy};
+          "measure with the right to real-time priority; if it persists: " + remedy};
 }
 
 }  // namespace supercoil::doctor

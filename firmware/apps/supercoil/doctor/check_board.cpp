@@ -49,7 +49,7 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
   const double load = telemetry::bus_load(*can, config.settings.channels);
   sink({"CAN load", Severity::ok,
         in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
-            " kbit/s at worst, beside commands; at most " + in_percent(can->max_load),
+            " kbit/s at worst, without commands; the limit is " + in_percent(can->max_load),
         ""});
 }
 
@@ -96,14 +96,14 @@ void check_board(const config::BoardConfig& config, const CheckOptions& options,
     check_watchdog(options.machine, watchdog->device, !lock.has_value(), sink);
   } else {
     sink({"watchdog", Severity::warning, "none: board.watchdog is absent",
-          "use one: without it a kernel that hangs is never reset"});
+          "configure one: without it a kernel that hangs is never reset"});
   }
   BusTimes measured;
   if (lock) {
     measured = check_devices(config, options.machine, options.loop.priority, sink);
   } else {
-    sink({"devices", Severity::warning, "not looked at: " + lock.error().text(),
-          "stop supercoild, or make its folder, and run this again"});
+    sink({"devices", Severity::warning, "not checked: " + lock.error().text(),
+          "stop supercoild, or create its folder, and run this again"});
   }
   check_buses(config, measured, sink);
 }

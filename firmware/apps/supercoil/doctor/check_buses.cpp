@@ -36,7 +36,7 @@ void check_buses(const config::BoardConfig& config, const BusTimes& measured,
     const double time_s = hal::seconds(found->second);
     const std::string both = computed + ", " + of_tick(time_s, tick_s) + " measured";
     if (time_s > config::max_bus_load * tick_s) {
-      sink({what, Severity::problem, both + ": 70 % is the most",
+      sink({what, Severity::problem, both + ": the limit is 70 %",
             "a faster clock, fewer devices on this bus, or a lower rate_Hz"});
     } else if (time_s > borne * computed_s) {
       sink({what, Severity::warning, both,

@@ -31,7 +31,7 @@ Expected supply_of(const BoardSettings& settings) {
           .unit = "V",
           .shown_per_unit = 1.0,
           .must_move = false,
-          .remedy = "switch the supply on; else correct the divider, V_per_count and offset_V"};
+          .remedy = "switch it on; if it is on, correct the divider, V_per_count and offset_V"};
 }
 
 Expected air_of(const BoardSettings& settings) {
@@ -57,7 +57,7 @@ Expected position_of(const ChannelSettings& settings) {
           .unit = "mm",
           .shown_per_unit = 1e3,
           .must_move = s.position_noise_rms_m > 0.0,
-          .remedy = "look at the sensor's wires; else correct m_per_count and offset_m"};
+          .remedy = "check its wires; if they are in order, correct m_per_count and offset_m"};
 }
 
 Expected current_of(const ChannelSettings& settings) {
@@ -70,8 +70,8 @@ Expected current_of(const ChannelSettings& settings) {
           .shown_per_unit = 1e3,
           .must_move = false,
           .remedy =
-              "nothing is driven: look for a power switch that is stuck on; else correct "
-              "A_per_count and offset_A"};
+              "nothing is driven: check for a power switch that is stuck on; if there is none, "
+              "correct A_per_count and offset_A"};
 }
 
 std::vector<Candidate> candidates(const config::BoardConfig& config, linux_board::Parts& parts) {

@@ -38,7 +38,7 @@ void check_output(const config::LineAddress& address, linux_board::OutputPart& p
   if (status != hal::Status::ok) {
     return sink({part.what, Severity::problem,
                  config::shown(address) + " cannot be set: " + hal::text(status),
-                 "look at what the kernel says of its chip (dmesg)"});
+                 "check the kernel log (dmesg) for its chip"});
   }
   sink(judged(part.what, config::shown(address) + ", low", time, line_is_slow));
 }
@@ -52,10 +52,10 @@ void check_stop(const config::LineAddress& address, linux_board::InputPart& part
   const std::string where = config::shown(address);
   if (level.status != hal::Status::ok) {
     sink({part.what, Severity::problem, where + " cannot be read: " + hal::text(level.status),
-          "look at what the kernel says of its chip (dmesg)"});
+          "check the kernel log (dmesg) for its chip"});
   } else if (!level.high) {
-    sink({part.what, Severity::warning, where + ": open (pressed, or a wire of it is off)",
-          "close it: nothing can be armed before"});
+    sink({part.what, Severity::warning, where + ": open (pressed, or one of its wires is off)",
+          "close it: nothing can be armed until then"});
   } else {
     sink(judged(part.what, where + ": closed", time, line_is_slow));
   }
@@ -69,8 +69,8 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
   // A missing device has already been reported.
   if (!enable.device) return;
   if (!channel.pwm.device) {
-    return sink({what, Severity::warning, "not looked at: its duty is not known to be 0",
-                 "see to " + channel.pwm.what + " first"});
+    return sink({what, Severity::warning, "not checked: its duty may not be 0",
+                 "fix " + channel.pwm.what + " first"});
   }
   const hal_linux::LineName name = linux_board::line_name(address);
   enable.device->reset();
@@ -78,7 +78,8 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
   enable.device = hal_linux::GpioOutput::open(name, machine.dev);
   if (at_rest && enable.device) return sink(judged(what, *at_rest));
   const std::string& why = at_rest ? enable.device.error().text() : at_rest.error().text();
-  sink({what, Severity::problem, "released for a moment: " + why, "end what else takes this line"});
+  sink({what, Severity::problem, "released for a moment: " + why,
+        "stop the other program that uses this line"});
 }
 
 }  // namespace
@@ -86,21 +87,20 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
 hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& found) {
   using hal_linux::Bias;
   constexpr const char* fit_resistor =
-      "see that a resistor on the board pulls it down: without one the gate may open when the "
+      "make sure a resistor on the board pulls it down: without one the gate may open when the "
       "firmware dies, and while the board starts";
   const std::string told = std::string("; ") + text(found.bias);
   if (found.level.status != hal::Status::ok) {
     return {what, Severity::warning,
-            std::string("cannot be read while nobody drives it: ") + hal::text(found.level.status) +
-                told,
+            std::string("cannot be read while undriven: ") + hal::text(found.level.status) + told,
             fit_resistor};
   }
   if (found.level.high) {
-    return {what, Severity::problem, "high while nobody drives it" + told,
-            "fit a resistor that pulls it down, stronger than what pulls it up: the gate opens "
+    return {what, Severity::problem, "high while undriven" + told,
+            "fit a resistor that pulls it down more strongly than it is pulled up: the gate opens "
             "when the firmware dies"};
   }
-  const std::string low = "low while nobody drives it" + told;
+  const std::string low = "low while undriven" + told;
   if (found.bias == Bias::pull_down) return {what, Severity::ok, low, ""};
   return {what, Severity::warning, low, fit_resistor};
 }

@@ -29,7 +29,7 @@ void check(const config::PwmAddress& address, linux_board::PwmPart& part, int pr
   const std::string where = "output " + std::to_string(address.number) + " of " + address.device;
   if (status != hal::Status::ok) {
     sink({part.what, Severity::problem, where + " cannot be written: " + hal::text(status),
-          "look at what the kernel says of its driver and bus (dmesg)"});
+          "check the kernel log (dmesg) for its driver and bus"});
     return share();
   }
   write = time.mean;

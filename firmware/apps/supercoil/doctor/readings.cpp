@@ -65,7 +65,7 @@ Finding judged(const std::string& what, const std::string& where, const Readings
     return {what, Severity::problem,
             where + ": " + std::to_string(readings.failed()) + " of " + std::to_string(all) +
                 " readings failed (" + hal::text(readings.failure()) + ")",
-            "look for what else uses the device or its bus (dmesg), and at its wires"};
+            "check what else uses the device or its bus (dmesg), and its wires"};
   }
   const auto in_unit = [&](double counts) {
     return counts * expected.scaling.per_count + expected.scaling.offset;
@@ -84,16 +84,16 @@ Finding judged(const std::string& what, const std::string& where, const Readings
     return {what, Severity::problem,
             found + ", all of them " + std::to_string(readings.lowest()) +
                 " counts: stuck at the converter's " + end + " rail",
-            "look for a wire that is off or shorted, at " + expected.quantity};
+            "check for a wire that is off or shorted at " + expected.quantity};
   }
   if (low < expected.lowest || high > expected.highest) {
     return {what, Severity::problem, found + ": must be " + band, expected.remedy};
   }
   if (expected.must_move && readings.lowest() == readings.highest()) {
-    return {
-        what, Severity::warning,
-        found + ": the same " + std::to_string(readings.lowest()) + " counts each time",
-        "move it by hand and look again: a sensor without noise cannot be told from a frozen one"};
+    return {what, Severity::warning,
+            found + ": the same " + std::to_string(readings.lowest()) + " counts each time",
+            "move it by hand and run this again: a sensor without noise cannot be distinguished "
+            "from a frozen one"};
   }
   return {what, Severity::ok, found, ""};
 }

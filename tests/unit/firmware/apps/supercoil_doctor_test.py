@@ -87,7 +87,7 @@ class Doctor(unittest.TestCase):
             found = self.findings()
         self.assertEqual(found["devices"]["severity"], "warning")
         self.assertEqual(found["devices"]["found"],
-                         "not looked at: ./lock: another supercoild drives this board, process 4711")
+                         "not checked: ./lock: another supercoild drives this board, process 4711")
         self.assertNotIn("heartbeat", found)
         self.assertIn("kernel", found)
         self.assertIn("bus i2c-1", found)
@@ -110,7 +110,7 @@ class Doctor(unittest.TestCase):
             file.write('[can]\ninterface = "no-can6"\nbit_rate = 500000\n')
         found = self.findings()
         self.assertEqual(found["CAN no-can6"]["severity"], "problem")
-        self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, beside commands; at most 50.0 %$")
+        self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, without commands; the limit is 50.0 %$")
 
     def test_a_can_interface_only_when_it_is_asked_for(self):
         self.assertNotIn("CAN", " ".join(self.findings()))

@@ -137,7 +137,7 @@ class Program(unittest.TestCase):
         done = self.run_program("--check", file)
         self.assertEqual(done.returncode, 2)
         self.assertIn("bus[2].name = 'i2c-3': the bus would be busy for 10.95 ms of a tick of 10 ms "
-                      "(110 %), and 70 % is the most", done.stderr)
+                      "(110 %); the limit is 70 %", done.stderr)
 
     def test_a_file_that_is_not_there(self):
         done = self.run_program("--check", "none.toml")

@@ -82,8 +82,7 @@ TEST(DoctorDevices, AreAllTold) {
   check_found("heartbeat", "BEAT of gpio, low; ");
   check_found("stop_circuit", "STOP of gpio: closed; ");
   check_found("channel 1, enable", "EN1 of gpio, low; ");
-  check_finding("warning", "low while nobody drives it", "a resistor",
-                found("channel 1, enable released"));
+  check_finding("warning", "low while undriven", "a resistor", found("channel 1, enable released"));
   check_finding("ok",
                 "output 5 of i2c-1/1-0040 took its period of 1000000 ns, not inversed, duty 0", "",
                 found("channel 1, pwm"));
@@ -114,7 +113,7 @@ TEST(DoctorDevices, AnEnableIsNotGivenUpBeforeItsDutyIsZero) {
   look();
   check_finding("problem", "no PWM chip whose path ends with 'i2c-1/1-0041'", "load",
                 found("channel 1, pwm"));
-  check_finding("warning", "not looked at: its duty is not known", "channel 1, pwm",
+  check_finding("warning", "not checked: its duty may not be 0", "channel 1, pwm",
                 found("channel 1, enable released"));
   LONGS_EQUAL(0, times_in("EN1", "input"));
   // Only a part of a bus's time would look too good.

@@ -49,7 +49,7 @@ TEST(DoctorFindings, CallsInWhichOthersRanAreNotTheDevices) {
   check_finding("ok", "8.0 us at most, of 200 calls, 7 interrupted", "",
                 judged("light", "GPIO3 of soc", some, "use another line"));
   const CallTime all{0us, 0us, 0us, 0, 200, true};
-  check_finding("warning", "cannot be timed", "end what else",
+  check_finding("warning", "cannot be timed", "stop other programs",
                 judged("light", "GPIO3 of soc", all, "use another line"));
 }
 
@@ -73,13 +73,12 @@ TEST(DoctorFindings, CallsAreTimedOneByOne) {
 TEST(DoctorFindings, AnEnableThatIsPulledUpOpensTheGate) {
   using hal_linux::Bias;
   for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down}) {
-    check_finding("problem", "high while nobody drives it; ", "pulls it down",
-                  released(true, bias));
+    check_finding("problem", "high while undriven; ", "pulls it down", released(true, bias));
   }
-  check_finding("ok", "low while nobody drives it; the chip pulls it down", "",
+  check_finding("ok", "low while undriven; the chip pulls it down", "",
                 released(false, Bias::pull_down));
   for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up})
-    check_finding("warning", "low while nobody drives it; ", "a resistor", released(false, bias));
+    check_finding("warning", "low while undriven; ", "a resistor", released(false, bias));
   check_finding("warning", "cannot be read", "a resistor",
                 released(false, Bias::pull_down, hal::Status::io_error));
 }
@@ -90,6 +89,6 @@ TEST(DoctorFindings, ABusIsAsFastAsItsConfigurationSays) {
   check_finding("ok", "by the configuration, 1.800 ms (18.0 % of a tick) measured", "",
                 bus({{"i2c-1", 1800us}}));
   check_finding("warning", "1.900 ms", "clock_Hz", bus({{"i2c-1", 1900us}}));
-  check_finding("problem", "7.100 ms (71.0 % of a tick) measured: 70 % is the most",
+  check_finding("problem", "7.100 ms (71.0 % of a tick) measured: the limit is 70 %",
                 "fewer devices", bus({{"i2c-1", 7100us}}));
 }

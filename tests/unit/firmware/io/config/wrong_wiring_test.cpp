@@ -62,7 +62,7 @@ TEST(WrongWiring, PumpThatOpensBeforeToleratedOverrunsAreOver) {
 TEST(WrongWiring, BusThatIsTooSlow) {
   check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nwait_ms = 1.2",
                  "b.toml:11: bus[1].name = 'i2c-1': the bus would be busy for 1.34 ms of a tick of "
-                 "1 ms (134 %), and 70 % is the most");
+                 "1 ms (134 %); the limit is 70 %");
 }
 
 TEST(WrongWiring, BusTimeOfADirectDevice) {
@@ -96,8 +96,8 @@ TEST(WrongWiring, CaptureBehindABus) {
 
 TEST(WrongWiring, CanBusThatWouldBeTooBusy) {
   check_problems(
-      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % with what is sent at a "
-      "rate, and 50 % is the most (max_load): choose lower rates",
+      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % by messages sent at "
+      "a rate; the limit is 50 % (max_load): choose lower rates",
       small_board + "[can]\nbit_rate = 50000\n");
 }
 

@@ -119,7 +119,7 @@ class CompareSenses(unittest.TestCase):
         done = self.supercoil("doctor", "--compare-senses", "--config", other, "--json", input="")
         self.assertEqual(done.returncode, 1, done.stdout)
         why = json.loads(done.stdout)["error"]
-        self.assertIn(f"{other}: the board does not run with this file: channel 1: limits.max_W = 3.5 (the board: 4.5)",
+        self.assertIn(f"{other}: the board is not running with this file: channel 1: limits.max_W = 3.5 (the board: 4.5)",
                       why)
         self.assertIn(why, done.stderr)
         self.assertNotIn("gets", done.stderr)

@@ -39,7 +39,7 @@ class SetupOfABoard(SetupCase):
         for step in ("senses", "calibrate", "scale", "limits", "identify", "gains", "move"):
             done = self.setup_program(step, "--can", bus, input="5\n")
             self.assertEqual(done.returncode, 1)
-            self.assertIn(f"supercoil: {step}: {self.board}: the board does not run with this file: channel 1: muscle.", done.stderr)
+            self.assertIn(f"supercoil: {step}: {self.board}: the board is not running with this file: channel 1: muscle.", done.stderr)
             self.assertRegex(done.stderr, r"muscle\.stiffness_N_per_m = 17\.84 \(the board: [\d.]+\), .*limits\.max_travel_m = 0\.025 \(the board: 0\.0\d+\)")
             self.assertIn(start, done.stderr)
         self.assertEqual(self.record.read_text(), "{}")

@@ -207,7 +207,7 @@ class ModulesTest(ModulesCase):
             };
             return [shown(1, {}), shown(2, { proof_off: [0] }), shown(3, { proof_off: [1] })];""")
         self.assertEqual(told[:2], [True, True])
-        self.assertIn("proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle", told[2])
+        self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", told[2])
 
     def test_a_loop_that_oscillated_is_told(self):
         told = self.ask(CARD + """const shown = (time_s, row) => {
@@ -227,7 +227,7 @@ class ModulesTest(ModulesCase):
             };
             return [shown(1, {}), shown(2, { slack: [0] }), shown(3, { slack: [1] })];""")
         self.assertEqual(told[:2], [True, True])
-        self.assertIn("this muscle is slack where the joint stands", told[2])
+        self.assertIn("this muscle is slack at the present joint angle", told[2])
 
     def test_every_reason_of_a_refused_identify_is_told(self):
         told = self.ask(CARD + """const shown = (time_s, result, identify_notes, friction = 0) => {

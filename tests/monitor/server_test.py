@@ -213,8 +213,8 @@ class Sources(unittest.TestCase):
         for source, why in ((self.path / "empty", "is empty"), (self.path / "text", "text:1: must begin with"),
                             (self.path, "is a folder"), ("no-such-can", "no CAN interface"),
                             ("no-such-can", "nor is there a log of that name"),
-                            ("none.log", "supercoil: none.log: there is no such log\n"),
-                            ("logs/none", "logs/none: there is no such log\n"),
+                            ("none.log", "supercoil: none.log: no such log\n"),
+                            ("logs/none", "logs/none: no such log\n"),
                             ("socketcand:", "must be socketcand:"), ("socketcand:70000", "must be socketcand:"),
                             (f"socketcand:{free_ports()}", "refused")):
             done = self.run_monitor(source)
@@ -227,7 +227,7 @@ class Sources(unittest.TestCase):
             client.recv(100)
             time.sleep(2.5)  # longer than a first try
 
-        silent = "took the connection, but did not say '< hi >' in time: it is stopped or busy, or no socketcand"
+        silent = "accepted the connection but did not send '< hi >' in time: it is stopped or busy, or not a socketcand server"
         for act, why in ((None, silent), (lambda client: None, "closed the connection"),
                          (greet, "did not answer '< open can0 >' in time: it is stopped or busy")):
             with socket.create_server(("127.0.0.1", 0)) as other:
@@ -252,7 +252,7 @@ class Sources(unittest.TestCase):
         self.addCleanup(program.stdout.close)
         self.addCleanup(program.wait)
         self.addCleanup(program.terminate)
-        self.assertIn("can.log:2: must begin with (SECONDS.MICROSECONDS); 1 such lines are left out",
+        self.assertIn("can.log:2: must begin with (SECONDS.MICROSECONDS); 1 such lines are skipped",
                       program.stderr.readline())
         port = int(program.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=SLACK_S)
@@ -298,7 +298,7 @@ class Sources(unittest.TestCase):
         tripped = ((1, "081#1703000000000000"), (1, f"0C1#{cause}"))
         told = text_of(*tripped, (61, "701#0317000000000410"))
         self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", told)
-        self.assertIn("proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle", told)
+        self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", told)
         told = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
         self.assertIn(", FAULT over_temperature\n", told)
         self.assertNotIn("proof_of_response", told)
@@ -308,7 +308,7 @@ class Sources(unittest.TestCase):
         for flags, told in (("80", True), ("10", False)):
             log.write_text(f"(0000000001.000000) can0 701#02000000FF0004{flags}\n")
             done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
-            self.assertEqual("\n  by its model this muscle is slack where the joint stands\n" in done.stdout, told)
+            self.assertEqual("\n  according to its model this muscle is slack at the present joint angle\n" in done.stdout, told)
 
     def test_text_says_how_hot_a_muscle_may_be_that_is_off(self):
         log = self.path / "can.log"

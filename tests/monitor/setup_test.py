@@ -50,7 +50,7 @@ class SetupTest(SetupCase):
         self.assertIn("start the board with it", described["text"])
         page.begin("calibrate")
         refused = page.ended("calibrate")["problem"]
-        self.assertIn("the board does not run with this file: channel 1: muscle.", refused)
+        self.assertIn("the board is not running with this file: channel 1: muscle.", refused)
         self.assertIn("muscle.stiffness_N_per_m = 17.84 (the board: ", refused)
         board.stop()
         board = self.start_board(port)

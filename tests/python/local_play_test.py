@@ -108,7 +108,7 @@ class LocalPlay(unittest.TestCase):
         self.path = f"{self.folder}/nothing"
         done = self.supercoil("play", motion(self.folder, {1: 1.0}))
         self.assertEqual(done.returncode, 1)
-        self.assertIn("does supercoild run?", done.stderr)
+        self.assertIn("is supercoild running?", done.stderr)
 
     def test_one_that_is_killed_lets_the_muscle_cool(self):
         for _ in range(TRIES):

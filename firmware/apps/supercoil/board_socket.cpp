@@ -36,16 +36,16 @@ Result<BoardSocket> BoardSocket::open(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof(address.sun_path)) {
-    return failure(path + ": the name of a socket is shorter");
+    return failure(path + ": path too long for a socket");
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   BoardSocket socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (socket.file_ < 0) return failure("no socket: " + reason());
+  if (socket.file_ < 0) return failure("cannot create a socket: " + reason());
   const timeval patience{max_answer_s, 0};
   ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const bool nobody = errno == ENOENT || errno == ECONNREFUSED;
-    return failure(path + ": " + reason() + (nobody ? "; does supercoild run?" : ""));
+    return failure(path + ": " + reason() + (nobody ? "; is supercoild running?" : ""));
   }
   return socket;
 }
@@ -58,7 +58,7 @@ Result<std::string> BoardSocket::ask(const std::string& line) const {
   const auto sent =
       uninterrupted([&] { return ::send(file_, line.data(), line.size(), MSG_NOSIGNAL); });
   // A rejected client is told why before the connection closes, but send() fails first.
-  if (sent < 0 && errno != EPIPE) return failure("supercoild does not listen: " + reason());
+  if (sent < 0 && errno != EPIPE) return failure("supercoild is not listening: " + reason());
   std::array<char, max_answer> answer{};
   const auto receive = [&] {
     return uninterrupted([&] { return ::recv(file_, answer.data(), answer.size(), 0); });

@@ -43,13 +43,13 @@ int can_log_command(const LogOptions& options) {
   const auto log = read_can_log(options.file);
   if (!log) return fail(exit_wrong_input, log.error().text());
   if (log->damaged_lines > 0) {
-    std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
+    std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
                  log->damaged_lines);
   }
   const CanSelection selection{options.from_s, options.to_s, options.node, options.message};
   const auto write_all = options.mcap ? mcap::from_can_log : can_to_csv;
   return write_output(
-      options.out, options.file + ": has no such frames of that time and node",
+      options.out, options.file + ": has no such frames for that node and time",
       [&](const recorder::Sink& sink) { return write_all(log->frames, selection, sink); });
 }
 

@@ -300,11 +300,12 @@ std::string sine_problem(const CommandOptions& options) {
   const auto amplitude = value_of(options.sine_amplitude);
   if (!amplitude) {
     return "--amplitude " + options.sine_amplitude + ": must be a number" +
-           (middle->in_degrees ? " of degrees, as 3deg" : "");
+           (middle->in_degrees ? " of degrees, such as 3deg" : "");
   }
   if (amplitude->in_degrees != middle->in_degrees) {
     return joined(options.words) + " --amplitude " + options.sine_amplitude +
-           ": both must have the same unit; of an angle both are in degrees, as 5deg and 3deg";
+           ": both must have the same unit; for an angle both are in degrees, such as 5deg and "
+           "3deg";
   }
   return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
 }
@@ -336,9 +337,9 @@ int take_place(BoardLink& board, CommandOptions& options) {
 
 int command_command(CommandOptions options) {
   if (options.words[0] == "state" && options.words.size() > 1) {
-    return refused(
-        options, exit_wrong_input,
-        joined(options.words) + ": state is of all channels: leave out '" + options.words[1] + "'");
+    return refused(options, exit_wrong_input,
+                   joined(options.words) + ": state covers all channels: leave out '" +
+                       options.words[1] + "'");
   }
   if (options.sine_period_s > 0.0) {
     if (const std::string problem = sine_problem(options); !problem.empty())

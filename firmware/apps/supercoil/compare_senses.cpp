@@ -35,8 +35,8 @@ std::string other_board(BoardLink& board, const DoctorOptions& options,
       differences_of_board(board, first_address(options, config), config.settings, place - 1);
   if (!others) return others.error().text();
   if (others->empty()) return {};
-  return options.config + ": the board does not run with this file: " + *others +
-         "; start the board with it, or name the file that it runs with: --config";
+  return options.config + ": the board is not running with this file: " + *others +
+         "; start the board with it, or name the file it runs with: --config FILE";
 }
 
 int concluded(const Result<board::SenseComparison>& found, const ComparisonPlan& plan, bool json,
@@ -91,8 +91,8 @@ int compare_senses(const DoctorOptions& options) {
   std::FILE* out = options.json ? stderr : stdout;
   std::fprintf(out,
                "Compares the senses of channel %s with a meter. Arms the channel, heats it with "
-               "%s W and then %s W, and asks two questions at each, for at most 5 minutes a "
-               "question; then it is cold again. Ctrl-C ends it at any time.\n",
+               "%s W and then %s W, and asks two questions at each power, with at most 5 minutes "
+               "for each answer; then it is cold again. Ctrl-C ends it at any time.\n",
                plan.channel.c_str(), number_text(0.5 * plan.power_W, 3).c_str(),
                number_text(plan.power_W, 3).c_str());
   std::fflush(out);

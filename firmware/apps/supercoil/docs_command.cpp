@@ -136,7 +136,7 @@ int docs_command(const DocsOptions& options) {
   }
   if (access.port <= 0) {
     return fail(exit_failed, "port " + std::to_string(options.port) +
-                                 " is in use by another program; --port takes another");
+                                 " is in use by another program; choose another with --port");
   }
   serve_site(server, options.folder, access);
   const std::string address = "http://" + access.host + ":" + std::to_string(access.port) + "/";

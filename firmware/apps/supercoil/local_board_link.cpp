@@ -34,7 +34,7 @@ BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std:
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with(channel + " ")) return line;
   }
-  return failure("nothing is known of channel " + channel);
+  return failure("nothing is known about channel " + channel);
 }
 
 BoardLink::Answer LocalBoardLink::state_json() {

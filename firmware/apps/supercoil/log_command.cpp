@@ -51,7 +51,7 @@ int into_standard_output(const std::string& nothing, const Produce& produce) {
 
 /// The rows, as CSV or MCAP.
 int write_rows(const recorder::Recording& recording, const LogOptions& options) {
-  return write_output(options.out, options.file + ": has no rows of that time and channel",
+  return write_output(options.out, options.file + ": has no rows for that channel and time",
                       [&](const recorder::Sink& sink) -> Result<std::size_t> {
                         const std::size_t rows = recording.rows.size();
                         if (rows == 0) return 0;
@@ -91,7 +91,8 @@ int write_output(const std::string& path, const std::string& nothing, const Prod
 
 int log_command(const LogOptions& options) {
   if (options.mcap && options.out.empty() && isatty(STDOUT_FILENO) == 1)
-    return fail(exit_wrong_input, "--mcap: a terminal shows no MCAP; give --out FILE, or a pipe");
+    return fail(exit_wrong_input,
+                "--mcap: MCAP is not written to a terminal; use --out FILE or a pipe");
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
     return refuse(options.json, exit_wrong_input,

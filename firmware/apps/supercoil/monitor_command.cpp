@@ -41,7 +41,7 @@ Result<Source> open_source(const MonitorOptions& options) {
     auto log = read_can_log(options.source);
     if (!log) return tl::unexpected(log.error());
     if (log->damaged_lines > 0) {
-      std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
+      std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
                    log->damaged_lines);
     }
     source.frame_history->add(log->frames);
@@ -51,7 +51,7 @@ Result<Source> open_source(const MonitorOptions& options) {
   if (!bus && !names_socketcand(options.source)) {
     // An interface's name has no slash, and hardly ever a dot.
     const bool file = options.source.find_first_of("./") != std::string::npos;
-    return failure(file ? options.source + ": there is no such log"
+    return failure(file ? options.source + ": no such log"
                         : bus.error().text() + "; nor is there a log of that name");
   }
   if (!bus) return tl::unexpected(bus.error());
@@ -89,7 +89,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
     return fail(exit_failed,
                 "port " + std::to_string(options.port) + " of " + access.host +
                     " is not available: another program uses it, or the address is not "
-                    "this machine's; --port takes another");
+                    "this machine's; choose another with --port");
   }
 
   const auto open_for = [&](const std::vector<std::uint16_t>& listen) -> ManualControl::OpenBus {

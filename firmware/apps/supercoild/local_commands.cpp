@@ -91,16 +91,16 @@ Result<LocalCommands> LocalCommands::open(const std::string& path) {
   address.sun_family = AF_UNIX;
   const auto fail = [&](const char* what) { return failed_call(path + ": " + what, errno); };
   if (path.size() >= sizeof(address.sun_path)) {
-    return failure(path + ": the name of a socket has at most " +
+    return failure(path + ": the path of a socket has at most " +
                    std::to_string(sizeof(address.sun_path) - 1) + " bytes");
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   hal_linux::Descriptor listener(
       ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!listener.is_open()) return fail("no socket for commands");
+  if (!listener.is_open()) return fail("cannot create a socket for commands");
   ::unlink(path.c_str());
-  if (bind_for_group(listener, address) != 0) return fail("cannot be made");
-  if (::listen(listener.number(), backlog) != 0) return fail("cannot be listened to");
+  if (bind_for_group(listener, address) != 0) return fail("cannot be created");
+  if (::listen(listener.number(), backlog) != 0) return fail("cannot listen on it");
   return LocalCommands(std::move(listener));
 }
 

@@ -26,7 +26,7 @@ std::optional<TuningSet> set_named(std::string_view word) {
 }
 
 std::string wrong(std::string_view word, std::string_view what) {
-  return "wrong: '" + std::string(word) + "' is no " + std::string(what);
+  return "wrong: '" + std::string(word) + "' is not a " + std::string(what);
 }
 
 std::string prepared(Tuner& tuner, std::size_t place, std::string_view name,

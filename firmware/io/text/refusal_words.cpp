@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "commands were lost: try again",
     "more commands than the board takes at once: try again",
     "the lease is free but was not granted: try again",
-    "the board speaks another version of the protocol: take the supercoil that belongs to it",
+    "the board speaks another version of the protocol: use the matching version of supercoil",
     "unstable on the muscle that is known, or values that contradict each other; nothing changed",
     "the muscle cannot do it: it needs more power than there is, or faster cooling"};
 

@@ -100,7 +100,7 @@ class Bus:
                 return self._bus.send(frame)
             except (can.CanError, OSError) as error:
                 if time.monotonic() > end:
-                    raise BusError(f"the bus does not take the command: {error}") from error
+                    raise BusError(f"cannot send on the bus: {error}") from error
             await asyncio.sleep(_NAP_S)
 
     def _read(self) -> None:

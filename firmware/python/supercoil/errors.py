@@ -56,7 +56,7 @@ class RefusalError(SupercoilError):
 
 
 class BusError(SupercoilError):
-    """The bus cannot be opened, or does not take a frame."""
+    """The bus cannot be opened, or a frame cannot be sent."""
 
 
 class NoAnswerError(SupercoilError, TimeoutError):

@@ -47,7 +47,7 @@ class SocketLink:
         except OSError as error:
             opened.close()
             nobody = isinstance(error, (FileNotFoundError, ConnectionRefusedError))
-            hint = "; does supercoild run?" if nobody else ""
+            hint = "; is supercoild running?" if nobody else ""
             raise BusError(f"{self._path}: {error.strerror}{hint}") from error
         self._socket = opened
         try:
@@ -175,7 +175,7 @@ class SocketLink:
             channel, *words = line.split()
             if channel == str(self._channel):
                 return words
-        raise BusError(f"{self._path}: nothing is known of channel {self._channel}: {answer}")
+        raise BusError(f"{self._path}: nothing is known about channel {self._channel}: {answer}")
 
     async def _numbers(self, request: str) -> list[float]:
         return [float(word) for word in await self._words(request)]

@@ -51,7 +51,7 @@ Result<std::unique_ptr<hal::CanBus>> open_bus(const std::string& name,
     return std::move(*bus);
   }
   auto bus = hal_linux::SocketCan::open({name, listen, "/sys/class/net", listen.empty()});
-  if (!bus) return failure(bus.error().text() + "; a simulated board's is socketcand:PORT");
+  if (!bus) return failure(bus.error().text() + "; for a simulated board use socketcand:PORT");
   return std::move(*bus);
 }
 

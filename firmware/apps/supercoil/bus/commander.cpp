@@ -55,8 +55,7 @@ Result<Heard> Commander::exchange(
     std::this_thread::sleep_for(nap);
     sent = bus_->send(frame);
   }
-  if (sent != hal::Status::ok)
-    return failure(std::string("the bus does not take the command: ") + text(sent));
+  if (sent != hal::Status::ok) return failure(std::string("cannot send on the bus: ") + text(sent));
   do {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
       if (const auto answer = hear(heard)) return *answer;

@@ -33,7 +33,8 @@ Result<CanLogFile> read_can_log(const std::string& path) {
   }
   if (in.bad()) return failure(path + ": cannot be read to its end");
   if (log.frames.empty() && log.foreign_lines == 0) {
-    return failure(log.damage.empty() ? path + ": is empty" : log.damage + ": no candump -L log");
+    return failure(log.damage.empty() ? path + ": is empty"
+                                      : log.damage + ": not a candump -L log");
   }
   return log;
 }

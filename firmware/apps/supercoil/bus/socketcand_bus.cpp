@@ -19,8 +19,8 @@ constexpr auto later_try = std::chrono::seconds(1);
 std::string silence(const std::string& request, bool is_open) {
   if (!is_open) return "closed the connection";
   if (!request.empty()) return "did not answer '" + request + "' in time: it is stopped or busy";
-  return "took the connection, but did not say '< hi >' in time: it is stopped or busy, or no "
-         "socketcand";
+  return "accepted the connection but did not send '< hi >' in time: it is stopped or busy, or not "
+         "a socketcand server";
 }
 
 }  // namespace

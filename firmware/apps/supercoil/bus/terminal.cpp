@@ -122,24 +122,23 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
     text += ", last identification or calibration: " + told_result(result, notes);
   text += '\n';
   if (value(node, "Status", "friction") == 1.0)
-    text += "  friction takes more than half of a small motion: the power may be held to less\n";
+    text += "  friction takes more than half of a small motion, so less power may be allowed\n";
   const double version = value(node, "Status", "protocol_version");
   if (std::isfinite(version) && version != telemetry::protocol_version) {
     text += "  it speaks version " + std::to_string(std::lround(version)) +
             " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
-            ": numbers may be wrong; take the supercoil that belongs to it\n";
+            ": numbers may be wrong; use the matching version of supercoil\n";
   }
   text += program_text(node);
   if (value(node, "Status", "proof_off") == 1.0) {
     text +=
-        "  proof_of_response is false, or not asked of a joint's two muscles, nor of one that "
-        "follows in a bundle: a muscle that is off "
-        "its sensor may overheat unseen\n";
+        "  no proof of response (proof_of_response is false, or this muscle is one of a joint's "
+        "two or follows in a bundle): a muscle detached from its sensor may overheat undetected\n";
   }
   if (value(node, "Status", "oscillated") == 1.0)
     text += "  the loop oscillated by itself: its feedback is slower now\n";
   if (value(node, "Status", "slack") == 1.0)
-    text += "  by its model this muscle is slack where the joint stands\n";
+    text += "  according to its model this muscle is slack at the present joint angle\n";
   const double angle_deg = value(node, "Joint", "angle_deg");
   if (node.contains("Joint")) text += shown("angle", angle_deg, 3, "deg") + '\n';
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
@@ -180,7 +179,7 @@ std::string state_text(const FrameHistory& frame_history, const std::map<int, st
                 hal::seconds(newest), bus.frames_per_s, 100.0 * bus.load,
                 frame_history.lost().empty() ? "" : "; LOST: ", frame_history.lost().c_str());
   std::string text = head.data();
-  if (nodes.empty()) text += "no node of supercoil is heard\n";
+  if (nodes.empty()) text += "no supercoil node is heard\n";
   for (const auto& [number, node] : nodes)
     text += node_text(number, node, laws.contains(number) ? laws.at(number) : "");
   return text;

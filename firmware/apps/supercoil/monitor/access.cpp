@@ -110,29 +110,29 @@ httplib::Server::Handler commanded(const Access& access, httplib::Server::Handle
 }
 
 std::string refuse_to_show(const Access& access, const httplib::Request& request) {
-  if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
+  if (!is_own_host(access, request, access.port)) return "the request names another host";
   if (!access.loopback && !has_token(access, request)) return "needs the token that was printed";
   return {};
 }
 
 std::string refuse_to_command(const Access& access, const httplib::Request& request) {
   if (access.read_only) return "this monitor is read-only";
-  if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
+  if (!is_own_host(access, request, access.port)) return "the request names another host";
   if (is_from_no_browser(request)) {
     return has_token_header(access, request)
                ? ""
                : "needs the token that was printed, as header Authorization: Bearer TOKEN";
   }
-  if (!is_same_origin(access, request)) return "does not come from this monitor's page";
+  if (!is_same_origin(access, request)) return "the request does not come from this monitor's page";
   if (!has_token(access, request)) return "needs the token that was printed";
   return {};
 }
 
 std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port) {
   if (access.read_only) return "this monitor is read-only";
-  if (!is_own_host(access, request, port)) return "asked for under another host's name";
+  if (!is_own_host(access, request, port)) return "the request names another host";
   if (!is_from_no_browser(request) && !is_same_origin(access, request))
-    return "does not come from this monitor's page";
+    return "the request does not come from this monitor's page";
   if (!access.loopback && !same(access.token, request.body) && !has_token_header(access, request))
     return "needs the token that was printed";
   return {};

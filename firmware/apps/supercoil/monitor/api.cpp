@@ -288,7 +288,7 @@ bool Api::stream_piece(httplib::DataSink& sink, Reader& reader) {
 void Api::stream(const Request& request, Response& response) {
   if (streams_.fetch_add(1) >= max_streams) {
     --streams_;
-    return refuse(response, 503, "too many pages watch: close some");
+    return refuse(response, 503, "too many pages are watching: close some");
   }
   response.set_chunked_content_provider(
       "text/event-stream",

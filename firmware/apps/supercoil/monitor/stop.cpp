@@ -135,7 +135,7 @@ std::string StopServer::send_disarm() {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         sent = bus_->send(frame);
       }
-      if (sent != hal::Status::ok) return std::string("the bus does not take it: ") + text(sent);
+      if (sent != hal::Status::ok) return std::string("cannot send on the bus: ") + text(sent);
     }
     std::this_thread::sleep_for(between);
   }

@@ -90,8 +90,8 @@ Result<void> SetupBoard::open() {
   const auto others = differences_of_board(board, first_address(), config_->settings, index());
   if (!others) return failure(others.error().text() + "; " + how_to_start());
   if (!others->empty()) {
-    return failure(options_.config + ": the board does not run with this file: " + *others + "; " +
-                   how_to_start());
+    return failure(options_.config + ": the board is not running with this file: " + *others +
+                   "; " + how_to_start());
   }
   // Only this board is disarmed in the end.
   if (opened) link_ = std::move(opened);

@@ -165,7 +165,7 @@ class Log(unittest.TestCase):
             times = [json.loads(message.data)["time_s"] for _, channel, message in
                      mcap.reader.NonSeekingReader(file).iter_messages(topics=["/channel_2"])]
         self.assertEqual(times, [round(i / 100, 2) for i in range(11)])
-        self.refused("r.scfr: has no rows of that time and channel", "r.scfr", "--mcap", "--from", 5, "--out", "out.csv")
+        self.refused("r.scfr: has no rows for that channel and time", "r.scfr", "--mcap", "--from", 5, "--out", "out.csv")
 
     def test_mcap_is_not_written_to_a_terminal(self):
         main, terminal = pty.openpty()
@@ -173,7 +173,7 @@ class Log(unittest.TestCase):
         with os.fdopen(terminal, "w") as out:
             done = subprocess.run([PROGRAM, "log", "r.scfr", "--mcap"], cwd=self.path, stdout=out, stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--mcap: a terminal shows no MCAP; give --out FILE, or a pipe", done.stderr)
+        self.assertIn("--mcap: MCAP is not written to a terminal; use --out FILE or a pipe", done.stderr)
 
     def test_the_summary_says_what_happened(self):
         done = self.log("r.scfr", "--summary")
@@ -275,7 +275,7 @@ class Log(unittest.TestCase):
         self.refused("--from must not be later than --to", "r.scfr", "--from", 1, "--to", 0)
         self.refused("--from must not be later than --to", "r.scfr", "--from", "nan")
         self.refused("--from", "r.scfr", "--from", "soon")
-        self.refused("has no rows of that time and channel", "r.scfr", "--from", 5)
+        self.refused("has no rows for that channel and time", "r.scfr", "--from", 5)
         self.refused("excludes", "r.scfr", "--summary", "--out", "out.csv")
         self.refused("FILE is required")
         self.assertEqual(subprocess.run([PROGRAM], capture_output=True).returncode, 2)

@@ -52,11 +52,11 @@ export class StateCard {
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
     this.foreign = element("p", { class: "foreign", role: "alert", hidden: true });
     this.unproven = element("p", { class: "foreign", hidden: true },
-      "proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle: nothing proves that this muscle still reaches its sensor, and it may overheat unseen.");
+      "No proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle): a muscle detached from its sensor may overheat undetected.");
     this.oscillated = element("p", { class: "foreign", hidden: true },
       "The control loop oscillated by itself: its feedback is slower now. Identify the muscle, or lower the controller's bandwidth or gains.");
     this.slack = element("p", { class: "foreign", hidden: true },
-      "By its model this muscle is slack where the joint stands: the other one, or the load, moves it alone. More co-contraction makes it taut.");
+      "According to its model this muscle is slack at the present joint angle: the other muscle or the load alone moves the joint. More co-contraction makes it taut.");
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
       element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.slack, this.fault, this.progress, this.result, this.facts);
@@ -85,7 +85,7 @@ export class StateCard {
     this.foreign.hidden = !row || row.protocol_version === this.version;
     if (!this.foreign.hidden) {
       show(this.foreign, `It speaks version ${row.protocol_version} of the protocol, this page ${this.version}: ` +
-        "numbers may be wrong. Take the supercoil that belongs to it.");
+        "numbers may be wrong. Use the matching version of supercoil.");
     }
     const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
     this.progress.hidden = !shows;

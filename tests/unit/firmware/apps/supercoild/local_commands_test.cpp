@@ -180,11 +180,11 @@ TEST(LocalCommands, WhyAControllerDoesNotSuitIsSaid) {
                   "refused: out_of_range; 1e+07 would be obeyed"},
         std::pair{"prepare 1 7 kind 1", "refused: out_of_range"},
         std::pair{"prepare 1 0 volume 1", "refused: out_of_range"},
-        std::pair{"prepare 1 0 kind pi", "wrong: 'pi' is no number"},
-        std::pair{"prepare 1 0 all mine", "wrong: 'mine' is no set of values"},
+        std::pair{"prepare 1 0 kind pi", "wrong: 'pi' is not a number"},
+        std::pair{"prepare 1 0 all mine", "wrong: 'mine' is not a set of values"},
         std::pair{"prepare 9 0 kind 1", "wrong: '9' is no channel"},
         std::pair{"tuning 1 x kind in_use", "wrong: 'x' is no controller"},
-        std::pair{"tuning 1 0 kind", "wrong: '' is no set of values"},
+        std::pair{"tuning 1 0 kind", "wrong: '' is not a set of values"},
         std::pair{"tuning 1 0 volume in_use", "nan"}})
     STRCMP_EQUAL(answer, answer_to(one, line).c_str());
 }

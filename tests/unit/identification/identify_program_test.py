@@ -148,7 +148,7 @@ class Identify(unittest.TestCase):
     def test_a_flight_recording_is_read(self):
         subprocess.run([WRITE_SAMPLE, self.path], check=True, capture_output=True)
         done = self.identify("flight-1.scfr", status=2)
-        self.assertIn("flight-1.scfr: has 2 channels: say which by --channel", done.stderr)
+        self.assertIn("flight-1.scfr: has 2 channels: choose one with --channel", done.stderr)
         # In the sample the power never moves the muscle: the checks must report that.
         self.assertIn("flight-1.scfr:", self.identify("flight-1.scfr", "--channel", 1, status=2).stderr)
 

@@ -44,28 +44,28 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
       ->add_option("--channel", o.columns.channel,
                    "Channel to fit, 1 to 16, of a file with several")
       ->check(CLI::Range(1, 16));
-  identify->add_option("--from", o.from_s, "Use nothing before this time in s [the first]");
-  identify->add_option("--to", o.to_s, "Use nothing after this time in s [the last]");
+  identify->add_option("--from", o.from_s, "Ignore what is before this time in s [the first]");
+  identify->add_option("--to", o.to_s, "Ignore what is after this time in s [the last]");
   identify
       ->add_option("--fit", o.fit,
-                   "Fit to this span, FROM:TO in s [up to the last heating from rest; if there are "
-                   "not two, the first two thirds]")
+                   "Fit to this span, FROM:TO in s [up to the last heating from rest; with fewer "
+                   "than two, the first two thirds]")
       ->type_name("SPAN");
   identify
       ->add_option("--judge", o.judge,
-                   "Judge by this span, FROM:TO in s [all that follows the fitted one]")
+                   "Judge by this span, FROM:TO in s [everything after the fitted span]")
       ->type_name("SPAN");
   identify->add_flag("--bridge-gaps", o.bridge_gaps,
-                     "Where rows are missing, take the power as unchanged");
+                     "Where rows are missing, assume that the power did not change");
   identify
       ->add_option(
           "--thermal-mass", o.thermal_mass_J_per_K,
-          "Thermal mass of the muscle in J/K, which position and power cannot tell [0.162]")
+          "Thermal mass of the muscle in J/K, which position and power do not determine [0.162]")
       ->check(CLI::Range(1e-4, 1e3));
   CLI::Option* stiffness =
       identify
           ->add_option("--stiffness", o.stiffness_N_per_m,
-                       "Stiffness in N/m, which position and power cannot tell [16]")
+                       "Stiffness in N/m, which position and power do not determine [16]")
           ->check(CLI::Range(1e-2, 1e6));
   identify
       ->add_option("--moving-mass", o.moving_mass_kg,

@@ -120,7 +120,8 @@ int identify_command(const IdentifyOptions& options) {
     if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
       return refuse(options.json, exit_failed, drawn.error().text());
   }
-  Result<std::string> table = failure("no [muscle] table is written: this is not such a muscle");
+  Result<std::string> table =
+      failure("no [muscle] table is written: this is not a super-coiled polymer muscle");
   if (muscle) table = muscle_table(found);
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;

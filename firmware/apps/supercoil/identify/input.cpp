@@ -17,8 +17,8 @@ tl::expected<Recording, Problem> from_flight_recording(std::string_view content,
   const auto flight = recorder::decode(content, recorder::Damaged::refuse);
   if (!flight) return tl::unexpected(Problem{0, flight.error().text()});
   if (channel == 0 && flight->header.channels > 1) {
-    return tl::unexpected(Problem{
-        0, "has " + std::to_string(flight->header.channels) + " channels: say which by --channel"});
+    return tl::unexpected(Problem{0, "has " + std::to_string(flight->header.channels) +
+                                         " channels: choose one with --channel"});
   }
   Recording recording;
   for (std::size_t i = 0; i < flight->rows.size(); ++i) {

@@ -28,8 +28,8 @@ Result<std::string> muscle_table(const Findings& f) {
   if (const auto wrong = control::check(p)) {
     std::array<char, 300> text{};
     std::snprintf(text.data(), text.size(),
-                  "%s would be %.4g, which is not between %.4g and %.4g: no muscle of thread, or "
-                  "another --thermal-mass, --stiffness or --moving-mass is needed",
+                  "%s would be %.4g, which is not between %.4g and %.4g: this is not a thread "
+                  "muscle, or --thermal-mass, --stiffness or --moving-mass must be changed",
                   wrong->quantity, wrong->value, wrong->lowest, wrong->highest);
     return failure(std::string(text.data()));
   }
@@ -40,17 +40,16 @@ Result<std::string> muscle_table(const Findings& f) {
   std::string text = "# " + f.file + ", " + name(f.linear.effects) + ", the whole recording\n";
   text += "[muscle]\n";
   add_line(text, "thermal_mass_J_per_K", p.thermal_mass_J_per_K,
-           f.thermal_mass_assumed ? "assumed: weigh the muscle, and say --thermal-mass"
-                                  : "as told by --thermal-mass");
+           f.thermal_mass_assumed ? "assumed: weigh the muscle, and give --thermal-mass"
+                                  : "from --thermal-mass");
   add_line(text, "heat_transfer_W_per_K", p.heat_transfer_W_per_K, "follows from it");
   const char* follows = frequency ? "" : unseen;
   add_line(text, "stiffness_N_per_m", p.stiffness_N_per_m,
            by_mass               ? follows
-           : f.stiffness_assumed ? "assumed: say --stiffness or --moving-mass"
-                                 : "as told by --stiffness");
+           : f.stiffness_assumed ? "assumed: give --stiffness or --moving-mass"
+                                 : "from --stiffness");
   add_line(text, "damping_Ns_per_m", p.damping_Ns_per_m, damping ? "" : unseen);
-  add_line(text, "moving_mass_kg", p.moving_mass_kg,
-           by_mass ? "as told by --moving-mass" : follows);
+  add_line(text, "moving_mass_kg", p.moving_mass_kg, by_mass ? "from --moving-mass" : follows);
   add_line(text, "force_per_kelvin_N_per_K", p.force_per_kelvin_N_per_K, "follows from both");
   return text;
 }

@@ -48,8 +48,8 @@ void add_models(std::string& text, const Comparison& c) {
   add_model(text, c, c.transformation, false);
   if (c.unseen_stroke_ratio < still) {
     print(text,
-          "The unseen part moves by %.1f %% of the stroke only and judges little: choose another "
-          "by --fit and --judge.\n",
+          "The unseen part moves by only %.1f %% of the stroke and judges little: choose another "
+          "with --fit and --judge.\n",
           100.0 * c.unseen_stroke_ratio);
   }
 }
@@ -68,7 +68,7 @@ void add_parameters(std::string& text, const Fit& part, const Fit& whole) {
     print(text, "  %-29s", std::string(part.parameters[i].name).c_str());
     add_value(text, part, i);
     add_value(text, whole, i);
-    text += told(whole, i) ? "\n" : " not told\n";
+    text += told(whole, i) ? "\n" : " not determined\n";
   }
 }
 
@@ -77,12 +77,13 @@ void add_change(std::string& text, const Findings& f) {
   const std::string what(f.linear.parameters[change.parameter].name);
   const double percent = 100.0 * (change.ratio - 1.0);
   if (change.deviations <= 3.0) {
-    print(text, "No change: %s moves by %+.1f %%, %.1f standard deviations, with the rest.\n",
+    print(text,
+          "No change: %s moves by %+.1f %%, %.1f standard deviations, when the rest is included.\n",
           what.c_str(), percent, change.deviations);
   } else {
     print(text,
-          "%s moves by %+.1f %%, %.1f standard deviations, with the rest: the muscle changed, or "
-          "one linear model does not hold for all of the recording.\n",
+          "%s moves by %+.1f %%, %.1f standard deviations, when the rest is included: the muscle "
+          "changed, or one linear model does not hold for all of the recording.\n",
           what.c_str(), percent, change.deviations);
   }
 }
@@ -111,11 +112,11 @@ std::string report(const Findings& f) {
   print(
       text,
       "Fitted to %.4g to %.4g s, judged by %.4g to %.4g s, which no fit has seen. Left out: each\n"
-      "fifth of the fitted part, by a fit to the others. Both choose the model (*).\n",
+      "fifth of the fitted part, predicted by a fit to the others. Both choose the model (*).\n",
       c.parts.fitted.from_s, c.parts.fitted.to_s, c.parts.unseen.from_s, c.parts.unseen.to_s);
   add_models(text, c);
   if (!c.not_a_muscle.empty()) {
-    text += "\nThis is not a super-coiled polymer muscle, as far as the recording says: " +
+    text += "\nAccording to the recording, this is not a super-coiled polymer muscle: " +
             c.not_a_muscle + ".\n";
     return text;
   }

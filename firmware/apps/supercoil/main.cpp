@@ -28,8 +28,8 @@ void add_log(CLI::App& app, LogOptions& options) {
       ->required();
   CLI::Option* out = log->add_option("--out", options.out, "Write to this file [standard output]");
   CLI::Option* from = log->add_option("--from", options.from_s,
-                                      "Start at this time in s; in a recording it counts from the "
-                                      "fault, in a CAN log it is the log's own [the first]");
+                                      "Start at this time in s; in a recording relative to the "
+                                      "fault, in a CAN log the log's own time [the first]");
   CLI::Option* to = log->add_option("--to", options.to_s, "End at this time in s [the last]");
   CLI::Option* channel =
       log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
@@ -52,7 +52,7 @@ void add_log(CLI::App& app, LogOptions& options) {
 /// An empty name, e.g. from an unset variable, must not mean the board on which this runs.
 const CLI::Validator is_named(
     [](const std::string& name) {
-      return std::string(name.empty() ? "a bus has a name: can0, or socketcand:PORT" : "");
+      return std::string(name.empty() ? "a bus name is needed: can0, or socketcand:PORT" : "");
     },
     "");
 
@@ -62,8 +62,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
   command
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
-                   "calibrate, position M (of a joint also 20deg), power W, scale M, controller N, "
-                   "estimator N, store (keep what the estimator has learned), clear (forget the "
+                   "calibrate, position M (for a joint also 20deg), power W, scale M, controller "
+                   "N, estimator N, store (keep what the estimator has learned), clear (forget the "
                    "stored muscle), tune N (apply the prepared values), store tuning, clear "
                    "tuning, compare_supply V, compare_current A, compare_rise K; N is a place in "
                    "the configuration, from 0, or a kind, e.g. pi")
@@ -72,7 +72,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
   CLI::Option* hold = command->add_option(
       "--for", options.hold_s,
       "Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, "
-      "it expires; identify and calibrate are renewed until they end]");
+      "then it expires; identify and calibrate are renewed until they end]");
   hold->check(CLI::PositiveNumber);
   command
       ->add_flag_callback(
@@ -82,8 +82,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
   CLI::Option* amplitude =
       command
           ->add_option("--amplitude", options.sine_amplitude,
-                       "Amplitude of a sine about the value, in the same unit (0.003; of a joint "
-                       "also 3deg); needs --for or --hold")
+                       "Amplitude of a sine about the value, in the same unit (0.003; for a "
+                       "joint also 3deg); needs --for or --hold")
           ->type_name("VALUE");
   CLI::Option* period =
       command->add_option("--period", options.sine_period_s, "Period of the sine in s")
@@ -171,7 +171,7 @@ void add_tune(CLI::App& app, TuneOptions& options) {
       ->check(CLI::IsMember({"in_use", "configured", "stored", "prepared"}))
       ->capture_default_str();
   tune->add_flag("--prepare", options.only_prepare,
-                 "Change the prepared values only; use them later");
+                 "Change only the prepared values, for later use");
   CLI::Option* store = tune->add_flag(
       "--store", options.store,
       "Keep what is in use, and which controller and estimator are chosen, for the next start");
@@ -221,7 +221,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       ->needs(compare);
   doctor
       ->add_option("--power", options.power_W,
-                   "The greater of the two powers in W [safe by the configuration]")
+                   "The greater of the two powers in W [a safe one by the configuration]")
       ->check(CLI::Range(0.01, 1e3))
       ->needs(compare);
   doctor->add_option("--socket", options.socket, "Where supercoild listens, to compare")
@@ -283,12 +283,12 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
 
 void add_docs(CLI::App& app, DocsOptions& options) {
   CLI::App* docs = app.add_subcommand(
-      "docs", "Serve this documentation to a browser of this machine, until Ctrl-C");
+      "docs", "Serve this documentation to a browser on this machine until Ctrl-C");
   docs->add_option("--port", options.port, "Port of the site; 0 takes a free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   docs->add_flag("--open", options.open, "Open it in the browser too, with xdg-open");
-  docs->add_option("--folder", options.folder, "Where the site is: what toolchain/docs built")
+  docs->add_option("--folder", options.folder, "Folder of the site that toolchain/docs built")
       ->type_name("DIR")
       ->capture_default_str();
 }

@@ -25,10 +25,10 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
       app.add_option("--rate", options.rate_Hz, "Loop rate in Hz of one channel, without --config")
           ->check(CLI::Range(100.0, 10e3))
           ->capture_default_str();
-  CLI::Option* seconds = app.add_option("--seconds", options.seconds, "How long it measures")
+  CLI::Option* seconds = app.add_option("--seconds", options.seconds, "Seconds to measure")
                              ->check(CLI::Range(0.1, 1e6))
                              ->capture_default_str();
-  CLI::Option* ticks = app.add_option("--ticks", options.ticks, "How many ticks it measures")
+  CLI::Option* ticks = app.add_option("--ticks", options.ticks, "Ticks to measure")
                            ->check(CLI::Range(1.0, 1e9))
                            ->excludes(seconds);
   CLI::Option* plot =
@@ -62,7 +62,7 @@ int run_program(int count, char** arguments) {
       ->type_name("DIR")
       ->capture_default_str();
   app.add_option("--priority", options.priority,
-                 "Priority of the loop in SCHED_FIFO; 0 runs without real time")
+                 "SCHED_FIFO priority of the loop; 0: no real-time scheduling")
       ->check(CLI::Range(0, 99))
       ->capture_default_str();
   app.add_option("--cpu", options.cpu, "The loop's own CPU [any]")->check(CLI::Range(0, 1023));

@@ -20,7 +20,7 @@ SUPERCOIL = os.environ["SUPERCOIL"]
 QUICK = pathlib.Path(__file__).resolve().parents[1] / "python" / "quick.toml"
 # What a busy machine does to any master in real time: a command expires, the lease ends, a knot or an answer is late.
 STARVED = ("the board stopped it", "no_lease", "no answer from node", "busy", "not_ready", "ran dry", "has not started",
-           "was told something else", "wrong_counter", "wrong_state")
+           "received another command", "wrong_counter", "wrong_state")
 TRACKING, TRAJECTORY, SYNC, KNOT = (PROTOCOL.get_message_by_name(name)
                                     for name in ("Tracking", "Trajectory", "Sync", "Knot"))
 PLAYING, ENDED = 3, 4  # of Trajectory.playback
@@ -145,9 +145,9 @@ class Files(PlayCase):
                 ("", "is empty"),
                 ("time_s\n0\n", "1: has no column position_m"),
                 ("position_m\n0\n", "1: has no column time_s"),
-                ("time_s,position\n0,0\n", "1: 'position' is no column; there are time_s, position_m"),
-                ("time_s,64:position_m\n0,0\n", "1: '64:position_m': a node is 1 to 63"),
-                ("time_s,2x:position_m\n0,0\n", "1: '2x:position_m': a node is 1 to 63"),
+                ("time_s,position\n0,0\n", "1: 'position' is not a known column; expected time_s, position_m"),
+                ("time_s,64:position_m\n0,0\n", "1: '64:position_m': a node must be 1 to 63"),
+                ("time_s,2x:position_m\n0,0\n", "1: '2x:position_m': a node must be 1 to 63"),
                 ("time_s,2:velocity_m_per_s\n0,0\n", "1: has no position_m of node 2"),
                 ("time_s,position_m,1:position_m\n0,0,0\n", "1: has '1:position_m' twice"),
                 ("time_s,position_m\n0,0\n", "has fewer than 2 rows"),
@@ -242,7 +242,7 @@ class Play(PlayCase):
 
     def test_one_that_hears_no_sync_ends(self):
         self.pass_through(to_board=lambda identifier, data: None if identifier == SYNC.frame_id else data)
-        not_started = "node 1: has not started: no Sync came, or too late"
+        not_started = "node 1: has not started: no Sync arrived, or too late"
         done = self.play(motion(self.folder, {1: 1.0}), "--settle", "0.1", wanted=not_started)
         self.assertEqual(done.returncode, 1)
         self.assertIn(not_started, done.stderr)

@@ -15,7 +15,7 @@ SUPERCOIL = os.environ["SUPERCOIL"]
 TRIES = 5
 REST_M = 0.003
 # What a busy machine does to any master in real time.
-STARVED = ("the board stopped it", "ran dry", "was told something else", "has not started", "not_ready", "busy",
+STARVED = ("the board stopped it", "ran dry", "received another command", "has not started", "not_ready", "busy",
            "out_of_range", "wrong_state", "does not answer")
 
 

@@ -132,7 +132,8 @@ class Local(unittest.TestCase):
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):
                 muscle.change(Setting.max_power_W, 1.0)
             self.daemon.answers["playback"] = "wrong: channel 'playback': must be 1 to 2"  # an older board
-            with self.assertRaisesRegex(supercoil.BusError, "nothing is known about channel 2: wrong: channel 'playback'"):
+            with self.assertRaisesRegex(supercoil.BusError,
+                                        "nothing is known about channel 2: wrong: channel 'playback'"):
                 muscle.play([0.0, 1.0], [0.003, 0.003], settle_s=0.0)
 
     def test_a_controller_is_tuned_and_the_boards_reason_for_a_refusal_is_told(self):

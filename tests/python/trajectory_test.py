@@ -192,7 +192,7 @@ class Trajectories(unittest.TestCase):
             async def interrupt(muscle, playback=playback):
                 playing = await self.under_way(muscle, playback)
                 await muscle.set_position(FIRST_M)
-                with self.assertRaisesRegex(supercoil.PlaybackError, "told something else meanwhile"):
+                with self.assertRaisesRegex(supercoil.PlaybackError, "received another command in the meantime"):
                     await playing
                 return muscle.state
             with self.subTest(playback):

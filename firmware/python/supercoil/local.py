@@ -119,8 +119,8 @@ class SocketLink:
             try:
                 await self._obey(f"start {at_s!r}")
             except refusals.OutOfRange:  # only the start time can be out of range
-                raise PlaybackError(f"node {self._channel}: has not started: it was told too late, this machine was "
-                                    "busy") from None
+                raise PlaybackError(f"node {self._channel}: has not started: the start was sent too late: this "
+                                    "machine was busy") from None
             await self._look_at_playback()
         return self.trajectory
 

@@ -75,9 +75,9 @@ class Player:
             raise DryError(f"{node}: ran dry: the knot after the one at {last_s:.3f} s came too late")
         if playback == Playback.empty:
             await self._raise_fault()
-            raise PlaybackError(f"{node}: plays no longer: it was told something else meanwhile, or has run dry")
+            raise PlaybackError(f"{node}: no longer playing: it received another command in the meantime, or ran dry")
         if playback == Playback.loaded and time.monotonic() - self._started_at > _STARTED_WITHIN_S:
-            raise PlaybackError(f"{node}: has not started: no Sync came, or too late")
+            raise PlaybackError(f"{node}: has not started: no Sync arrived, or too late")
 
     def _has_sent_all(self) -> bool:
         return self._sent == len(self._knots)

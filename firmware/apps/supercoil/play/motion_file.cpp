@@ -86,7 +86,7 @@ class MotionReader {
     const bool whole = !numbered || std::from_chars(name.data(), name.data() + colon, node).ptr ==
                                         name.data() + colon;
     if (!whole || node < 1 || node > can::max_nodes) {
-      return at_line("'" + std::string(name) + "': a node is 1 to " +
+      return at_line("'" + std::string(name) + "': a node must be 1 to " +
                      std::to_string(can::max_nodes));
     }
     const std::string_view what = numbered ? name.substr(colon + 1) : name;
@@ -96,8 +96,8 @@ class MotionReader {
                                                 : nullptr;
     if (column == nullptr) {
       return at_line("'" + std::string(name) +
-                     "' is no column; there are time_s, position_m, velocity_m_per_s, and for "
-                     "several nodes 2:position_m and so on");
+                     "' is not a known column; expected time_s, position_m, velocity_m_per_s, and "
+                     "for several nodes 2:position_m and so on");
     }
     if (*column) return at_line("has '" + std::string(name) + "' twice");
     *column = place;

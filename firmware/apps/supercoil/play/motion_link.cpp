@@ -59,7 +59,7 @@ MotionLink::Played LocalMotionLink::add_knot(double after_s, const control::Knot
 MotionLink::Played LocalMotionLink::start(const Start& start) {
   auto played = command_then_status("start " + shortest_text(start.board_s + start.after_s));
   if (played && played->refusal == Refusal::out_of_range)
-    return failure("the start was told too late: this machine was busy");
+    return failure("the start was sent too late: this machine was busy");
   return played;
 }
 
@@ -77,7 +77,7 @@ Result<LocalMotionLink::Status> LocalMotionLink::read_status() {
     status.played.room = static_cast<std::uint8_t>(room);
     return status;
   }
-  return failure("nothing is told of its trajectory: " + *lines);
+  return failure("no state of its trajectory is reported: " + *lines);
 }
 
 MotionLink::Played LocalMotionLink::playback() {

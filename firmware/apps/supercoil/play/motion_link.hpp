@@ -53,7 +53,7 @@ class CanMotionLink final : public MotionLink {
   Played start(const Start& start) override;
   Result<double> board_s() override { return NAN; }
   void send_sync(std::uint8_t number, double master_time_s) override;
-  std::string why_not_started() const override { return "no Sync came, or too late"; }
+  std::string why_not_started() const override { return "no Sync arrived, or too late"; }
   void release() override { commander_.release(); }
 
  private:
@@ -72,7 +72,7 @@ class LocalMotionLink final : public MotionLink {
   Played start(const Start& start) override;
   Result<double> board_s() override;
   void send_sync(std::uint8_t /*number*/, double /*master_time_s*/) override {}
-  std::string why_not_started() const override { return "the board's time does not go on"; }
+  std::string why_not_started() const override { return "the board's clock is not advancing"; }
   void release() override {}
 
  private:

@@ -181,7 +181,8 @@ Player::Problem Player::stopped(const Node& node) const {
     return whose(node) + "ran dry: the knot after the one at " + seconds_text(last_s) +
            " came too late";
   }
-  if (state == PlaybackState::empty) return whose(node) + "was told something else meanwhile";
+  if (state == PlaybackState::empty)
+    return whose(node) + "received another command in the meantime";
   const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
   if (waits && Clock::now() - started_ > started_within)
     return whose(node) + "has not started: " + node.link->why_not_started();

@@ -123,7 +123,7 @@ export class TrajectoryPlayer extends EventTarget {
     const all = run.next.length === 0;
     if (run.started && (playback === "dry" || (playback === "ended" && !all))) return this.#end(run, "ran dry: its next knot came too late");
     if (refusal === "infeasible") return `the way to ${run.next[0].time_s.toFixed(2)} s is infeasible: it needs more power than there is, or faster cooling`;
-    if (run.started && playback === "empty") return this.#end(run, "the board was told something else");
+    if (run.started && playback === "empty") return this.#end(run, "the board received another command");
     if (refusal !== "none" && refusal !== "queue_full") return `${starts ? "its start" : `the knot at ${(run.next[0]?.time_s ?? run.taken_s).toFixed(2)} s`} was refused: ${refusal_words(refusal)}`;
     if (playback === "ended") return this.#end(run, "played to its end");
     run.started ||= starts;

@@ -130,7 +130,7 @@ class Scripts(OnSimulatedBoard):
     def test_a_refused_scale_comes_with_what_the_sensor_shows_and_allows(self):
         refused = self.command("1", "scale", "1")
         self.assertRegex(refused.stderr, r"^supercoil: 1 scale 1: refused: out_of_range; the sensor shows \S+ m there: "
-                         r"(\S+ to \S+ are in range|no scale makes a place of that)\n$")
+                         r"(\S+ to \S+ are in range|no scale can turn that into a place)\n$")
 
     def test_a_refusal_is_told_in_words_behind_its_name(self):
         self.command("1", "disarm")
@@ -159,7 +159,7 @@ class Scripts(OnSimulatedBoard):
         room = " are in range, up to its ticks a second, as far as its bus has room"
         for name, value, told in (("status_Hz", "0", f"{outside}1 to 1000{room}"),
                                   ("measurement_Hz", "0.001", f"{outside}0, for never, and 0.01 to 1000{room}"),
-                                  ("supply_gain", "1.1", f"{outside}it is only read: supercoil doctor --compare-senses finds it")):
+                                  ("supply_gain", "1.1", f"{outside}it is read-only: supercoil doctor --compare-senses determines it")):
             self.assertEqual(setting("1", name, value).stderr, f"supercoil: {name}: {told}\n")
         for written, meant in (("mesurement_Hz", "did you mean measurement_Hz?"), ("max_powr_W", "did you mean max_power_W?"),
                                ("max_power_W=2", "write max_power_W 2"), ("loudness", "there are: max_power_W, measurement_Hz, ")):

@@ -49,8 +49,8 @@ std::string range_of_refused(const can_client::Master::Setting& heard, double va
                              double nearest) {
   using telemetry::Message;
   if (heard.setting >= telemetry::supply_gain)
-    return "; it is only read: supercoil doctor --compare-senses finds it";
-  if (std::isnan(heard.value)) return "; the first node of its board sends that one";
+    return "; it is read-only: supercoil doctor --compare-senses determines it";
+  if (std::isnan(heard.value)) return "; the first node of its board sends that message";
   const auto allowed = [](double lowest, double highest) {
     return "; " + number_text(lowest, 7) + " to " + number_text(highest, 7) + " are in range";
   };

@@ -37,7 +37,7 @@ class Lines {
 void print_fault(Lines& lines, const recorder::Recording& recording) {
   const recorder::Header& h = recording.header;
   if (h.fault == 0) {
-    lines.add("No fault is in what could be read; times are relative to the last row.");
+    lines.add("The part that could be read has no fault; times are relative to the last row.");
     return;
   }
   const std::string name = h.fault_name.empty() ? recorder::fault_name(h.fault) : h.fault_name;
@@ -45,7 +45,7 @@ void print_fault(Lines& lines, const recorder::Recording& recording) {
   if (const auto known = info(static_cast<Fault>(h.fault))) {
     lines.add("  meaning: %s", std::string(known->meaning).c_str());
   }
-  lines.add("  when: %.6f s after the board's clock began (as a rule, its start)",
+  lines.add("  when: %.6f s after the board's clock began (normally at its start)",
             static_cast<double>(h.fault_time_ns) / 1e9);
   if (!h.program.empty()) lines.add("  recorded by: supercoil %s", h.program.c_str());
 }
@@ -59,7 +59,7 @@ void print_extent(Lines& lines, const recorder::Recording& recording) {
   lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
   const Gaps gaps = gaps_of(recording);
   if (gaps.count > 0) {
-    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on",
+    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest %.3f s, from %.3f s on",
               gaps.count, gaps.count == 1 ? "" : "s", gaps.max_s, gaps.max_from_s);
   }
 }
@@ -119,7 +119,7 @@ void print_channel(Lines& lines, const recorder::Recording& recording, int numbe
 
 void print_margins(Lines& lines, const ChannelStory& c, const recorder::Recording& recording) {
   if (c.margins.empty()) return;
-  lines.add("  last margins up to the fault, the fullest first:");
+  lines.add("  last margins up to the fault, largest first:");
   for (const Row* row : c.ranked_margins()) {
     lines.add("    %-24s %6.0f %% used: %.5g of %.5g, at %.3f s",
               recorder::fault_name(row->margin_selector).c_str(), 100.0 * of(row->margin_used),

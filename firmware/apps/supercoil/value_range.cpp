@@ -35,7 +35,7 @@ std::string scale_range(BoardLink& board, const std::string& channel) {
   if (!known || std::isnan(shown_m)) return "";
   const double raw_m = shown_m / (*known)[known_position_scale];
   const std::string shown = "; the sensor shows " + number_text(shown_m, digits) + " m there";
-  if (!(raw_m > 0.0)) return shown + ": no scale makes a place of that";
+  if (!(raw_m > 0.0)) return shown + ": no scale can turn that into a place";
   return shown + ": " + number_text(scale_rule().lowest * raw_m, digits) + " to " +
          number_text(scale_rule().highest * raw_m, digits) + " are in range";
 }

@@ -34,7 +34,7 @@ void warn_without_proof(const ChannelSettings& channel, std::size_t index) {
   if (channel.supervision.proof_of_response) return;
   log(Level::warning,
       "channel " + std::to_string(index + 1) +
-          (channel.joint.has_other()  ? ": no proof of response is asked of a joint's two muscles"
+          (channel.joint.has_other()  ? ": a joint's two muscles have no proof of response"
            : channel.bundle.follows() ? ": only the bundle as a whole proves its response"
                                       : ": detectors.proof_of_response is false") +
           ": nothing checks that a hot muscle at rest still responds");
@@ -182,7 +182,7 @@ void StorageWorker::watch(const Row& row) {
 
 void StorageWorker::tell_lost(std::size_t lost, std::size_t& told, const char* why) {
   if (lost == told) return;
-  log(Level::warning, std::to_string(lost - told) + " rows are missing in recordings: " + why);
+  log(Level::warning, std::to_string(lost - told) + " rows are missing from recordings: " + why);
   told = lost;
 }
 

@@ -184,14 +184,14 @@ class Log(unittest.TestCase):
                 "when: 20.000000 s after the board's clock began",
                 "recorded: -10.000 s to 1.000 s, 2102 rows\n",
                 "2 channels at 100 Hz\n",
-                "ticks are missing: 1 gap, the longest of 0.510 s from -4.510 s on\n",
+                "ticks are missing: 1 gap, the longest 0.510 s, from -4.510 s on\n",
                 "+0.500 s: channel 1: emergency_stop\n",
                 "just before: active, position, limited by nothing; position 0.001999 m, reference 0.011 m\n",
                 "supply 12 V",
                 "power: 4 W on average before the fault, 4 W at most\n",
                 "hottest: at most 165.0 C, at 1.000 s\n"]:
             self.assertIn(text, done.stdout)
-        margins = done.stdout.split("the fullest first:\n")[1].splitlines()
+        margins = done.stdout.split("largest first:\n")[1].splitlines()
         self.assertEqual([line.split()[0] for line in margins],
                          ["over_temperature", "under_voltage", "over_travel"])
         self.assertIn("99 % used: 159 of 160, at -0.020 s", margins[0])

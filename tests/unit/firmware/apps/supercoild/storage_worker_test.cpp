@@ -125,7 +125,7 @@ TEST(StorageWorker, TheNextStartSaysWhyNothingChecksThatAMuscleResponds) {
   STRCMP_CONTAINS(switched_off, logged().c_str());
   add_joint(settings.firmware, {.agonist = 0, .antagonist = 1});
   const std::string of_joint = logged();
-  STRCMP_CONTAINS("channel 2: no proof of response is asked of a joint's two muscles: nothing",
+  STRCMP_CONTAINS("channel 2: a joint's two muscles have no proof of response: nothing",
                   of_joint.c_str());
   CHECK(of_joint.find("proof_of_response is false") == std::string::npos);
 }

@@ -67,11 +67,11 @@ class SetupOfABoard(SetupCase):
         remember(identify={**described, "stiffness_N_per_m": 1.001 * described["stiffness_N_per_m"]})
         told = self.interrupted_at("identify: heats", *bus)
         self.assertEqual(len(told), 2, told)
-        self.assertRegex(told[0], r"^  identify and what follows it are to be done again: the board goes by stiffness_N_per_m = 17\.84, "
+        self.assertRegex(told[0], r"^  identify and all later steps must be repeated: the board uses stiffness_N_per_m = 17\.84, "
                          r"and \S+board\.toml\.setup\.json has 17\.858: it is another board or muscle")
         remember(calibrate={"position_offset_m": 0.0002, "cold_resistance_Ohm": 10.0})
         told = self.interrupted_at("calibrate: takes", *bus)
-        self.assertIn("calibrate and what follows it are to be done again: the board goes by position_offset_m = 0, ", told[0])
+        self.assertIn("calibrate and all later steps must be repeated: the board uses position_offset_m = 0, ", told[0])
         self.assertEqual(len(told), 2, told)  # neither describe nor senses again
         self.assertIn("identify", json.loads(self.record.read_text())["channel-1"])  # the other board may come back
         done = self.setup_program("--socket", self.path / "none")
@@ -113,7 +113,7 @@ class SetupOfABoard(SetupCase):
         # The muscle hangs at its zero: no scale turns that into 5 mm.
         done = self.setup_program("scale", "--can", bus, input="5\n")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
+        self.assertIn("in the direction of contraction, in mm (0.025 to 25): ", done.stdout)
         self.assertIn("supercoil: scale 0.005: refused: out_of_range", done.stderr)
         simulator.end(signal.SIGKILL)
         simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
@@ -303,11 +303,11 @@ class SetupOfABoard(SetupCase):
         for channel in ("1", "2"):
             done = self.setup_program("describe", "--channel", channel, *script)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("it turns a joint: answer as it moves the joint alone", done.stdout)
-            self.assertIn("Weights hang at the lever, 15 mm from the axis", done.stdout)
+            self.assertIn("it turns a joint: answer for this muscle moving the joint alone", done.stdout)
+            self.assertIn("Hang weights at the lever, 15 mm from the axis", done.stdout)
         self.board.write_text(self.example.replace("lever_m = 0.015", "lever_m = [0.012, 0.016, 0.012]\nlever_range_deg = [-40, 40]"))
         done = self.setup_program("describe", "--channel", "1", *script)
-        self.assertIn("Weights hang at the lever, 16 mm from the axis", done.stdout)
+        self.assertIn("Hang weights at the lever, 16 mm from the axis", done.stdout)
         self.board.write_text(self.example)
         for step, channel, told in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
                                     ("scale", "1", "channel 1 turns a joint: the file's m_per_count and lever_m are its scale"),

@@ -39,7 +39,7 @@ class SetupProgram(SetupCase):
         questions = ["", "10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer instead of the weight
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("Resistance of the cold muscle by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)
+        self.assertIn("Resistance of the cold muscle, by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)
         self.assertIn("wrong, in % (1 to 60) [50]: ", done.stdout)
         self.assertIn("max_travel_m = 0.025", done.stdout)
 
@@ -52,9 +52,9 @@ class SetupProgram(SetupCase):
             terminal.until(r"(?s)(11\.664\): .*){5}$")
             self.assertIn("by a thermometer, in K; needed, as thread_g is not known (0.1 to 200): ", terminal.told)
             self.assertEqual(terminal.told.count("'' is refused: it must be a number from 0.1 to 200"), 1)
-            self.assertEqual(terminal.told.count("at most what the supply gives it (0.001 to 11.664): "), 5)
+            self.assertEqual(terminal.told.count("no more than the supply can give it (0.001 to 11.664): "), 5)
             terminal.answer("4.5")
-            terminal.until(r"at most what its sensor reads \(0\.01 to 41\): $")
+            terminal.until(r"no more than its sensor can read \(0\.01 to 41\): $")
             terminal.type("\x03")
             self.assertEqual(terminal.ended(), 1)
         self.assertTrue(terminal.told.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.told[-200:])
@@ -88,7 +88,7 @@ class SetupProgram(SetupCase):
         typed = ["1", *map(str, self.PLATE.values()), "", "", "100", "55", "", "", "1.3", "", "", "", "", ""]
         done = self.setup_program("describe", input="\n".join(typed) + "\n")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("Rated power, which it bears for good, in W (0.001 to 1000): ", done.stdout)
+        self.assertIn("Rated continuous power, in W (0.001 to 1000): ", done.stdout)
         self.assertIn("in mm (0.01 to 10000) [12]: ", done.stdout)
         self.assertEqual(self.board.read_text(), by_script)
 
@@ -101,13 +101,13 @@ class SetupProgram(SetupCase):
         questions = ["", "10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("the answers make a muscle with ", done.stderr)
+        self.assertIn("the answers give a muscle with ", done.stderr)
         self.assertIn(f"the answers are kept: supercoil setup describe --config {self.board} offers them again", done.stdout)
         self.assertEqual(self.board.read_text(), self.example)
         self.assertNotRegex(self.setup_program(*self.script(max_W=40)).stderr, r"board\.toml:\d")
 
     def test_without_anybody_who_answers_nothing_changes(self):
-        self.assert_refused(self.setup_program(stdin=subprocess.DEVNULL), "nobody answers")
+        self.assert_refused(self.setup_program(stdin=subprocess.DEVNULL), "no answer: the input has ended")
 
     def test_every_wrong_answer_is_named_with_its_range(self):
         self.assert_refused(self.setup_program(*self.script(load_g=None, stretch_mm=None)),
@@ -127,7 +127,7 @@ class SetupProgram(SetupCase):
 
     def test_a_muscle_that_this_board_cannot_have_is_refused_by_its_key(self):
         self.assert_refused(self.setup_program(*self.script(max_W=40, max_travel_mm=50)),
-                            "answers.toml:10: muscle.max_W = 40: must be 0.001 to 11.664 here: The most power", "at most what the supply gives it",
+                            "answers.toml:10: muscle.max_W = 40: must be 0.001 to 11.664 here: Maximum power", "no more than the supply can give it",
                             "answers.toml:11: muscle.max_travel_mm = 50: must be 0.01 to 41 here: ")
 
     def test_a_list_of_controllers_stays_as_it_was_chosen(self):
@@ -157,7 +157,7 @@ class SetupProgram(SetupCase):
         self.assertNotIn("max_travel_m", self.board.read_text())
         done = self.setup_program("describe", "--channel", "2", *self.script(**bench, max_travel_mm=8))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("its travel stays as its joint's range_deg has it: 7.854 mm", done.stdout)
+        self.assertIn("its travel stays as set by its joint's range_deg: 7.854 mm", done.stdout)
         self.assertIn("range_deg = [-30, 19.09]  # stops", self.board.read_text())
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
@@ -168,7 +168,7 @@ class SetupProgram(SetupCase):
                               "weight_Nm = 0.002\nhangs_at_deg = -45\n")
         done = self.setup_program("describe", *self.script(max_travel_mm=5))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("it turns a joint: answer as it moves the joint, with what draws it back. Weights hang at", done.stdout)
+        self.assertIn("it turns a joint: answer for this muscle moving the joint against what draws it back. Hang weights at", done.stdout)
         self.assertIn("joint.range_deg = [0, 19.09]  (as answered)", done.stdout)
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
@@ -200,8 +200,8 @@ class SetupProgram(SetupCase):
         self.assertNotEqual(described, self.example)
         done = self.setup_program("--undo")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(done.stdout, f"{self.board} is as it was before describe of channel 1, and that step and those behind it are "
-                         f"to be done; what it was until now is kept as {self.board}.undone\n")
+        self.assertEqual(done.stdout, f"{self.board} is as it was before describe of channel 1, and that step and all later ones "
+                         f"must be repeated; the file as it was until now is kept as {self.board}.undone\n")
         self.assertEqual(self.board.read_text(), self.example)
         self.assertEqual(self.files(), ["", ".undone"])
         self.assertEqual((self.path / "board.toml.undone").read_text(), described)
@@ -218,7 +218,7 @@ class SetupProgram(SetupCase):
         self.setup_program("describe", "--channel", "2", *self.script())
         done = self.setup_program("--undo")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("the last change was describe of channel 2: --channel 2 --undo takes that back first", done.stderr)
+        self.assertIn("the last change was describe of channel 2: undo that first with --channel 2 --undo", done.stderr)
         self.assertEqual(self.setup_program("--undo", "--channel", "2").returncode, 0)
         self.assertEqual(self.board.read_text(), both)
         done = self.setup_program("--undo", "--json")
@@ -241,7 +241,7 @@ class SetupProgram(SetupCase):
         done = undone(senses={}, calibrate={}, identify={}, gains={"taken": True}, move={})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertTrue(done.stdout.endswith(
-            "\non the board stays, from start to start, what was found of the muscle (supercoil command 1 clear forgets it); "
+            "\nthe board keeps, from start to start, what was found of the muscle (supercoil command 1 clear forgets it); "
             "the tuning that gains stored (supercoil tune 1 --clear forgets it); "
             "the comparison with a meter (supercoil command 1 compare_supply 0 forgets it)\n"), done.stdout)
         self.assertNotIn("on the board", undone(gains={"taken": False}).stdout)
@@ -270,7 +270,7 @@ class SetupProgram(SetupCase):
         self.board.write_text(self.board.read_text() + "# by hand\n")
         for answer, left in (("0", True), ("1", False)):
             with Terminal("--config", self.board, "--undo") as terminal:
-                terminal.until("take it back all the same, 0: leave it")
+                terminal.until("undo it anyway, 0: leave it")
                 terminal.type(answer + "\n")
                 self.assertEqual(terminal.ended(), 1 if left else 0, terminal.told)
             self.assertEqual("# by hand" in self.board.read_text(), left)

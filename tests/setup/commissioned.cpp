@@ -76,7 +76,7 @@ class MeterReader final : public operating::Operator {
   bool interrupted() const override { return false; }
   OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
     if (question.key == "supply_V") return supply_V;
-    if (question.key != "current_A") return failure("nobody answers");
+    if (question.key != "current_A") return failure("no answer: the input has ended");
     currents_A_.push_back(link_.metered_W() / supply_V);
     return currents_A_.back();
   }

@@ -44,7 +44,7 @@ class Person final : public operating::Operator {
       return gains;
     }
     if (question.key == "reset_fault")
-      return std::isnan(resets) ? OrWhy(failure("nobody answers")) : resets;
+      return std::isnan(resets) ? OrWhy(failure("no answer: the input has ended")) : resets;
     if (question.key == "supply_V") return supply_V;
     if (question.key == "place_mm") return place_mm;
     const double slip = currents_read_++ == 1 ? second_reading_ratio : 1.0;
@@ -209,7 +209,7 @@ TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
 }
 
 TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
-  ends_with("do not fit one another", [](Person& person) { person.second_reading_ratio = 1.25; });
+  ends_with("contradicts the others", [](Person& person) { person.second_reading_ratio = 1.25; });
 }
 
 TEST(GuidedSteps, NobodyIsWaitedForLongerThanFiveMinutesWhileTheMuscleIsHeated) {

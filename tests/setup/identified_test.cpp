@@ -107,7 +107,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   operating::tell_identified(kept, configured, listener);
   const std::string of_kept = listener.take();
   STRCMP_CONTAINS("stiffness_N_per_m: 17.6 (configured: 16, +10 %)\n", of_kept.c_str());
-  STRCMP_CONTAINS("theta1 was kept: each of these rests on the file's values", of_kept.c_str());
+  STRCMP_CONTAINS("theta1 was kept: each of these depends on the file's values", of_kept.c_str());
   STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % ", of_kept.c_str());
 
   // A muscle that was stored before deviations were stored.

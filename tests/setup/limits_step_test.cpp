@@ -101,7 +101,7 @@ TEST(LimitsStep, AScriptLetsGoWhereItSays) {
   STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
   const std::string told = who.take();
-  STRCMP_CONTAINS("lets go where the script says, when its end rises no more, at ", told.c_str());
+  STRCMP_CONTAINS("lets go where the script says, when its end stops rising, at ", told.c_str());
   STRCMP_CONTAINS("let go at 2.0", told.c_str());
   STRCMP_EQUAL("disarmed", board->link().status("1")->state.c_str());
 }
@@ -177,12 +177,12 @@ TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
   operating::Commission steps(deaf, "1", board->settings(), 0, *watcher);
   const auto limits = steps.limits();
   CHECK_FALSE(limits.has_value());
-  STRCMP_EQUAL("answered before the board told a position; nothing changed",
+  STRCMP_EQUAL("answered before the board reported a position; nothing changed",
                limits.error().text().c_str());
   watcher->answer = 0.0;
   const auto left = steps.limits();
   CHECK(left.has_value() && left->at("position_m").is_null() && !left->contains(travel_key));
-  STRCMP_CONTAINS("let go before the board told a position; the limit stays",
+  STRCMP_CONTAINS("let go before the board reported a position; the limit stays",
                   watcher->told.c_str());
 }
 

@@ -21,7 +21,7 @@ class Listener final : public operating::Operator {
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
   OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
-    return scripted(question).value_or(failure("nobody answers"));
+    return scripted(question).value_or(failure("no answer: the input has ended"));
   }
   std::optional<OrWhy> scripted(const operating::Question& question) override {
     return script_.next(question);

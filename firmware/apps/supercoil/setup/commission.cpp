@@ -137,7 +137,7 @@ Commission::Done Commission::arm() {
       if (refuses(*answer, Refusal::wrong_state)) return {};
       return failure("arm: " + *answer);
     }
-    who_.show_progress("waiting until the muscle must be cool", elapsed_s / max_s);
+    who_.show_progress("waiting until the muscle is certainly cool", elapsed_s / max_s);
     if (who_.interrupted()) return failure("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
@@ -185,7 +185,7 @@ Commission::OrWhy Commission::calibrate_when_cold() {
                  max_calibrate_s * static_cast<double>(heated_together(settings_, index_).size()));
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
-    who_.say("not cold yet, by the bounds of its heat; in " + in_digits(left_s) +
+    who_.say("may not be cold yet, by its temperature bounds; in " + in_digits(left_s) +
              " s at the latest");
   }
 }
@@ -271,13 +271,12 @@ StepResult Commission::compare_senses() {
 
 StepResult Commission::scale() {
   const double max_mm = 1e3 * configured_.supervision.max_travel_m;
-  const auto place_mm = who_.ask(
-      {"place_mm",
-       "Hold the muscle's end at a place that a ruler shows. How far is it from rest, towards "
-       "shorter, in mm",
-       {0.001 * max_mm, max_mm},
-       NAN},
-      [] { return Done(); });
+  const auto place_mm = who_.ask({"place_mm",
+                                  "Hold the muscle's end at a place measured with a ruler. How far "
+                                  "is it from rest, in the direction of contraction, in mm",
+                                  {0.001 * max_mm, max_mm},
+                                  NAN},
+                                 [] { return Done(); });
   if (!place_mm) return tl::unexpected(place_mm.error());
   const std::string line = channel_ + " scale " + number_text(1e-3 * *place_mm, 9);
   const auto taken = board_.ask(line);
@@ -301,8 +300,8 @@ StepResult Commission::limits() {
   if (!now) return tl::unexpected(now.error());
   if (!is_calibrated(now->settings.calibration, configured_.calibration)) {
     who_.say(
-        "warning: this board was never calibrated: its zero may be anywhere, and so may the limit "
-        "that is found from it; the step calibrate takes the zero");
+        "warning: this board was never calibrated: its zero is unknown, and so is a limit that is "
+        "counted from it; the step calibrate takes the zero");
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
@@ -348,7 +347,7 @@ StepResult Commission::move() {
   who_.say(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
   const double standing_still_m = motion.amplitude_m / std::numbers::sqrt2;
   if (promise && standing_still_m < telling_ratio * promise->error_m()) {
-    who_.say("so small a motion shows little: a muscle that stands still is off by " +
+    who_.say("so small a motion shows little: a muscle that did not move at all would be off by " +
              in_digits(1e6 * standing_still_m) +
              " um rms; supercoild --check says what limits the travel that it can hold");
   }
@@ -372,7 +371,7 @@ StepResult Commission::move() {
   }
   if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
   if (who_.interrupted()) return failure("interrupted");
-  if (samples == 0) return failure("the board told no tracking error");
+  if (samples == 0) return failure("the board reported no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
   Json found{{"error_m", error_m},
              {"middle_m", motion.middle_m},

@@ -91,7 +91,7 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
     entries.push_back(
         {std::string("thermal.") + key, number_text(value, digits_that_follow), reason});
   };
-  const char* all = "all answers wrong to one side";
+  const char* all = "all answers wrong in the same direction";
   add("min_mass_J_per_K", h.mass_J_per_K * h.mass.low, all);
   add("max_mass_J_per_K", h.mass_J_per_K * h.mass.high, all);
   add("min_transfer_W_per_K", h.transfer_W_per_K * h.transfer.low, all);
@@ -109,15 +109,15 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
 Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::LoopTime& time) {
   if (!(a.of(Asked::thread_g) > 0.0) && !(a.of(Asked::heated_K) > 0.0)) {
     return failure(
-        "thread_g or heated_K must be known: without either nothing says how hot the muscle gets");
+        "thread_g or heated_K must be known: without either, nothing says how hot the muscle gets");
   }
   const double error = 1e-2 * a.of(Asked::uncertainty_percent);
   const Heat heat = heat_of(a, error);
   MuscleDescription d{muscle_of(a, heat), {}};
   if (const auto wrong = control::check(d.muscle)) {
     std::ostringstream message;
-    message << "the answers make a muscle with " << wrong->quantity << " = " << wrong->value
-            << ", and it must be " << wrong->lowest << " to " << wrong->highest;
+    message << "the answers give a muscle with " << wrong->quantity << " = " << wrong->value
+            << "; it must be " << wrong->lowest << " to " << wrong->highest;
     return failure(message.str());
   }
   const auto add = [&](const char* path, double value, const char* reason) {

@@ -102,7 +102,7 @@ void fit_travel(const std::string& text, int channel, std::vector<Entry>& entrie
     *travel = std::move(*fitting);
     return;
   }
-  who.say("its travel stays as its joint's range_deg has it: " +
+  who.say("its travel stays as set by its joint's range_deg: " +
           number_text(1e3 * joint_in_file(text, channel)->max_travel_m(), 4) + " mm");
   entries.erase(travel);
 }
@@ -115,13 +115,12 @@ bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
 }
 
 void say_how_a_joint_is_measured(const FileJoint& joint, Operator& who) {
-  who.say(
-      "it turns a joint: answer as it moves " +
-      std::string(joint.has_other ? "the joint alone, with the other muscle cold"
-                                  : "the joint, with what draws it back") +
-      ". Weights hang at the lever, " + number_text(1e3 * joint.lever.zero_radius_m(), 4) +
-      " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
-      "over the lever's square");
+  who.say("it turns a joint: answer for this muscle moving " +
+          std::string(joint.has_other ? "the joint alone, with the other muscle cold"
+                                      : "the joint against what draws it back") +
+          ". Hang weights at the lever, " + number_text(1e3 * joint.lever.zero_radius_m(), 4) +
+          " mm from the axis; answers in mm are its contraction; the weight that it lifts is the "
+          "joint's inertia over the lever's square");
 }
 
 /// From a file that need not be complete yet.

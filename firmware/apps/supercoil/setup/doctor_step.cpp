@@ -19,9 +19,9 @@ StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& c
   if (!options.can.empty()) {
     const bool simulated = options.can.starts_with("socketcand:");
     who.say("the board is reached over " + options.can + ", and is " +
-            (simulated ? "simulated, or another machine" : "maybe another machine") +
-            ": doctor looks at the machine on which it runs, so run supercoil doctor on the board "
-            "itself; nothing was looked at here");
+            (simulated ? "simulated, or another machine" : "possibly another machine") +
+            ": doctor checks the machine on which it runs, so run supercoil doctor on the board "
+            "itself; nothing was checked here");
     return Json{{"looked_at", nullptr}};
   }
   doctor::CheckOptions check;
@@ -34,9 +34,8 @@ StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& c
     if (!finding.remedy.empty()) who.say("what to do: " + finding.remedy);
   });
   const auto problems = report.count(hal::Severity::problem);
-  who.say(
-      doctor::summary(report) +
-      (problems > 0 ? "; mend what is a problem before anything is heated (docs/doctor.md)" : ""));
+  who.say(doctor::summary(report) +
+          (problems > 0 ? "; fix all problems before anything is heated (docs/doctor.md)" : ""));
   return Json{{"looked_at", config.name},
               {"problems", problems},
               {"warnings", report.count(hal::Severity::warning)},

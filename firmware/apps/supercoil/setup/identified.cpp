@@ -19,11 +19,10 @@ using control::PhysicalParameters;
 void tell_outside(const char* what, double found, double lowest, double highest,
                   const std::string& bounds, Operator& who) {
   if (found >= lowest && found <= highest) return;
-  who.say(
-      "warning: " + std::string(what) + " = " + in_digits(found) + " lies outside " + bounds +
-      ", " + in_digits(lowest) + " to " + in_digits(highest) +
-      ": an answer to describe was further off than its uncertainty, or the configured force per "
-      "kelvin is");
+  who.say("warning: " + std::string(what) + " = " + in_digits(found) + " lies outside " + bounds +
+          ", " + in_digits(lowest) + " to " + in_digits(highest) +
+          ": an answer to describe is wrong by more than its uncertainty, or the configured force "
+          "per kelvin is");
 }
 
 void tell_bounds(const PhysicalParameters& m, const control::ThermalBounds& b, Operator& who) {
@@ -51,7 +50,8 @@ nlohmann::ordered_json tell_identified(const KnownMuscle& known, const ChannelSe
     found[name] = json_number(ratio);
   if (std::isnan(known[known_theta1_deviation]) && !std::isnan(deviations.gain)) {
     who.say(
-        "theta1 was kept: each of these rests on the file's values; time constant and gain do not");
+        "theta1 was kept: each of these depends on the file's values; time constant and gain do "
+        "not");
   }
   const PhysicalParameters muscle = told_parameters(known);
   const IdentifiedValues now = identified_values(muscle);

@@ -112,7 +112,7 @@ Result<Pulled> pull_slowly(BoardLink& board, const std::string& channel, const S
     position_m = *told;
     if (std::isnan(position_m)) {
       if (time_s < first_position_s) return {};
-      return failure("the board tells no position");
+      return failure("the board reports no position");
     }
     if (position_m >= told_m + told_every_ratio * plan.stop_m) {
       told_m = position_m;
@@ -160,16 +160,16 @@ StepResult find_travel_limit(BoardLink& board, const std::string& channel, const
   who.say("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
           number_text(plan.rise_s, 3) + " s, and lets go " +
           (scripted_mm ? "where the script says" : "when you answer") +
-          ", when its end rises no more, at " + in_mm(plan.stop_m) + ", or after " +
+          ", when its end stops rising, at " + in_mm(plan.stop_m) + ", or after " +
           duration_text(plan.rise_s + plan.settle_s));
   const auto pulled =
       pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);
   if (!pulled) return tl::unexpected(pulled.error());
   if (std::isnan(pulled->position_m)) {
     if (pulled->ending == Ending::answered) {
-      return failure("answered before the board told a position; nothing changed");
+      return failure("answered before the board reported a position; nothing changed");
     }
-    who.say("let go before the board told a position; the limit stays");
+    who.say("let go before the board reported a position; the limit stays");
     return Json{{"position_m", nullptr}};
   }
   const std::string where = in_mm(pulled->position_m);
@@ -178,11 +178,11 @@ StepResult find_travel_limit(BoardLink& board, const std::string& channel, const
       who.say("let go at " + where + "; the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::at_travel:
-      who.say("came to " + where + " and touched nothing: the limit stays");
+      who.say("reached " + where + " and touched nothing: the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::at_power:
-      who.say("comes to " + where +
-              " with all power that it may have for good, and touched nothing: the limit stays");
+      who.say("reaches " + where +
+              " at its maximum continuous power, and touched nothing: the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::touched:
       who.say("it seems to touch something at " + where);

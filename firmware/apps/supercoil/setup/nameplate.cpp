@@ -48,7 +48,7 @@ std::vector<Entry> Nameplate::limits(double trip_C) const {
   const double derate_C = max_C - derated_ratio * (max_C - rated_air_C);
   return {{"limits.trip_C", number_text(max_C, temperature_digits), "max_C of the nameplate"},
           {"limits.derate_from_C", number_text(derate_C, temperature_digits),
-           "a fifth of its rise before"}};
+           "a fifth of its rise below max_C"}};
 }
 
 double trip_in_file_C(const std::string& text, int channel) {

@@ -15,12 +15,12 @@ namespace supercoil::operating {
 enum class Rated : std::size_t { power_W, Ohm, length_mm, stroke_percent, stroke_load_g, max_C };
 
 inline constexpr std::array<Question, 6> nameplate_questions{{
-    {"rated_W", "Rated power, which it bears for good, in W", {1e-3, 1e3}, NAN},
+    {"rated_W", "Rated continuous power, in W", {1e-3, 1e3}, NAN},
     {"rated_Ohm", "Rated resistance, in Ohm", {0.1, 1e4}, NAN},
     {"length_mm", "Length to which its stroke refers, in mm", {1.0, 1e4}, NAN},
-    {"stroke_percent", "Stroke with the rated power, in % of that length", {0.1, 60.0}, NAN},
+    {"stroke_percent", "Stroke at the rated power, in % of that length", {0.1, 60.0}, NAN},
     {"stroke_load_g", "Load at which it has that stroke, in g", {0.1, 1e6}, NAN},
-    {"max_C", "The hottest that it may become, in °C; 0: not told", {0.0, 180.0}, 0.0},
+    {"max_C", "Maximum temperature, in °C; 0: not given", {0.0, 180.0}, 0.0},
 }};
 /// Whether there is one; asked first.
 inline constexpr Question has_nameplate{

@@ -55,8 +55,8 @@ std::optional<OtherMuscle> other_muscle(const SetupRecord& record, const KnownMu
     if (!differs(recorded, known[quantity])) continue;
     return OtherMuscle{std::string(step),
                        std::string(step) +
-                           " and what follows it are to be done again: the board goes by " + name +
-                           " = " + number_text(known[quantity], digits_compared) + ", and " +
+                           " and all later steps must be repeated: the board uses " + name + " = " +
+                           number_text(known[quantity], digits_compared) + ", and " +
                            record.path() + " has " + number_text(recorded, digits_compared) +
                            ": it is another board or muscle, or has lost what it had learned"};
   }

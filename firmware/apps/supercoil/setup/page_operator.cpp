@@ -90,7 +90,7 @@ void PageOperator::conclude(const StepResult& found) {
 
 PageOperator::Done PageOperator::answer(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  if (!question_) return failure("nothing is asked now");
+  if (!question_) return failure("no question is open now");
   const OrWhy value = read_answer(*question_, text);
   if (!value) return tl::unexpected(value.error());
   answer_ = *value;

@@ -56,7 +56,7 @@ Result<Json> SetupRecord::read(const std::string& path, const std::string& chann
   std::ifstream file(path);
   Json document = Json::parse(std::istreambuf_iterator<char>(file), {}, nullptr, false);
   if (is_in_order(document, channel)) return document;
-  return failure(path + ": is damaged: delete it, and setup begins with its first step");
+  return failure(path + ": is damaged: delete it, and setup starts again with its first step");
 }
 
 bool SetupRecord::has(const std::string& step) const {

@@ -30,9 +30,8 @@ Result<void> tell(Heated& heated, const std::string& verb, double value) {
   auto taken = heated.ask(verb + " " + number_text(value, 9));
   if (taken) return taken;
   return failure(taken.error().text() +
-                 ". This reading and the others do not fit one another, the senses or the "
-                 "configured resistance; the board has forgotten them and uses what it used "
-                 "before");
+                 ". This reading contradicts the others, the senses or the configured resistance; "
+                 "the board has discarded them all and uses what it used before");
 }
 
 /// The questions at one power.

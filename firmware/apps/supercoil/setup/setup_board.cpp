@@ -37,7 +37,7 @@ StepResult SetupBoard::run(const std::string& step) {
   found->erase(travel_key);
   const auto entry = travel_entry(*text, options_.channel, std::stod(literal), literal, step);
   if (!entry) {
-    who_.say("the joint's range_deg leaves it no more than that already: the file stays");
+    who_.say("the joint's range_deg already allows it no more than that: the file stays");
     return found;
   }
   const auto written = write_entries(options_, step, *text, {*entry});

@@ -47,10 +47,10 @@ bool takes(const SetupStep& step, const SetupOptions& options,
            const std::optional<ScriptedAnswers>& script, Operator& who) {
   if (!step.needs_person || !options.steps.empty()) return true;
   const auto now = script ? Operator::OrWhy(script->has_table(step.name) ? 1.0 : 0.0)
-                          : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
+                          : who.ask({step.name, "1: now, 0: skip it", {0.0, 1.0}, 0.0},
                                     [] { return Operator::Done(); });
   if (now && *now > 0.0) return true;
-  if (!who.interrupted()) who.say("left; " + options.command(step.name) + " does it");
+  if (!who.interrupted()) who.say("skipped; " + options.command(step.name) + " does it");
   return false;
 }
 
@@ -133,9 +133,8 @@ bool undo_anyway(const SetupOptions& options, const std::string& why) {
   if (options.json || isatty(STDIN_FILENO) == 0) return false;
   TerminalOperator terminal(stdout);
   terminal.say(why);
-  const auto answer =
-      terminal.ask({"undo", "1: take it back all the same, 0: leave it", {0.0, 1.0}, 0.0},
-                   [] { return Operator::Done(); });
+  const auto answer = terminal.ask({"undo", "1: undo it anyway, 0: leave it", {0.0, 1.0}, 0.0},
+                                   [] { return Operator::Done(); });
   return answer && *answer > 0.0;
 }
 
@@ -170,7 +169,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   setup
       ->add_option("STEP", o.steps,
                    "describe, doctor, senses, calibrate, scale, limits, identify, gains or move; a "
-                   "step may be repeated [all that have not been done]")
+                   "step may be repeated [all that are not done yet]")
       ->check(CLI::Validator(
           [](const std::string& given) {
             const auto names = step_names();

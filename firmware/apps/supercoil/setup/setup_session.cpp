@@ -38,7 +38,7 @@ void SetupSession::serve_with(httplib::Server& server, const Access& access) {
   server.Post("/api/setup", commanded(access, [this](const auto& request, auto& response) {
                 const Json asked = Json::parse(request.body, nullptr, false);
                 if (!asked.is_object())
-                  return refuse(response, 400, "the request is no JSON object");
+                  return refuse(response, 400, "the request is not a JSON object");
                 const auto done = obey(asked);
                 if (!done) return refuse(response, 400, done.error().text());
                 Json now = state();
@@ -79,7 +79,7 @@ Result<std::string> SetupSession::obey(const Json& asked) {
   if (what == "begin") return without_words(begin(text_of("step")));
   if (what == "answer") return without_words(page_.answer(text_of("text")));
   if (what == "undo") return undo();
-  if (what != "end") return failure("do: begin, answer, end or undo");
+  if (what != "end") return failure("do must be begin, answer, end or undo");
   end("ended on the page");
   return {};
 }

@@ -32,15 +32,15 @@ inline constexpr std::array<SetupStep, 9> setup_steps{{
      false, false, SetupStep::InJoint::of_each, true},
     {"doctor",
      "looks at the board's own machine: kernel, rights to run in real time, processors, buses, "
-     "watchdog, and devices while no supercoild has them; says what does not hold; heats nothing",
+     "watchdog, and devices while no supercoild has them; reports what fails; heats nothing",
      true, false, SetupStep::InJoint::of_each, true, true},
     {"senses",
      "compares the senses of supply and current with a meter: heats it with a small steady power, "
-     "and asks four questions; until then it gets less power than it could",
+     "and asks four questions; until then less power is allowed",
      true, true, SetupStep::InJoint::of_each, true},
     {"calibrate",
-     "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
-     "minutes if it must cool"},
+     "takes the zero and the resistance of the cold muscle; heats it for 50 ms; takes seconds, or "
+     "up to two minutes if it must cool"},
     {"scale", "takes the scale of the position from a second known place; heats nothing", true,
      true, SetupStep::InJoint::never},
     {"limits",

@@ -37,7 +37,7 @@ Result<std::string> TerminalOperator::next_line(const std::function<Done()>& mea
     if (auto line = answers_.wait(look_every)) return *line;
     // Ctrl-C may come with the end of the answers.
     if (interrupted()) return failure("interrupted");
-    if (answers_.ended()) return failure("nobody answers");
+    if (answers_.ended()) return failure("no answer: the input has ended");
   }
 }
 

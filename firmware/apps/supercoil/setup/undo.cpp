@@ -27,13 +27,13 @@ Result<Write> own_write(const SetupOptions& options, const SetupRecord& record) 
     const std::string kept = options.config + before_setup;
     if (!std::filesystem::exists(kept, ignored))
       return failure(options.config + ": setup has changed nothing");
-    return failure(SetupRecord::path_of(options.config) + ": does not tell what setup wrote; " +
+    return failure(SetupRecord::path_of(options.config) + ": does not say what setup wrote; " +
                    kept + " is the file as it was before: compare, and copy it yourself");
   }
   if (last->channel == options.channel) return *last;
   const std::string other = std::to_string(last->channel);
-  return failure(options.config + ": the last change was " + change_text(*last) + ": --channel " +
-                 other + " --undo takes that back first");
+  return failure(options.config + ": the last change was " + change_text(*last) +
+                 ": undo that first with --channel " + other + " --undo");
 }
 
 /// What the completed steps from this one on left on the board, with the channel as in commands.
@@ -83,7 +83,7 @@ Result<Undone> undo_setup(const SetupOptions& options,
   // A write that was cut short left the file as it was before.
   if (storage::crc32(*now) != last->crc32 && *now != *before) {
     const std::string why = options.config + ": was changed after " + change_text(*last) +
-                            " wrote it, and that change would be taken back too";
+                            " wrote it, and that later change would be undone too";
     if (!anyway(why)) return failure(why + "; --undo --force does it");
   }
   Undone undone{last->channel, last->step, free_name(options.config + ".undone"),
@@ -99,9 +99,9 @@ Result<Undone> undo_setup(const SetupOptions& options,
 std::string undone_text(const std::string& config, const Undone& undone) {
   std::string text = config + " is as it was before " + undone.step + " of channel " +
                      std::to_string(undone.channel) +
-                     ", and that step and those behind it are to be done; " +
-                     "what it was until now is kept as " + undone.kept_as;
-  const char* before = "\non the board stays, from start to start, ";
+                     ", and that step and all later ones must be repeated; " +
+                     "the file as it was until now is kept as " + undone.kept_as;
+  const char* before = "\nthe board keeps, from start to start, ";
   for (const OnBoard& one : undone.on_board) {
     text += before + one.what + " (" + one.forgotten_by + " forgets it)";
     before = "; ";

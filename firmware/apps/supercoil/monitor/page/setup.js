@@ -91,7 +91,7 @@ export class Setup {
     this.list.replaceChildren(...steps.map((step, place) => {
       const runs = step.name === running;
       return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
-        element("h3", {}, step.name, step.optional ? " (may be left)" : ""), element("p", {}, step.does),
+        element("h3", {}, step.name, step.optional ? " (optional)" : ""), element("p", {}, step.does),
         this.#found(step),
         ...(step.name === last ? this.#what_happens(runs) : []),
         runs ? element("button", { type: "button", onclick: () => this.#ask({ do: "end" }) }, `end ${step.name}`)
@@ -117,7 +117,7 @@ export class Setup {
     const { lines, question, error, kept, steps, last } = this.state;
     const found = steps.find(({ name }) => name === last)?.found;
     const told = lines.map((line) => element("li", {}, line));
-    const parts = [element("div", { class: "lines", role: "log", "aria-label": "what setup tells", tabindex: 0 }, element("ul", {}, ...told))];
+    const parts = [element("div", { class: "lines", role: "log", "aria-label": "messages of setup", tabindex: 0 }, element("ul", {}, ...told))];
     if (runs) {
       this.progress = element("progress", { max: 1, "aria-label": "progress of the step" });
       this.progress_text = element("span");
@@ -139,7 +139,7 @@ export class Setup {
       input.setAttribute("aria-describedby", "setup-refusal");
     }
     return element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#ask({ do: "answer", text: input.value.trim() }); } },
-      element("label", { for: input.id }, text), element("p", { class: "hint" }, `${range}${fallback === null ? "" : `; nothing means ${fallback}`}`),
+      element("label", { for: input.id }, text), element("p", { class: "hint" }, `${range}${fallback === null ? "" : `; empty means ${fallback}`}`),
       input, " ", element("button", { type: "submit" }, "next"),
       refused ? element("p", { class: "answer refused", role: "alert", id: "setup-refusal" }, this.refusal.text) : "");
   }

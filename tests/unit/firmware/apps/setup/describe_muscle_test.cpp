@@ -94,7 +94,7 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
   a.set(static_cast<std::size_t>(Asked::stretch_mm), 0.01);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
-  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06",
+  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08; it must be 0.01 to 1e+06",
                   d.error().text().c_str());
 }
 

@@ -185,7 +185,7 @@ Commission::OrWhy Commission::calibrate_when_cold() {
                  max_calibrate_s * static_cast<double>(heated_together(settings_, index_).size()));
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
-    who_.say("may not be cold yet, by its temperature bounds; in " + in_digits(left_s) +
+    who_.say("may not be cold yet, by its temperature bounds; cold in " + in_digits(left_s) +
              " s at the latest");
   }
 }

@@ -155,7 +155,7 @@ class Scripts(OnSimulatedBoard):
         refused = setting("1", "max_power_W", "5")
         self.assertEqual((refused.returncode, refused.stdout), (1, "max_power_W = 4.5\n"))
         self.assertEqual(refused.stderr, "supercoil: max_power_W: refused: out_of_range; 4.5 would be obeyed; 0 to 4.5 are in range\n")
-        outside = "refused: out_of_range: the value is not within its range; "
+        outside = "refused: out_of_range: the value is out of range; "
         room = " are in range, up to its ticks a second, as far as its bus has room"
         for name, value, told in (("status_Hz", "0", f"{outside}1 to 1000{room}"),
                                   ("measurement_Hz", "0.001", f"{outside}0, for never, and 0.01 to 1000{room}"),

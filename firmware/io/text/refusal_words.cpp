@@ -19,12 +19,12 @@ constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "too soon after the last reset: try again",
     "self-test, cooling or a probe is not over yet, or a reading is missing",
     "another mode or a probe is under way: let it rest first",
-    "the value is not within its range",
+    "the value is out of range",
     "the board has no such channel",
     "another program commands this muscle",
-    "the lease had ended: try again",
+    "the lease has ended: try again",
     "commands were lost: try again",
-    "more commands than the board takes at once: try again",
+    "more commands than the board accepts at once: try again",
     "the lease is free but was not granted: try again",
     "the board speaks another version of the protocol: use the matching version of supercoil",
     "unstable on the muscle that is known, or values that contradict each other; nothing changed",
@@ -36,22 +36,22 @@ struct OfVerb {
   std::string_view words;
 };
 constexpr std::string_view of_comparison =
-    "it is read while `power` heats steadily; 0, which forgets it, while the muscle rests";
+    "it is accepted while `power` heats steadily; 0, which forgets it, while the muscle rests";
 constexpr std::array of_verbs{
     OfVerb{Verb::arm, Refusal::wrong_state, "it is armed already, or has a fault: reset that"},
     OfVerb{Verb::reset, Refusal::wrong_state, "it has no fault"},
-    OfVerb{Verb::renew, Refusal::wrong_state, "nothing heats that could be renewed"},
+    OfVerb{Verb::renew, Refusal::wrong_state, "no command that heats is active"},
     OfVerb{Verb::rest, Refusal::wrong_state, "it rests already, or is off"},
     OfVerb{Verb::store, Refusal::not_ready, "what the estimator has learned is not trusted yet"},
-    OfVerb{Verb::store, Refusal::busy, "the tuning before it is being stored: try again"},
-    OfVerb{Verb::scale, Refusal::wrong_state, "a position is followed: let it rest first"},
+    OfVerb{Verb::store, Refusal::busy, "the previous tuning is still being stored: try again"},
+    OfVerb{Verb::scale, Refusal::wrong_state, "it follows a position: let it rest first"},
     OfVerb{Verb::compare_supply, Refusal::wrong_state, of_comparison},
     OfVerb{Verb::compare_current, Refusal::wrong_state, of_comparison},
     OfVerb{Verb::compare_rise, Refusal::wrong_state, of_comparison},
     OfVerb{Verb::knot, Refusal::wrong_state, "no position is followed, or the motion has ended"},
     OfVerb{Verb::start, Refusal::wrong_state, "no motion is loaded"},
-    OfVerb{Verb::start, Refusal::not_ready, "the muscle is told to be elsewhere than at the start"},
-    OfVerb{Verb::start, Refusal::out_of_range, "the time of the start is over"},
+    OfVerb{Verb::start, Refusal::not_ready, "its set point differs from the start of the motion"},
+    OfVerb{Verb::start, Refusal::out_of_range, "the start time has passed"},
     OfVerb{
         Verb::scale, Refusal::unsuitable,
         "it shares its sensor: a joint's scale is its m_per_count and lever_m, a bundle's that of "

@@ -27,8 +27,8 @@ TEST(RefusalWords, TheyComeBehindTheName) {
   STRCMP_EQUAL("refused: wrong_state: no position is followed, or the motion has ended",
                told_answer(Reply(Refusal::wrong_state), Verb::knot).c_str());
   STRCMP_EQUAL(
-      "refused: wrong_state: it is read while `power` heats steadily; 0, which forgets "
-      "it, while the muscle rests",
+      "refused: wrong_state: it is accepted while `power` heats steadily; 0, which forgets it, "
+      "while the muscle rests",
       told_answer("1 compare_supply 12", "refused: wrong_state").c_str());
   STRCMP_EQUAL("refused: not_lease_holder: another program commands this muscle",
                told_answer(Reply(Refusal::not_lease_holder)).c_str());

@@ -33,12 +33,12 @@ class Told(ModulesCase):
             status(6, "calibrate", "running"); status(7, "rest", "found"); told.push(shown(7));
             status(8, "identify", "running"); status(9, "rest", "uncertain"); told.push(shown(9));
             return told;""")
-        self.assertEqual(told, ["Nobody asked the board for it in this log.", "Not identified since the board started: configured, or stored from before.",
+        self.assertEqual(told, ["No program asked the board for it in this log.", "Not identified since the board started: configured, or stored from before.",
                                 "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s."])
 
     def test_an_identification_before_the_page_is_told_as_such(self):
         self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "found"); muscle(1, { stiffness_N_per_m: 16, theta4_deviation_ratio: 0.02 });
-            return shown(2);"""), "Identified since the board started, before what this page has heard.")
+            return shown(2);"""), "Identified since the board started, before this page's data begins.")
 
     def test_an_identification_before_the_board_started_has_its_date(self):
         self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "none");

@@ -103,7 +103,7 @@ class ModulesTest(ModulesCase):
             };
             return [shown(1, 0.01), shown(2, 34.4), shown(3, null), shown(4, 0)];"""),
             [["12.800", False, ""], ["12.800", True, "measured 34 s ago"],
-             ["12.800", True, "not measured for long, or ever"], ["12.800", False, ""]])
+             ["12.800", True, "not measured for a long time, or never"], ["12.800", False, ""]])
 
     def test_what_is_not_available_is_a_gap(self):
         self.assertEqual(self.ask("""const table = full(0, 3, (i) => (i === 1 ? null : i));

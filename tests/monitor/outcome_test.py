@@ -25,7 +25,7 @@ class OutcomeTest(ModulesCase):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, (time) => state(time < 5 ? "armed" : "active"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5 ? "cooling" : time < 6 ? "maximum" : time < 6.5 ? "slew" : "nothing"));
             return [limits_told(store, 1, range), limits_told(store, 1, { from_s: 7, to_s: 10 }), limits_told(store, 2, range)];"""),
-            ["At a limit in 30.0 % of the time that it heated: maximum 20.0 %, slew 10.0 %.", "", ""])
+            ["At a limit in 30.0 % of the heating time: maximum 20.0 %, slew 10.0 %.", "", ""])
 
     def test_a_reference_that_was_not_feasible_is_told_of_while_a_position_is_followed(self):
         self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
@@ -34,8 +34,8 @@ class OutcomeTest(ModulesCase):
             const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
             return [told(0, 100), told(5, 5.49), told(6.1, 10), told(0, 4)];"""),
             # A shaped reference says so: cooling.
-            ["The reference asked for more than the muscle can do, for up to 0.980 s on end and in 20.0 % of the time that it was followed: take a slower or a smaller one.",
-             "The reference asked for more than the muscle can do, for up to 0.480 s on end and in 100.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
+            ["The reference asked for more than the muscle can do, for up to 0.980 s at a time and in 20.0 % of the time that it was followed: use a slower or smaller one.",
+             "The reference asked for more than the muscle can do, for up to 0.480 s at a time and in 100.0 % of the time that it was followed: use a slower or smaller one, or shape_reference.", "", ""])
 
     def test_noise_at_a_limit_is_no_infeasible_reference(self):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));
@@ -56,7 +56,7 @@ class OutcomeTest(ModulesCase):
             hear("Status", 4, 1, 0.1, () => state("fault", number("Status", "fault", "heater_open"))); heard();
             hear("Status", 5, 1, 0.1, () => state("armed")); heard();
             return told;"""),
-            ["", "Never armed: nobody asked for it.", "Never armed: refused, not ready: a probe is not over yet.",
+            ["", "Never armed: no arm command.", "Never armed: refused, not ready: a probe is not over yet.",
              "Never armed: fault 20, heater open.", ""])
 
     def test_a_swing_by_itself_is_told_with_its_period(self):
@@ -69,7 +69,7 @@ class OutcomeTest(ModulesCase):
             told.push(swing_told(store, 1, { from_s: 20, to_s: 40 }));
             hear("Tracking", 50, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time) + noise(), reference_m: 0.008 }));
             return [...told, swing_told(store, 1, { from_s: 40, to_s: 70 })];"""),
-            ["", "", "It swings by itself: ± 100 µm, 2.00 s a period, while the reference stands still."])
+            ["", "", "It oscillates by itself: ± 100 µm with a period of 2.00 s, while the reference is constant."])
 
     def test_a_loop_that_oscillates_under_a_moving_reference_is_told_with_its_period(self):
         self.assertEqual(self.ask(OUTCOME + """let seed = 1;

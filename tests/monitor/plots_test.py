@@ -104,7 +104,7 @@ class PlotsTest(unittest.TestCase):
             self.assertNotIn("Supply", self.titles())
             page.driver.refresh()
         page.click("#choose-plots")
-        self.press("as usual", "#plots")
+        self.press("defaults", "#plots")
         page.wait(lambda: page.run(legend) == ["reference", "model", "position"] and "Supply" in self.titles(), SLACK_S, "as usual")
 
     def test_another_run_lies_pale_under_the_one_that_is_shown(self):

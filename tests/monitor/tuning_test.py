@@ -175,7 +175,7 @@ class OnThePage(PageCase):
         self.press(page, "as board.toml")
         self.told(page, "as board.toml: in use")
         self.press(page, "forget stored")
-        self.told(page, "the next start is as board.toml says")
+        self.told(page, "the next start uses board.toml")
         self.assertEqual(self.row(page, "adaptation scale"), ["adaptation scale", "1.00", "1.00", "1.00"])
         self.assertEqual(page.errors(), [])
 

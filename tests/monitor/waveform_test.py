@@ -58,7 +58,7 @@ class Shapes(ModulesCase):
         self.assertEqual(told, ['line 1: "t,x": the first line must name the columns time_s and position_m',
                                 "line 3: position_m 0.025; allowed: 0 to 0.02 m", "line 3: position_m -0.001; allowed: 0 to 0.02 m",
                                 'line 3: position_m is "a": a number is needed', 'line 3: position_m is "": a number is needed',
-                                "line 4: time_s 0 is not later than 0 before it", "line 3: two rows at least are needed"])
+                                "line 4: time_s 0 is not later than 0 before it", "line 3: at least two rows are needed"])
 
 
 class Trajectories(ModulesCase):
@@ -163,7 +163,7 @@ class OnThePage(PageCase):
         smooth = self.references(page)
         self.stop(page)
         page.find(f"{CARD} .choice input").click()
-        self.assertIn("As set points, 20 a second: it was chosen", page.text(CARD))
+        self.assertIn("As set points, 20 per second: it was chosen", page.text(CARD))
         self.start(page)
         page.wait(lambda: re.search(r"sine: [3-9]\.\d s", self.answer(page)), SLACK_S, "set points")
         steps = self.references(page)
@@ -214,8 +214,8 @@ class OnThePage(PageCase):
     def test_what_the_muscle_cannot_do_is_refused_with_its_time(self):
         page = self.opened()
         self.play(page, offset=6, amplitude=3, period=1)
-        page.wait(lambda: "sine: the way to" in self.answer(page), ARRIVES_S, "refused")
-        self.assertRegex(self.answer(page), r"sine: the way to 0\.\d\d s is infeasible: it needs more power than there is, or faster cooling")
+        page.wait(lambda: "sine: the motion up to" in self.answer(page), ARRIVES_S, "refused")
+        self.assertRegex(self.answer(page), r"sine: the motion up to 0\.\d\d s is infeasible: it needs more power than there is, or faster cooling")
         self.assertEqual((page.state(), page.value("reference")), ("active", 6.0))
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
@@ -225,7 +225,7 @@ class OnThePage(PageCase):
         self.play_ahead(page, **SINE)
         page.run(f"""document.querySelector("{CARD} [value=steps]").click()""")
         page.wait(lambda: "another shape was chosen" in self.answer(page), SLACK_S, "ended")
-        self.assertIn("As set points, 20 a second: it jumps", page.text(CARD))
+        self.assertIn("As set points, 20 per second: it jumps", page.text(CARD))
         self.assertFalse(page.find(f"{CARD} .choice").is_displayed())
         time.sleep(0.3)
         held = page.value("reference")

@@ -24,13 +24,13 @@ function modes_in(joint) {
       hint: "The controller makes the joint follow this angle." }
     : { ...MODES.position, hint: `Node ${other} commands the joint; a position is refused here.` };
   const power = lever_m > 0 ? MODES.power
-    : { ...MODES.power, hint: `How hard both muscles pull while the joint follows node ${other}; else this muscle alone gets this power.` };
+    : { ...MODES.power, hint: `How hard both muscles pull while the joint follows node ${other}; otherwise this muscle alone gets this power.` };
   return { ...MODES, position, power };
 }
 
 /** The modes of a muscle that follows in a bundle, which the leader's node commands. */
 function modes_of_follower(leader) {
-  const hint = `Node ${leader} leads the bundle and commands every muscle of it; what heats is refused here.`;
+  const hint = `Node ${leader} leads the bundle and commands all its muscles; commands that heat are refused here.`;
   return Object.fromEntries(Object.entries(MODES).map(([mode, its]) => [mode, mode === "rest" ? { ...its, hint: "No power to any muscle of the bundle; they cool and stay armed." } : { ...its, hint }]));
 }
 

@@ -53,7 +53,7 @@ const OLD_S = 1;
 /** An age that is not available counts as old. */
 export const is_old = (age_s) => !(age_s <= OLD_S);
 
-export const measured_ago = (age_s) => (Number.isFinite(age_s) ? `measured ${duration(age_s)} ago` : "not measured for long, or ever");
+export const measured_ago = (age_s) => (Number.isFinite(age_s) ? `measured ${duration(age_s)} ago` : "not measured for a long time, or never");
 
 /** over_temperature → over temperature */
 export const words = (name) => name.replaceAll("_", " ");

@@ -9,7 +9,7 @@ const QUANTITIES = {
   thermal_mass_J_per_K: ["thermal mass", "J/K"], heat_transfer_W_per_K: ["heat transfer", "W/K"], stiffness_N_per_m: ["stiffness", "N/m"],
   damping_Ns_per_m: ["damping", "N·s/m"], moving_mass_kg: ["moving mass", "kg"], force_per_kelvin_N_per_K: ["force per kelvin", "N/K"],
   cold_resistance_Ohm: ["cold resistance", "Ω"], position_offset_m: ["sensor at zero", "m"], position_scale: ["position scale", ""],
-  response_ratio: ["arrives of a small motion", ""], unexplained_ratio: ["unexplained of the power", ""],
+  response_ratio: ["response to small motions", ""], unexplained_ratio: ["unexplained power fraction", ""],
 };
 const FOLLOWING = {
   time_constant: ["time constant", "s", ({ c, h }) => c / h],
@@ -91,11 +91,11 @@ export class Identified {
   }
 
   #since(known, now_s) {
-    if (known.stiffness_N_per_m === undefined) return this.may_ask ? "being asked for …" : "Nobody asked the board for it in this log.";
+    if (known.stiffness_N_per_m === undefined) return this.may_ask ? "asking the board …" : "No program asked the board for it in this log.";
     const since_s = identified_since(this.store, this.node, now_s);
     if (since_s !== null) return `Identified; in use since ${bus_time(since_s)}.`;
     if (known.identified_s > 0) return `Identified ${minute(known.identified_s)}, before the board started.`;
-    if (known.theta4_deviation_ratio >= 0) return "Identified since the board started, before what this page has heard.";
+    if (known.theta4_deviation_ratio >= 0) return "Identified since the board started, before this page's data begins.";
     return "Not identified since the board started: configured, or stored from before.";
   }
 }

@@ -59,7 +59,7 @@ function begin(about) {
   const add = (node) => tabs.add(new NodeView(node, store, view, run, about, may_command(about), (name) => fault_page.open(name)));
   const views = () => [...tabs.views.values()];
   store.addEventListener("node", ({ detail }) => add(detail));
-  store.addEventListener("restart", () => views().forEach((node) => node.journal.add("the source began anew")));
+  store.addEventListener("restart", () => views().forEach((node) => node.journal.add("the source restarted")));
   store.addEventListener("batch", ({ detail }) => {
     for (const node of views()) node.journal.read(detail.nodes?.[node.node]);
   });

@@ -12,7 +12,7 @@ export function batch_of_csv(text) {
   lines.forEach((line, i) => {
     const cells = line.split(",");
     const time_s = Number(cells[0]);
-    if (cells.length !== columns.length || cells[0] === "" || !(time_s >= newest_s)) throw new Error(`line ${i + 2}: ${columns.length} cells are needed, and a time_s not before that of the line above; it is "${line.slice(0, 40)}"`);
+    if (cells.length !== columns.length || cells[0] === "" || !(time_s >= newest_s)) throw new Error(`line ${i + 2}: ${columns.length} cells are needed, and a time_s not before that of the line above; the line is "${line.slice(0, 40)}"`);
     newest_s = time_s;
     const messages = (nodes[cells[1]] ??= {});
     const touched = new Set();

@@ -42,7 +42,7 @@ function* limits(store, node, { from_s, to_s }, modes = []) {
 
 const percent = (count, all) => `${fixed((100 * count) / all, 1)} %`;
 
-/** "at a limit in 12.3 % of the time that it heated: maximum 10.0 %, slew 2.3 %", or "". */
+/** "at a limit in 12.3 % of the heating time: maximum 10.0 %, slew 2.3 %", or "". */
 export function limits_told(store, node, range) {
   const counts = new Map();
   let all = 0;
@@ -54,7 +54,7 @@ export function limits_told(store, node, range) {
   const names = [...counts].filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
   if (names.length === 0) return "";
   const sum = names.reduce((total, [, count]) => total + count, 0);
-  return `At a limit in ${percent(sum, all)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
+  return `At a limit in ${percent(sum, all)} of the heating time: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
 }
 
 /** Reports a reference that the muscle, by itself or as a joint's antagonist, cannot follow, counted as in the simulator's summary; or "". rule: infeasible of /api/about. */
@@ -82,7 +82,7 @@ export function infeasible_told(store, node, range, rule) {
     in_a_row = 0;
   }
   if (missed === 0) return "";
-  return `The reference asked for more than the muscle can do, for up to ${significant(longest_s)} s on end and in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one${shaped ? "" : ", or shape_reference"}.`;
+  return `The reference asked for more than the muscle can do, for up to ${significant(longest_s)} s at a time and in ${percent(missed, all)} of the time that it was followed: use a slower or smaller one${shaped ? "" : ", or shape_reference"}.`;
 }
 
 /** Why it was never armed, or "" when it was. */
@@ -94,7 +94,7 @@ export function never_armed_told(store, node, { from_s, to_s }) {
   if (name(state) === "fault") return `Never armed: fault ${fault}, ${words(store.word("Status", "fault", fault))}.`;
   const arm = number_of(store, "Acknowledge", "opcode", "arm");
   const asked = [...samples(store.table(node, "Acknowledge"), ["opcode", "refusal"], from_s, to_s)].filter(([, opcode]) => opcode === arm);
-  if (asked.length === 0) return "Never armed: nobody asked for it.";
+  if (asked.length === 0) return "Never armed: no arm command.";
   return `Never armed: refused, ${refusal_words(store.word("Acknowledge", "refusal", asked.at(-1)[2]))}.`;
 }
 
@@ -126,7 +126,7 @@ export function swing_told(store, node, { from_s, to_s }) {
   let first = all.length;
   while (first > 0 && Math.abs(all[first - 1][2] - all.at(-1)[2]) < STILL_M && Number.isFinite(all[first - 1][1])) --first;
   const swing = swing_of(all.slice(first));
-  return swing ? `It swings by itself: ± ${significant(1e6 * swing.amplitude_m)} µm, ${significant(swing.period_s)} s a period, while the reference stands still.` : "";
+  return swing ? `It oscillates by itself: ± ${significant(1e6 * swing.amplitude_m)} µm with a period of ${significant(swing.period_s)} s, while the reference is constant.` : "";
 }
 
 /** Reports that the power goes from limit to limit and back with its own period while the reference moves, as the simulator's summary finds it; or "". */

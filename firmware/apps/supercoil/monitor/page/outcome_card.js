@@ -11,7 +11,7 @@ export class OutcomeCard {
   constructor(node, store, view, infeasible) {
     Object.assign(this, { node, store, view, told_ms: -Infinity });
     this.lines = [limits_told, (...shown) => infeasible_told(...shown, infeasible), never_armed_told, swing_told, cycle_told].map((tell) => ({ tell, line: element("p") }));
-    this.none = element("p", { class: "hint" }, "Armed, at no limit, and no swing by itself.");
+    this.none = element("p", { class: "hint" }, "Armed, at no limit, and not oscillating by itself.");
     this.element = element("section", { class: "card full-only outcome", "aria-label": `what was, node ${node}` },
       element("h2", {}, "In the time shown"), this.none, ...this.lines.map(({ line }) => line));
     view.addEventListener("change", () => (this.told_ms = -Infinity));

@@ -31,7 +31,7 @@ export class Parameters {
       element("h2", {}, "Parameters"),
       scrolling(`table of the parameters, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
         ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body)),
-      element("p", { class: "hint" }, "Position and power tell the time constant, thermal mass over heat transfer, and neither alone: what is learned here does not narrow the temperature."));
+      element("p", { class: "hint" }, "Position and power determine the time constant, which is thermal mass over heat transfer, but neither of these alone: what is learned here does not narrow the temperature."));
   }
 
   update(now_s) {

@@ -29,7 +29,7 @@ export class Plot {
     this.hole = element("div", { class: "canvas" });
     this.element = element("figure", { class: "plot", "aria-label": `${spec.title}, node ${node}` },
       element("figcaption", {}, element("h3", {}, `${spec.title} `, element("span", { class: "unit" }, spec.unit), this.when),
-        element("button", { type: "button", class: "link", "aria-label": `PNG of ${spec.title}`, title: "as a picture", onclick: () => this.#picture() }, "PNG"),
+        element("button", { type: "button", class: "link", "aria-label": `PNG of ${spec.title}`, title: "save as a picture", onclick: () => this.#picture() }, "PNG"),
         element("ul", { class: "legend" }, ...this.#legend())),
       this.hole);
     this.observers = [new ResizeObserver(() => this.#resize()), new IntersectionObserver(([entry]) => this.#show_or_hide(entry.isIntersecting))];

@@ -10,14 +10,14 @@ export class RunBar {
     this.text = element("span", { role: "status" });
     const file = element("input", { type: "file", accept: ".csv,text/csv", hidden: true, onchange: () => this.#load(run, view, file) });
     const button = (text, title, onclick) => element("button", { type: "button", title, onclick }, text);
-    const lay = button("lay over what is shown", "its begin at the left edge of the plots", () => run.begin_at(view.range.from_s));
-    const drop = button("drop", "without the other run", () => run.drop());
+    const lay = button("lay over what is shown", "with its start at the left edge of the plots", () => run.begin_at(view.range.from_s));
+    const drop = button("drop", "remove the other run", () => run.drop());
     place.append(element("b", {}, "Other run"), this.text,
       button("keep what is shown", "as a run to compare with", () => {
         const { range } = view;
         run.take(batch_of_store(store, nodes(), range), `${bus_time(range.from_s)} to ${bus_time(range.to_s)}`);
       }),
-      button("load CSV", "that was exported earlier", () => file.click()), lay, drop, file);
+      button("load CSV", "load a previously exported run", () => file.click()), lay, drop, file);
     const update = () => {
       lay.hidden = drop.hidden = !run.store;
       show(this.text, run.store ? `${run.name}, drawn pale` : "none");

@@ -35,7 +35,7 @@ export class Stop {
   observe(statuses) {
     if (this.notice.dataset.kind !== "failed" || this.notice.hidden || statuses.length === 0) return;
     if (!statuses.every((status) => status && OFF.has(status.state) && status.time_s > this.pressed_s)) return;
-    this.#say(`every muscle is off, by its node's own word (${clock_now()}); STOP itself failed: ${this.problem}`, "done");
+    this.#say(`every node reports its muscle off (${clock_now()}); STOP itself failed: ${this.problem}`, "done");
   }
 
   async press() {

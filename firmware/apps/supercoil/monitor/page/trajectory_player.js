@@ -27,7 +27,7 @@ export class TrajectoryPlayer extends EventTarget {
 
   /** motion: from trajectory.js. max_m: the channel's travel. */
   async start(motion, max_m) {
-    this.stop("another one begins");
+    this.stop("another one starts");
     const knots = motion.knots();
     const next = [knots.next().value];
     // room: as reported by the board; taken_s: time of the last knot that it has.
@@ -122,7 +122,7 @@ export class TrajectoryPlayer extends EventTarget {
     Object.assign(run, { room, buffered_s: buffered_s ?? 0, told_ms: performance.now() });
     const all = run.next.length === 0;
     if (run.started && (playback === "dry" || (playback === "ended" && !all))) return this.#end(run, "ran dry: its next knot came too late");
-    if (refusal === "infeasible") return `the way to ${run.next[0].time_s.toFixed(2)} s is infeasible: it needs more power than there is, or faster cooling`;
+    if (refusal === "infeasible") return `the motion up to ${run.next[0].time_s.toFixed(2)} s is infeasible: it needs more power than there is, or faster cooling`;
     if (run.started && playback === "empty") return this.#end(run, "the board received another command");
     if (refusal !== "none" && refusal !== "queue_full") return `${starts ? "its start" : `the knot at ${(run.next[0]?.time_s ?? run.taken_s).toFixed(2)} s`} was refused: ${refusal_words(refusal)}`;
     if (playback === "ended") return this.#end(run, "played to its end");
@@ -133,7 +133,7 @@ export class TrajectoryPlayer extends EventTarget {
 
   #say_where(run) {
     const { end_s } = run.motion;
-    if (!run.started) return this.#tell("sends the way ahead");
+    if (!run.started) return this.#tell("sends the motion ahead");
     const whole = Number.isFinite(end_s) ? ` of ${end_s.toFixed(1)}` : "";
     this.#tell(`${(run.taken_s - run.buffered_s).toFixed(1)}${whole} s, ${run.buffered_s.toFixed(1)} s ahead on the board`);
   }

@@ -28,7 +28,7 @@ export class Tuning {
         element("div", { class: "buttons" }, element("button", { type: "submit", disabled: !may.command }, "use"),
           button("as board.toml", () => this.#use("configured", {})),
           button("store", () => this.#keep(STORE, "stored for the next start")),
-          button("forget stored", () => this.#keep(CLEAR, "the next start is as board.toml says")))),
+          button("forget stored", () => this.#keep(CLEAR, "the next start uses board.toml")))),
       this.answer);
   }
 

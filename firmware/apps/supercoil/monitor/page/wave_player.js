@@ -20,7 +20,7 @@ export class WavePlayer extends EventTarget {
 
   /** wave: {at, end_s} from waveform.js. */
   start(wave) {
-    this.stop("another one begins");
+    this.stop("another one starts");
     Object.assign(this, { wave, time_s: 0, begin_ms: performance.now() });
     this.timer = setInterval(() => this.#tick(), EVERY_MS);
     this.#tick();

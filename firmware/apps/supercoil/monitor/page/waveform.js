@@ -65,7 +65,7 @@ export function waveform_of_file(text, max_m, measure = LENGTH) {
     if (position_m < min_m || position_m > max_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: ${Number(min_m.toPrecision(4))} to ${Number(max_m.toPrecision(4))} m`);
     rows.push([time_s, position_m]);
   });
-  if (rows.length < 2) throw new Error(`line ${lines.length}: two rows at least are needed`);
+  if (rows.length < 2) throw new Error(`line ${lines.length}: at least two rows are needed`);
   return { at: between(rows), end_s: rows.at(-1)[0] - rows[0][0], rows };
 }
 

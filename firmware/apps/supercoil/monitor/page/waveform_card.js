@@ -48,7 +48,7 @@ export class WaveformCard {
   }
 
   #choose(shape) {
-    this.player.hold("another shape was chosen, or another way; the last set point holds");
+    this.player.hold("another shape or mode was chosen; the last set point holds");
     this.shape = shape;
     for (const [name, { row }] of this.fields) row.hidden = !(name in SHAPES[shape]);
     this.file_row.hidden = shape !== "file";
@@ -60,7 +60,7 @@ export class WaveformCard {
     try {
       const { wave, motion } = await this.#wave();
       const why = this.by_set_points.checked && this.shape !== "steps" ? "it was chosen" : motion.why;
-      this.player.stop("another one begins");
+      this.player.stop("another one starts");
       this.player = why ? this.set_points : this.trajectory;
       this.player.start(why ? wave : motion, this.max_m);
       this.stop_button.disabled = false;
@@ -73,12 +73,12 @@ export class WaveformCard {
 
   /** why: the reason for playing it as set points; "" or undefined: as a trajectory. */
   #say_way(why) {
-    show(this.way, why ? `As set points, 20 a second: ${why}.` : "As a trajectory: the board takes the way ahead of time.");
+    show(this.way, why ? `As set points, 20 per second: ${why}.` : "As a trajectory: the board gets the motion ahead of time.");
   }
 
   /** What to play, as set points and as a trajectory, or why not; throws what is wrong with it. */
   async #wave() {
-    if (!(this.max_m > 0)) throw new Error("the board has not told yet how far its muscle may travel");
+    if (!(this.max_m > 0)) throw new Error("the board has not reported yet how far its muscle may travel");
     if (this.shape === "file") {
       const [file] = this.file.files;
       if (!file) throw new Error("choose a file first");

@@ -54,7 +54,7 @@ class Live(Bridged):
         self.arm()
         # As a controller streams it: ten in a row would be a fault on the board.
         self.diagnosis_of("thumb", "m is in", self.again({"thumb": 3.0}))
-        self.diagnosis_of("thumb", "a command of nan m is left out", self.again({"thumb": float("nan")}))
+        self.diagnosis_of("thumb", "a command of nan m is ignored", self.again({"thumb": float("nan")}))
         self.assertIn(self.observers["thumb"].fault, (Fault.none, Fault.command_timeout))
         empty = np.array([], dtype=np.float64)
         uneven = self.peer.message("sensor_msgs/msg/JointState", self.peer.header(), ["finger", "thumb"],
@@ -245,7 +245,7 @@ class Live(Bridged):
         told = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
                                        if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))
         self.assertEqual(told.level, STALE)
-        self.assertIn("no heartbeat of node 9", told.message)
+        self.assertIn("no heartbeat from node 9", told.message)
         states = self.peer.reader("rt/other_states", "sensor_msgs/msg/JointState")
         self.assertTrue(np.isnan(self.wait(states.take)[-1].position[0]))
 

@@ -219,7 +219,7 @@ class JointOfTwo(Connected):
         led.motion = types.SimpleNamespace(at=lambda now_s: 0.001)
         led.follow(0.0)
         await self.until(lambda: led.refusal)
-        self.assertEqual((led.refusal, led.muscle.told), ("turns a joint back: command that of node 1", []))
+        self.assertEqual((led.refusal, led.muscle.told), ("is the antagonist of a joint: command node 1 instead", []))
 
     async def test_what_is_known_of_the_lever_is_asked_again_before_it_is_armed(self):
         Muscle.PAIRS[1] = pairs.Joint(0.020, 2)

@@ -75,7 +75,7 @@ class Motion(unittest.TestCase):
                 (trajectory(point(-1.0, [0.0])), "points[0].time_from_start is -1 s; must be 0 to 600"),
                 (trajectory(point(601.0, [0.0])), "must be 0 to 600"),
                 (trajectory(point(1.0, [0.0]), begins_s=WALL_S + 61.0), "begins in 61 s; must be at most 60"),
-                (trajectory(point(1.0, [0.0]), begins_s=WALL_S - 3.0), "was over 2 s ago")):
+                (trajectory(point(1.0, [0.0]), begins_s=WALL_S - 3.0), "ended 2 s ago")):
             with self.subTest(why), self.assertRaises(ValueError) as refused:
                 knots_of(message, 0, START, WALL_S)
             self.assertIn(why, str(refused.exception))

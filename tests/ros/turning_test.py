@@ -72,7 +72,7 @@ class Turning(Bridged):
         told = self.diagnosed_with("elbow antagonist", lambda values: float(values["applied_W"]) > 0.0,
                                    self.again({"elbow": WANTED_RAD}))
         self.assertEqual((told.hardware_id, told.message),
-                         (f"{self.simulation.address} node 2", "active, turns the joint of node 1 back"))
+                         (f"{self.simulation.address} node 2", "active, antagonist in the joint of node 1"))
 
     def test_a_trajectory_is_of_radians_and_their_speeds(self):
         writer = self.trajectory_writer()
@@ -99,8 +99,8 @@ class Turning(Bridged):
         self.arm()
         told = self.diagnosis_of("elbow", "rad is in", self.again({"elbow": 1.5}))
         self.assertEqual(told.level, WARN)
-        self.assertIn("1.500000 rad is out of its range", told.message)
-        self.diagnosis_of("elbow", "a command of nan rad is left out", self.again({"elbow": math.nan}))
+        self.assertIn("1.500000 rad is out of range", told.message)
+        self.diagnosis_of("elbow", "a command of nan rad is ignored", self.again({"elbow": math.nan}))
 
     def test_the_muscle_that_turns_it_back_is_no_joint_also_where_it_is_named(self):
         # A bridge that has commanded nothing yet holds no lease, so another master may.
@@ -117,7 +117,7 @@ class Turning(Bridged):
         told = self.wait(lambda: (status := self.told("back")) and "node 1 back" in status.message and status)
         self.assertEqual(told.level, OK)
         commands = self.peer.writer("rt/both/joint_commands", "sensor_msgs/msg/JointState")
-        told = self.diagnosis_of("back", "command that of node 1", lambda: self.command({"back": 0.001}, commands))
+        told = self.diagnosis_of("back", "command node 1", lambda: self.command({"back": 0.001}, commands))
         self.assertEqual(told.level, WARN)
         for verb, done in (("arm", State.armed), ("disarm", State.disarmed)):
             self.assertEqual(self.peer.call(f"/both/{verb}", DEADLINE_S), (True, f"knee: {verb}ed"))

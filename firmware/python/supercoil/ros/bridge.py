@@ -141,7 +141,7 @@ class Bridge:
             if math.isfinite(position):
                 joint.motion = Held(position, until_s)
             else:
-                joint.refuse(f"a command of {position} {joint.unit} is left out")
+                joint.refuse(f"a command of {position} {joint.unit} is ignored")
 
     def _follow(self, trajectory: JointTrajectory, sender_is_there: Callable[[], bool]) -> None:
         """Takes the trajectory for all of its joints, or for none."""
@@ -165,21 +165,21 @@ class Bridge:
                 names = (joint.name for joint in self._own_joints())
                 raise ValueError(f"no joint is called {name!r}; there are {', '.join(names)}")
             if self._joints[name].is_led:
-                raise ValueError(f"{name} turns another one's joint back")
+                raise ValueError(f"{name} is the antagonist of another muscle's joint")
         for number, name in enumerate(trajectory.joint_names):
             if name in knots:
                 raise ValueError(f"names {name} twice")
             joint = self._joints[name]
             position = joint.position if joint.set_point is None else joint.set_point
             if not math.isfinite(position):
-                raise ValueError(f"where {name} is now is not known")
+                raise ValueError(f"the present position of {name} is not known")
             knots[name] = knots_of(trajectory, number, Knot(time.monotonic(), position, 0.0), time.time())
         return knots
 
     async def _serve_all(self, do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
         """An action on one of a joint's muscles applies to both."""
         if not (joints := self._own_joints()):
-            return False, "each muscle turns another one's joint back: --joint names the other one"
+            return False, "each muscle is the antagonist of another one's joint: name the agonist with --joint"
         return await self._serve(joints, do)
 
     async def _serve(self, joints: Sequence[Joint], do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:

@@ -51,26 +51,27 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="supercoil-ros", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Muscles as joints of ROS 2, over DDS as rmw_cyclonedds_cpp speaks it. No ROS is needed on this "
-        "machine.\nPositions are in metres, or in radians of two muscles that turn a joint.",
-        epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. docs/ros.md has all "
-        "of it.")
-    parser.add_argument("address", help="of the boards: can0, socketcand:[HOST:]PORT, INTERFACE:CHANNEL of python-can, "
-                        "or the path of the board's own socket")
+        "machine.\nPositions are in metres, or, for two muscles that turn a joint, in radians.",
+        epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. docs/ros.md "
+        "describes everything.")
+    parser.add_argument("address", help="address of the boards: can0, socketcand:[HOST:]PORT, INTERFACE:CHANNEL of "
+                        "python-can, or the path of the board's own socket")
     parser.add_argument("--joint", metavar="NAME=NODE", action="append", required=True, type=_joint,
-                        help="a muscle and its node on the bus; once for each. Of two that turn a joint the agonist")
+                        help="a muscle and its node on the bus; repeat for each. For two that turn a "
+                        "joint, the agonist")
     parser.add_argument("--arm", action="store_true",
-                        help="arm each muscle when its board is first there; otherwise the service ~/arm does")
+                        help="arm each muscle when its board is first reached; otherwise the service ~/arm does")
     parser.add_argument("--rate", metavar="HZ", dest="rate_Hz", type=_number(1.0, 1000.0, "Hz"),
-                        default=Options.rate_Hz, help="of joint states and of set points (default: %(default)g)")
+                        default=Options.rate_Hz, help="rate of joint states and of set points (default: %(default)g)")
     parser.add_argument("--command-timeout", metavar="S", dest="command_timeout_s", type=_number(0.05, 3600.0, "s"),
                         default=Options.command_timeout_s, help="how long a joint command holds (default: %(default)g)")
     for topic in ("states", "commands", "trajectory"):
         parser.add_argument(f"--{topic}", metavar="TOPIC", default=getattr(Options, topic), help="default: %(default)s")
     parser.add_argument("--name", dest="node", default=Options.node,
-                        help="of the node, which ~ stands for (default: %(default)s)")
+                        help="name of the node, which ~ stands for (default: %(default)s)")
     parser.add_argument("--domain", metavar="N", type=_domain,
                         default=os.environ.get("ROS_DOMAIN_ID") or str(Options.domain),
-                        help="of DDS (default: ROS_DOMAIN_ID, or 0)")
+                        help="DDS domain (default: ROS_DOMAIN_ID, or 0)")
     parser.add_argument("--version", action="version", version=f"supercoil-ros {__version__}")
     arguments = list(sys.argv[1:] if given is None else given)
     if "--ros-args" in arguments:  # a launch file of ROS adds it, followed by its own arguments

@@ -57,7 +57,7 @@ def _judged(muscle: Muscle, refusal: str, otherwise: str) -> tuple[int, str]:
 
 
 def _led(muscle: Muscle, joint_node: int | None) -> str:
-    return f"{muscle.state}, turns the joint of node {joint_node} back"
+    return f"{muscle.state}, antagonist in the joint of node {joint_node}"
 
 
 def _doing(joint: Joint, muscle: Muscle) -> str:

@@ -43,7 +43,7 @@ def _taken(reader: DataReader[M]) -> list[M]:
     try:
         return reader.take(_MOST_AT_ONCE)
     except (DDSException, ValueError, struct.error) as error:
-        _log.warning("damaged messages are left out: %s", error)
+        _log.warning("damaged messages are skipped: %s", error)
         return []
 
 

@@ -206,7 +206,7 @@ class Joint:
     def _check(self, muscle: Muscle, position_m: float) -> None:
         """Checks before the board is asked: there, ten refusals in a row are a fault."""
         if self.pair is not None and self.is_led:
-            raise _Refused(f"turns a joint back: command that of node {self.pair.other_node}")
+            raise _Refused(f"is the antagonist of a joint: command node {self.pair.other_node} instead")
         if muscle.state not in (State.armed, State.active):
             raise _Refused(f"is {muscle.state}: it cannot move")
         low_m, high_m = self._range_m
@@ -216,7 +216,7 @@ class Joint:
 
     def _out_of_range(self, position_m: float, nearest_m: float) -> str:
         position, nearest = self.of_m(position_m), self.of_m(nearest_m)
-        return f"{position:.6f} {self.unit} is out of its range, {nearest:.6f} {self.unit} is in"
+        return f"{position:.6f} {self.unit} is out of range; {nearest:.6f} {self.unit} is in range"
 
     def _told(self, error: Exception, position_m: float | None) -> str:
         """The error in the joint's unit. Remembers the ends of its range when the board reports them."""

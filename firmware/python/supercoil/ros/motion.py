@@ -97,7 +97,7 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     if not knots:
         raise ValueError("has no points")
     if knots[-1].time_s < start.time_s:
-        raise ValueError(f"was over {start.time_s - knots[-1].time_s:.3g} s ago")
+        raise ValueError(f"ended {start.time_s - knots[-1].time_s:.3g} s ago")
     if knots[0].time_s > start.time_s:
         # The joint stays where it is until the trajectory begins, and goes to the first point from there.
         at_rest = start._replace(time_s=max(begins_s, start.time_s))

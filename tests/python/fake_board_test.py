@@ -40,7 +40,7 @@ class Sessions(unittest.TestCase):
 
     def test_a_node_that_is_not_there_is_named(self):
         self.board()
-        with self.assertRaisesRegex(supercoil.NoAnswerError, "no heartbeat of node 6 on virtual:"), \
+        with self.assertRaisesRegex(supercoil.NoAnswerError, "no heartbeat from node 6 on virtual:"), \
                 sync.Muscle(f"virtual:{self.channel}", 6):
             pass
 

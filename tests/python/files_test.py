@@ -127,14 +127,14 @@ class Files(unittest.TestCase):
 
     def test_what_is_none_of_them_is_refused(self):
         numpy.save(self.path / "other.npy", numpy.zeros(3))
-        with self.assertRaisesRegex(ValueError, "is no trace"):
+        with self.assertRaisesRegex(ValueError, "is not a trace"):
             supercoil.load(self.path / "other.npy")
         whole = (self.path / "other.npy").read_bytes()
         for length in (7, 60, len(whole) - 1):
             (self.path / "damaged.npy").write_bytes(whole[:length])
             with self.assertRaisesRegex(ValueError, "damaged.npy: "):
                 supercoil.load(self.path / "damaged.npy")
-        with self.assertRaisesRegex(ValueError, "no can.log"):
+        with self.assertRaisesRegex(ValueError, "is not a can.log"):
             supercoil.load(self.path / "s.toml")
 
     def test_a_figure_is_drawn_of_each(self):

@@ -45,8 +45,8 @@ class Knots(unittest.TestCase):
 
     def test_what_is_wrong_is_named_with_its_row(self):
         for columns, why in (
-                (([], []), "2 rows at least, and not 0"),
-                (([0.0], [0.0]), "2 rows at least, and not 1"),
+                (([], []), "at least 2 rows, not 0"),
+                (([0.0], [0.0]), "at least 2 rows, not 1"),
                 (([0.0, 1.0], [0.0]), "positions_m has 1 rows and times_s has 2"),
                 (([0.0, 1.0], [0.0, 0.0], [0.0]), "velocities_m_per_s has 1 rows and times_s has 2"),
                 ((np.zeros((2, 2)), [0.0, 0.0]), r"times_s: must be one column.* \(2, 2\)"),

@@ -182,7 +182,7 @@ Result<BoardLink::Status> CanBoardLink::status(const std::string& channel) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return failure("no heartbeat of node " + channel + " within 1.5 s");
+  return failure("no heartbeat from node " + channel + " within 1.5 s");
 }
 
 Result<BoardLink::Ending> CanBoardLink::ending(const std::string& channel) {
@@ -210,7 +210,7 @@ Result<BoardLink::Ending> CanBoardLink::ending(const std::string& channel) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (!result) return failure("no heartbeat of node " + channel + " within 1 s");
+  if (!result) return failure("no heartbeat from node " + channel + " within 1 s");
   return Ending{*result, notes.value_or("")};
 }
 

@@ -34,7 +34,7 @@ def is_local(address: object) -> bool:
 def _open_socketcand(host: str, port: int, channel: str) -> can.BusABC:
     if not _is_reliable():
         raise BusError(f"socketcand needs python-can 4.4 or newer, this is {can.__version__}: older ones lose frames "
-                       "that TCP brings in two parts")
+                       "that TCP delivers in two parts")
     # If nobody listens, python-can retries for 10 s without a pause; if nobody speaks, it waits without end.
     try:
         with socket.create_connection((host, port), _CONNECT_WITHIN_S) as tried:

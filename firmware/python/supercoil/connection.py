@@ -73,8 +73,8 @@ class Connection:
                 await heartbeat.change(max(0.0, end - time.monotonic()))
             except NoAnswerError:
                 raise NoAnswerError(
-                    f"no heartbeat of node {self.node} on {self._address} within {_FIRST_HEARTBEAT_S:g} s. Is the "
-                    "board on, its node and bit rate right? docs/can.md says what to look at") from None
+                    f"no heartbeat from node {self.node} on {self._address} within {_FIRST_HEARTBEAT_S:g} s. Is the "
+                    "board on, its node and bit rate right? docs/can.md says what to check") from None
         if heartbeat.status.protocol_version != PROTOCOL_VERSION:
             raise VersionMismatchError(self.node, heartbeat.status.protocol_version)
 

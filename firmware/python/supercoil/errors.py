@@ -31,7 +31,7 @@ class UnknownFaultError(FaultError):
     """A fault that this version of the package has no page for."""
 
     name = "unknown"
-    meaning = "the board knows faults that this package does not: install the one of the board's release"
+    meaning = "the board knows faults that this package does not: install the package of the board's release"
 
 
 class RefusalError(SupercoilError):
@@ -74,7 +74,7 @@ class VersionMismatchError(SupercoilError):
         super().__init__(
             f"node {node} speaks version {of_board} of the CAN protocol, supercoil {__version__} for Python speaks "
             f"{PROTOCOL_VERSION}: {older} is the older one. Install the package that came with the board's firmware "
-            "(firmware/python of its release), or the board's firmware anew. supercoil.stop() stops it all the same")
+            "(firmware/python of its release), or reinstall the board's firmware. supercoil.stop() still stops it")
 
 
 class NotReachedError(SupercoilError, TimeoutError):

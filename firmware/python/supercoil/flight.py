@@ -37,7 +37,7 @@ def _rows(file: Path) -> tuple[dict[str, str], numpy.ndarray[Any, Any]]:
     header, rows = content[:_HEADER_BYTES], content[_HEADER_BYTES:]
     first = _FIRST_LINE.match(header)
     if first is None or int(first[1]) != _FORMAT:
-        raise ValueError(f"{file}: is no flight recording of format {_FORMAT}")
+        raise ValueError(f"{file}: is not a flight recording of format {_FORMAT}")
     if zlib.crc32(header[first.end():]) != int(first[2], 16):
         raise ValueError(f"{file}: its header is damaged; supercoil log --damaged reads what it can")
     keys = dict(_KEY.findall(header.decode()))

@@ -35,7 +35,7 @@ _STANDSTILL_M_PER_S = 0.49e-5
 def _column(name: str, values: Iterable[float], greatest: float = math.inf) -> list[float]:
     shape: Any = getattr(values, "shape", None)
     if shape is not None and len(shape) != 1:
-        raise ValueError(f"{name}: must be one column, a number for each knot; its shape is {shape}")
+        raise ValueError(f"{name}: must be one column with a number for each knot; its shape is {shape}")
     column = []
     for row, value in enumerate(values):
         try:
@@ -83,7 +83,7 @@ def knots_of(times_s: Iterable[float], positions_m: Iterable[float],
         if len(column) != len(times):
             raise ValueError(f"{name} has {len(column)} rows and times_s has {len(times)}")
     if len(times) < _FEWEST:
-        raise ValueError(f"a trajectory has {_FEWEST} rows at least, and not {len(times)}")
+        raise ValueError(f"a trajectory needs at least {_FEWEST} rows, not {len(times)}")
     steps = _steps(times)
     velocities = columns.get("velocities_m_per_s") or _slopes(steps, positions)
     _column("the velocity between its neighbours, in m/s,", velocities, MOST_VELOCITY_M_PER_S)

@@ -144,7 +144,7 @@ class CanLink:
                 return await told
         except TimeoutError:
             asked = ", ".join(f"{signal} {value}" for signal, value in which.items())
-            raise NoAnswerError(f"node {self._node} does not tell its {asked}") from None
+            raise NoAnswerError(f"node {self._node} does not report its {asked}") from None
         finally:
             waiting.remove(told)
 

@@ -69,7 +69,7 @@ def _time_of_run_s(text: str) -> float:
 def _load_csv(file: Path) -> pandas.DataFrame:
     table = pandas.read_csv(file, float_precision="round_trip")  # otherwise pandas 2 is off by a bit
     if not len(table.columns) or table.columns[0] != "time_s":
-        raise ValueError(f"{file}: is no can.log, no flight recording, and no CSV whose first column is time_s")
+        raise ValueError(f"{file}: is not a can.log, a flight recording or a CSV whose first column is time_s")
     return _with_units(table)
 
 
@@ -79,7 +79,7 @@ def _load_npy(file: Path) -> pandas.DataFrame:
     except (ValueError, OSError, EOFError) as error:
         raise ValueError(f"{file}: {error}") from error
     if not rows.dtype.names or rows.dtype.names[0] != "time_s":
-        raise ValueError(f"{file}: is no trace: its records do not begin with time_s")
+        raise ValueError(f"{file}: is not a trace: its records do not begin with time_s")
     return _with_units(pandas.DataFrame({name: _decoded(rows[name]) for name in rows.dtype.names}))
 
 

@@ -79,7 +79,7 @@ class SocketLink:
         await self.command(Opcode.disarm, 0.0)
 
     async def write(self, setting: Setting, value: float) -> float:
-        raise SupercoilError(f"{setting} cannot be changed by the board's socket, only over CAN")
+        raise SupercoilError(f"{setting} cannot be changed through the board's socket, only over CAN")
 
     async def read(self, setting: Setting) -> float:
         """Only the settings of the senses; the others are available over CAN only."""

@@ -65,10 +65,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser("python -m supercoil", description="a muscle at Python's prompt")
     parser.add_argument("address", nargs="?", help="can0; socketcand:[HOST:]PORT; INTERFACE:CHANNEL of python-can; "
                         "the path of the board's socket")
-    parser.add_argument("--node", type=int, default=1, help="of the muscle (default 1)")
-    parser.add_argument("--simulation", metavar="SCENARIO", help="in place of an address: starts supercoil-sim")
+    parser.add_argument("--node", type=int, default=1, help="node of the muscle (default 1)")
+    parser.add_argument("--simulation", metavar="SCENARIO", help="instead of an address: start supercoil-sim")
     parser.add_argument("--deadline", type=float, default=60.0, metavar="S",
-                        help="for so long the muscle is kept where it is while nothing is typed (default 60)")
+                        help="seconds for which the muscle is held while nothing is typed (default 60)")
     options = parser.parse_args(arguments)
     if (options.address is None) == (options.simulation is None):
         parser.error("an address or --simulation SCENARIO is needed")

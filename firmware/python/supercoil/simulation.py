@@ -41,7 +41,7 @@ def _start(command: list[str]) -> tuple["subprocess.Popen[str]", int]:
     if found := _SERVING.fullmatch(process.stdout.readline()):
         return process, int(found[1])
     process.kill()
-    raise SimulationError(process.communicate()[1].strip() or f"{command[0]} does not say where it serves")
+    raise SimulationError(process.communicate()[1].strip() or f"{command[0]} did not say where it serves")
 
 
 class Simulation:

@@ -224,7 +224,7 @@ class OnThePage(PageCase):
         page = self.opened()
         self.play_ahead(page, **SINE)
         page.run(f"""document.querySelector("{CARD} [value=steps]").click()""")
-        page.wait(lambda: "another shape was chosen" in self.answer(page), SLACK_S, "ended")
+        page.wait(lambda: "another shape or mode was chosen" in self.answer(page), SLACK_S, "ended")
         self.assertIn("As set points, 20 per second: it jumps", page.text(CARD))
         self.assertFalse(page.find(f"{CARD} .choice").is_displayed())
         time.sleep(0.3)

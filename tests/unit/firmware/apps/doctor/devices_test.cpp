@@ -140,7 +140,7 @@ TEST(DoctorDevices, ConvertersAreAtTheirRailOrOutsideOrBroken) {
   pwm.tree.write(adc + "in_voltage2_raw", "501\n");
   look();
   check_finding("problem", ": 9 to 9 V, noise 0 V rms, 50 readings: must be 10.8 to 13.2 V",
-                "switch the supply on", found("supply"));
+                "switch it on", found("supply"));
   check_finding("problem", "all of them 65535 counts: stuck at the converter's highest rail",
                 "the position's sensor", found("channel 1, position"));
   check_finding("problem", "50.1 mA", "nothing is driven", found("channel 1, current"));

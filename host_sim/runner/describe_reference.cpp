@@ -22,9 +22,10 @@ std::string in_mm(double metres) {
   return in_digits(1e3 * metres) + " mm";
 }
 
-/// "holds 12.1 mm for good (limited_by temperature)"
+/// "holds 12.1 mm indefinitely (limited_by temperature)"
 std::string held_text(const ReferenceFeasibility& f) {
-  return "holds " + in_mm(f.held_m) + " for good (limited_by " + std::string(name(f.held_by)) + ")";
+  return "holds " + in_mm(f.held_m) + " indefinitely (limited_by " + std::string(name(f.held_by)) +
+         ")";
 }
 
 std::string feasible_text(const ReferenceFeasibility& f) {

@@ -172,7 +172,7 @@ class SetupProgram(SetupCase):
         self.assertIn("joint.range_deg = [0, 19.09]  (as answered)", done.stdout)
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
-        self.assertRegex(checked.stdout, r"the weight draws the cold muscle with 0\.0943 N; held at 4\.77° with ")
+        self.assertRegex(checked.stdout, r"the weight pulls the cold muscle with 0\.0943 N; held at 4\.77° with ")
 
     def test_doctor_looks_at_this_machine_or_says_where_to_run_it_and_setup_goes_on(self):
         done = self.setup_program("doctor", "--socket", self.path / "commands", "--json")

@@ -53,12 +53,12 @@ void describe_board(std::ostream& out, const BoardConfig& config) {
       << 1e3 * s.channels.front().supervision.command_timeout_s << " ms\n"
       << "lateness       " << v.overruns_in_a_row << " overruns in a row are a fault, and "
       << v.late_in_a_row << " ticks in a row that wake more than " << 1e3 * v.late_s << " ms late\n"
-      << "kept in        " << config.storage_folder << "\n";
+      << "storage folder " << config.storage_folder << "\n";
 }
 
 void describe_buses(std::ostream& out, const BoardConfig& config) {
   const double tick_s = config.settings.step_s();
-  out << "\nbus time, of a tick of " << 1e3 * tick_s << " ms (at most " << 100.0 * max_bus_load
+  out << "\nbus time per tick of " << 1e3 * tick_s << " ms (at most " << 100.0 * max_bus_load
       << " %)\n";
   if (config.wiring.buses.empty()) out << "  no bus: every device is direct\n";
   for (const BusAddress& bus : config.wiring.buses) {
@@ -84,9 +84,9 @@ void describe_can(std::ostream& out, const BoardConfig& config) {
   const double load = telemetry::bus_load(can, channels);
   out << " on " << can.interface << " at " << 1e-3 * can.bit_rate << " kbit/s, nodes "
       << int{can.first_node} << " to " << can.first_node + channels.size() - 1 << "\n  load    "
-      << rounded(100.0 * load, 0.1) << " % at worst, beside commands (at most "
+      << rounded(100.0 * load, 0.1) << " % at worst, without commands (at most "
       << rounded(100.0 * can.max_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
-      << " ms unused ends it\n";
+      << " ms without use\n";
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
     const telemetry::PeriodicMessage& message = telemetry::periodic_messages()[i];
     const bool of_joint = i == static_cast<std::size_t>(telemetry::Message::joint);
@@ -100,14 +100,14 @@ void describe_memory(std::ostream& out, const BoardSettings& settings) {
   const Memory memory = memory_of(settings);
   const auto kib = [](std::size_t bytes) { return (bytes + 1023) / 1024; };
   const recorder::RecorderSettings recorder;
-  out << "\nmemory, beside program and stacks\n"
+  out << "\nmemory, excluding program and stacks\n"
       << "  recorder " << kib(memory.recorder)
       << " KiB: " << recorder.before_s + recorder.after_s + recorder.retry_s << " s of ticks, "
-      << sizeof(Row) << " bytes a channel and tick\n"
-      << "  ring     " << kib(memory.ring) << " KiB: " << row_ring_s << " s of them\n"
+      << sizeof(Row) << " bytes per channel and tick\n"
+      << "  ring     " << kib(memory.ring) << " KiB: " << row_ring_s << " s of rows\n"
       << "  loop     " << kib(memory.loop) << " KiB, " << settings.channels.size()
       << (settings.channels.size() == 1 ? " channel" : " channels") << " in it\n"
-      << "  together " << kib(memory.total()) << " KiB\n";
+      << "  total    " << kib(memory.total()) << " KiB\n";
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ std::string describe(const BoardConfig& config) {
   describe_buses(out, config);
   describe_can(out, config);
   const auto weak = warnings(config);
-  out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
+  out << "\ndetectors that cannot work, or work poorly" << (weak.empty() ? ": none\n" : "\n");
   for (const std::string& line : weak)
     out << "  " << line << "\n";
   const auto advised = advice(config);

@@ -55,7 +55,7 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
 /// The error that each controller promises once the muscle is identified, or that the recommended
 /// one would. Empty for a joint, where no error is known.
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel);
-/// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and what contributes to it.
+/// "14 um rms on a sine of 4 to 9 mm, period 6 s", and what contributes to it.
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 /// The controller and the reference model that suit the channel's muscle, and why; which of the
 /// channel's own controllers that is, or why it cannot have it. Empty if another channel leads it.

@@ -28,7 +28,7 @@ std::string remedy(LimitedBy held_by) {
       return "senses that are compared with a meter and a sensor with less noise allow more "
              "(docs/faults/heater_not_responding.md)";
     default:
-      return "a greater max_W, or supply, allows more";
+      return "a higher max_W, or supply voltage, allows more";
   }
 }
 
@@ -37,7 +37,7 @@ void advise_travel(const ChannelSettings& c, const Feasibility& f,
   const double max_m = c.supervision.max_travel_m;
   if (f.travel_m < little_ratio * max_m) {
     lines.push_back("of max_travel_m = " + length_text(max_m) + " it holds " +
-                    length_text(f.travel_m) + " for good (limited_by " +
+                    length_text(f.travel_m) + " indefinitely (limited_by " +
                     std::string(name(f.held_by)) + "): " + remedy(f.held_by));
   }
   if (f.cold_travel_m < little_ratio * f.travel_m) {
@@ -92,13 +92,13 @@ std::vector<std::string> describe_recommendation(const BoardSettings& board, std
   const RecommendedController suits = recommended_controller(c, board);
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     if (suits.differs_from(c.controllers[i])) continue;
-    return {"controller " + std::to_string(i) + ", as it is: it " + suits.reason};
+    return {"controller " + std::to_string(i) + ", as configured: it " + suits.reason};
   }
   const std::string law = "controller = " + suits.literal();
   const std::string model = "reference_model = " + suits.model_literal();
   std::vector<std::string> lines{law + ": " + suits.reason, model + ": " + suits.model_reason};
   if (const std::string problem = problem_of(suits, c, board.step_s()); !problem.empty())
-    lines.push_back("as this channel is, it cannot have it: " + problem);
+    lines.push_back("not possible on this channel as configured: " + problem);
   return lines;
 }
 

@@ -16,17 +16,17 @@ double mm(double metres) {
 void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSettings& c) {
   out << "  enable      " << shown(w.enable) << "\n"
       << "  PWM         output " << w.pwm.number << " of " << w.pwm.device << ", " << w.pwm.steps
-      << " steps of a period of " << 1e-6 * static_cast<double>(w.pwm.period_ns) << " ms, "
+      << " steps per period of " << 1e-6 * static_cast<double>(w.pwm.period_ns) << " ms, "
       << (w.pwm.access.buffered() ? "buffered on " + w.pwm.access.bus : std::string("direct"));
   if (c.heater.delay_s > 0.0) out << ", acts after " << 1e3 * c.heater.delay_s << " ms";
   out << "\n  position    " << shown(w.position) << "; "
-      << 1e6 * std::abs(c.position.scaling.per_count) << " um a count, noise "
+      << 1e6 * std::abs(c.position.scaling.per_count) << " um per count, noise "
       << 1e6 * c.supervision.position_noise_rms_m << " um rms\n"
       << "              reads " << mm(c.supervision.min_position_m) << " to "
       << mm(c.supervision.max_position_m) << " mm; older than " << 1e3 * c.position.max_age_s
       << " ms is stale\n"
       << "  current     " << shown(w.current) << "; " << 1e3 * c.heater.current.scaling.per_count
-      << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as zero\n";
+      << " mA per count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as zero\n";
 }
 
 void describe_bundle(std::ostream& out, const Bundle& bundle) {
@@ -51,7 +51,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
       << s.energy_window_s << " s\n"
       << "  senses      " << describe_senses(c, board) << "\n"
-      << "  motions     of some um: " << describe_small_motions(c, board) << "\n"
+      << "  motions     of a few um: " << describe_small_motions(c, board) << "\n"
       << "  travel      up to " << mm(s.max_travel_m) << " mm\n"
       << "  temperature " << (label.preset == Preset::skin ? "near skin: " : "")
       << "full power up to " << c.limiter.derate_from_C << " °C, none from " << s.trip_C
@@ -61,10 +61,10 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       c.limiter.max_W * power_bounds(c, board).true_over_measured().max / b.min_transfer_W_per_K;
   out << "              from " << b.min_mass_J_per_K << " to " << b.max_mass_J_per_K << " J/K and "
       << b.min_transfer_W_per_K << " to " << b.max_transfer_W_per_K << " W/K; " << c.limiter.max_W
-      << " W for good may heat it to " << std::nearbyint(c.thermal.air.warmest_C + rest_K)
+      << " W held indefinitely may heat it to " << std::nearbyint(c.thermal.air.warmest_C + rest_K)
       << " °C\n"
       << "              " << describe_heat(c) << "\n"
-      << "              taken to be at up to "
+      << "              assumed to be at up to "
       << std::nearbyint(c.thermal.air.warmest_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
 
@@ -140,16 +140,17 @@ std::string describe_heat(const ChannelSettings& c) {
 
 std::string describe_small_motions(const ChannelSettings& c, const BoardSettings& board) {
   if (c.joint.has_other()) return "not checked: the joint's other muscle moves it as well";
-  if (c.bundle.follows()) return "checked of the bundle as a whole, by the channel that leads it";
+  if (c.bundle.follows()) return "checked for the bundle as a whole, by the channel that leads it";
   if (!c.supervision.proof_of_response) return "not checked: detectors.proof_of_response is false";
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   std::ostringstream out;
   if (c.response_ratio > 0.0) {
-    out << std::nearbyint(1e2 * c.response_ratio) << " % arrive at the sensor, as identify saw";
+    out << std::nearbyint(1e2 * c.response_ratio)
+        << " % arrive at the sensor, as identify measured";
     if (c.response_ratio < detectors::Response::min_response_ratio)
       out << ": friction takes the rest";
   } else {
-    out << "not measured: identify does that";
+    out << "not measured: run identify";
   }
   out << "; " << (c.muscle_identified ? "" : "once identified, ") << "up to "
       << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W a lost contact is found in time";

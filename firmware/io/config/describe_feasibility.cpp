@@ -23,7 +23,8 @@ std::string in_mm(double metres) {
 }
 
 std::string motion_line(const Feasibility& f) {
-  std::string line = "holds " + in_mm(f.travel_m) + " for good, at " + in_digits(f.held_W) + " W";
+  std::string line =
+      "holds " + in_mm(f.travel_m) + " indefinitely, at " + in_digits(f.held_W) + " W";
   if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
   line += "; 10 to 90 % of it in " + in_digits(f.rise_s) + " s at " + in_digits(f.max_W) +
           " W, back in " + in_digits(f.fall_s) + " s";
@@ -60,8 +61,8 @@ std::string pwm_line(const ChannelSettings& c, const BoardSettings& board) {
   const double supply_V = board.supervision.max_supply_V;
   const double step_W = supply_V * supply_V / c.heater.cold_resistance_Ohm / c.heater.pwm_steps;
   if (step_W < fine_ratio * c.limiter.max_W) return "";
-  return "its power comes in PWM steps of up to " + in_digits(1e3 * step_W) + " mW, " +
-         std::to_string(c.heater.pwm_steps) + " of a period";
+  return "power is set in PWM steps of up to " + in_digits(1e3 * step_W) + " mW, " +
+         std::to_string(c.heater.pwm_steps) + " per period";
 }
 
 }  // namespace
@@ -118,7 +119,7 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
   const ChannelSettings& c = board.channels[channel];
   if (board.joint_of(channel) != nullptr || is_led(c)) return {};
   const FirstMotion motion = plan_first_motion(feasibility(c, board), c.unexplained_ratio);
-  if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
+  if (!(motion.amplitude_m > 0.0)) return {"no error is promised: it can hold no travel"};
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const control::ControllerSettings& controller = c.controllers[i];

@@ -118,7 +118,7 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
 /// The angle beyond which each muscle is slack without power, and the power that keeps it taut at
 /// the end of its travel, whatever holds the joint there.
 std::string slack_text(const BoardSettings& board, const JointSettings& joint) {
-  if (!std::isfinite(joint.pretension_N)) return "not told: pretension_N is not configured";
+  if (!std::isfinite(joint.pretension_N)) return "unknown: pretension_N is not configured";
   std::ostringstream out;
   for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
     const ChannelSettings& c = board.channels[channel];
@@ -155,7 +155,7 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
               ? ""
               : ", the antagonist's of " + radius(joint.antagonist_lever()))
       << "\n"
-      << "  range       held for good by one muscle alone: from "
+      << "  range       held indefinitely by one muscle alone: from "
       << arc(joint.lever.arc_m(back_rad), joint.lever) << " to "
       << arc(feasibility(agonist, board).travel_m, joint.lever) << "\n"
       << "  both pull   with " << to_tenth(joint.co_contraction_W) << " W and "
@@ -177,7 +177,7 @@ std::string describe_turned(const BoardConfig& config, std::size_t channel) {
   const std::string& joint = config.labels[channel].joint;
   return (joint.empty() ? "turned" : joint + ", turned") +
          (c.joint.weighs() ? " against gravity" : " against a spring") + "; lever of " +
-         radius(lever) + "; held for good up to " +
+         radius(lever) + "; held indefinitely up to " +
          arc(feasibility(c, config.settings).travel_m, lever) + "; " +
          (c.joint.weighs() ? turning_stiffness(c.muscle.stiffness_N_per_m,
                                                control::Lever(lever.zero_radius_m())) +
@@ -198,7 +198,7 @@ std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t ind
         label.pretension_N / lever_ratio + hottest_pull_N(channel, channel.limiter.max_W);
     if (pull_N <= *label.max_pull_N) continue;
     std::ostringstream line;
-    line << "where something holds it, channel " << place + 1 << " alone may pull with up to "
+    line << "if something blocks it, channel " << place + 1 << " alone may pull with up to "
          << up_to_hundredth(pull_N) << " N at its max_W = " << channel.limiter.max_W
          << ", more than max_pull_N = " << *label.max_pull_N;
     lines.push_back(line.str());

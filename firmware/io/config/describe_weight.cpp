@@ -23,7 +23,7 @@ std::string describe_weight(const ChannelSettings& c) {
   const HangingArm arm(c.joint, c.muscle);
   const double end_m = arm.tips_over_m(c.supervision.max_travel_m);
   std::string line =
-      "the weight draws the cold muscle with " + number_text(arm.pull_N(0.0), 3) + " N; held";
+      "the weight pulls the cold muscle with " + number_text(arm.pull_N(0.0), 3) + " N; held";
   double max_N = 0.0;
   for (int i = 1; i <= parts; ++i) {
     const double at_m = end_m * i / parts;

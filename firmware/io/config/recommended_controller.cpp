@@ -115,14 +115,14 @@ void compare_with(const ControllerSettings& in_use, const ChannelSettings& chann
   const std::string own = number_text(bandwidth, told_digits) + " rad/s";
   std::string why(closest);
   if (ratio >= slow_ratio && ratio < 1.0) {
-    why = "promises as little with " + own + " as with " +
+    why = "promises as small an error with " + own + " as with " +
           number_text(suits.bandwidth_rad_per_s, told_digits);
     suits.bandwidth_rad_per_s = bandwidth;
     choose_model(channel.muscle, suits);
   } else if (then_m > now_m) {
     why = ratio < slow_ratio ? "corrects what disturbs it sooner than " + own
                              : "leaves more room than " + own;
-    why += ", which promise less";
+    why += ", which promises a smaller error";
   }
   suits.reason.replace(0, closest.size(), why);
 }
@@ -170,7 +170,8 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   const std::string own = number_text(tau_s, 3) + " s";
   const std::string why =
       own != usual && slowness > 1.0
-          ? " over the root of its time constant, " + own + ", in units of the paper's " + usual
+          ? " over the square root of its time constant, " + own + ", in units of the paper's " +
+                usual
           : ", as its time constant, " + own + ", does not exceed the paper's " + usual;
   RecommendedController suits;
   const double usual_bandwidth = max_bandwidth_rad_per_s / std::sqrt(slowness);
@@ -178,7 +179,7 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   suits.reason = std::string(closest) + ", and asks for no motion that the muscle cannot make; ";
   if (suits.bandwidth_rad_per_s < usual_bandwidth) {
     suits.reason += "with " + number_text(1e3 * time.delay_s, 3) +
-                    " ms of delay more bandwidth would leave a margin below " +
+                    " ms of delay, more bandwidth would leave a margin below " +
                     number_text(min_margin, 3);
   } else {
     suits.reason += number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why;

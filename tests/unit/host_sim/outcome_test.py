@@ -61,7 +61,7 @@ class Outcome(ProgramCase):
         suits = before["feasibility"]["recommended"]
         self.assertLess(suits["bandwidth_rad_per_s"], 7.9)
         self.assertIsNone(suits["problem"])
-        self.assertIn("with 41 ms of delay more bandwidth would leave a margin below 0.4", told)
+        self.assertIn("with 41 ms of delay, more bandwidth would leave a margin below 0.4", told)
         late = self.check(FOLLOWS + "power.delay_s = 0.1\n")[0]
         self.assertIn("controller 0 promises no error (its margin is too small); the recommended one promises", late)
         self.assertIn("advice: its power acts 100 ms late, and a probe of the heater takes 50 ms: it ends in heater_open", late)
@@ -88,7 +88,7 @@ class Outcome(ProgramCase):
         self.assertLess(abs(summary["power_noise_W"] / swing_W - 1.0), 0.3, (summary["power_noise_W"], swing_W))
         # The advice does not lead away from the recommended controller.
         for text in (told, done.stdout):
-            self.assertIn("a sensor with less noise makes it less", text)
+            self.assertIn("a sensor with less noise reduces it", text)
             self.assertNotIn("lower gains", text)
         told, _ = self.check(noisy + "controller.bandwidth_rad_per_s = 12.0\n")
         self.assertIn("lower gains", told)

@@ -113,7 +113,7 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   STRCMP_CONTAINS(
       "and does not catch up, when it may be so hot that it gets up to 0.98 W less power than that "
       "(limited_by temperature); it falls behind by up to 5.91 mm; so it is for 94.9 % of the "
-      "time; the muscle holds 12.1 mm for good (limited_by temperature)",
+      "time; the muscle holds 12.1 mm indefinitely (limited_by temperature)",
       describe_reference(high).c_str());
   STRCMP_CONTAINS("limited_by temperature)", describe_reference(high).c_str());
   // A position that is reported as held is held.
@@ -193,7 +193,7 @@ TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {
       "= 'steps'\nlevels_m = [0.011]\n");
   STRCMP_EQUAL(
       "asks for no more than the muscle can do until it is identified; from then on it holds 6.1 "
-      "mm for good (limited_by unproven), and not the 11 mm that this leads to",
+      "mm indefinitely (limited_by unproven), and not the 11 mm that this leads to",
       describe_reference(scenario).c_str());
   scenario.known[0].muscle_identified = true;
   CHECK(reference_feasibility(scenario)->limited_by == LimitedBy::unproven);

@@ -29,7 +29,7 @@ class Told(ProgramCase):
         told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)
         can, controller = told["feasibility"], told["feasibility"]["controllers"][0]
         text = self.run_program("run", scenario, "--check").stdout
-        self.assertIn(f"holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
+        self.assertIn(f"holds {1e3 * can['travel_m']:.3g} mm indefinitely, at {can['held_W']:.3g} W", text)
         self.assertIn(f"margin {controller['margin']:.2g}, ", text)
         self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
         self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
@@ -60,7 +60,7 @@ class Told(ProgramCase):
         self.assertIn(f"\nrecommended: controller = {law}: {suits['reason']}\nrecommended: reference_model = {model}: {suits['model_reason']}\n",
                       self.run_program("run", scenario, "--check").stdout)
         taken = f"controller = {law}\nreference_model = {model}\n" + SHORT
-        self.assertIn("\nrecommended: controller 0, as it is: it follows closest", self.after(taken)[0])
+        self.assertIn("\nrecommended: controller 0, as configured: it follows closest", self.after(taken)[0])
         self.assertEqual(json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)["feasibility"]["recommended"]["in_use"], 0)
 
     def test_noise_at_a_limit_is_no_reference_that_is_not_feasible(self):
@@ -128,7 +128,7 @@ class Told(ProgramCase):
         scenario = self.scenario(HOT + "reference = {kind = 'steps', levels_m = [0.018], hold_s = 50.0}\n")
         reference = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]
         self.assertEqual((reference["limited_by"], reference["held_by"]), ("temperature", "temperature"))
-        self.assertIn(f"holds {1e3 * reference['held_m']:.3g} mm for good (limited_by temperature)", reference["told"])
+        self.assertIn(f"holds {1e3 * reference['held_m']:.3g} mm indefinitely (limited_by temperature)", reference["told"])
         self.assertGreater(reference["max_m"], reference["held_m"])
 
 

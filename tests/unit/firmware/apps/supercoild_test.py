@@ -38,14 +38,14 @@ class Program(unittest.TestCase):
             with self.subTest(example.name):
                 done = self.run_program("--check", example)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-                self.assertIn("\nbus time, of a tick of", done.stdout)
-                self.assertIn("\nmemory, beside program and stacks\n", done.stdout)
+                self.assertIn("\nbus time per tick of", done.stdout)
+                self.assertIn("\nmemory, excluding program and stacks\n", done.stdout)
                 self.assertIn("\ndetectors that cannot work", done.stdout)
 
     def test_check_prints_bus_time_and_memory(self):
         done = self.run_program("--check", SLOW)
         self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
-        self.assertRegex(done.stdout, r"\n  together \d+ KiB\n")
+        self.assertRegex(done.stdout, r"\n  total    \d+ KiB\n")
 
     def test_check_prints_json_for_programs(self):
         done = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml", "--json")
@@ -57,7 +57,7 @@ class Program(unittest.TestCase):
         self.assertRegex(told["advice"][0], "^channels 1, 2: in the coldest air it rests ")
         can = told["channels"][0]["feasibility"]
         text = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml").stdout
-        self.assertIn(f"  can do      holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
+        self.assertIn(f"  can do      holds {1e3 * can['travel_m']:.3g} mm indefinitely, at {can['held_W']:.3g} W", text)
         self.assertIn(f"controller 0: margin {can['controllers'][0]['margin']:.2g}, holds if no parameter is off by more than", text)
         self.assertIn(f"and holds up to {1e3 * can['cold_travel_m']:.3g} mm above its zero there", text)
         self.assertIn(f"\n  recommended controller = {{ kind = \"{can['recommended']['kind']}\", shape_reference = true, ", text)
@@ -91,7 +91,7 @@ class Program(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn(f"channel 1: with what was learned before, version 3 in {self.path}\n", done.stdout)
         self.assertIn("senses      compared with a meter on 2026-11-", done.stdout)
-        self.assertIn("1 % arrive at the sensor, as identify saw: friction takes the rest; up to ", done.stdout)
+        self.assertIn("1 % arrive at the sensor, as identify measured: friction takes the rest; up to ", done.stdout)
         self.assertRegex(done.stdout, "channel 1: heater_not_responding: friction leaves too little of a small motion")
         self.assertEqual(done.stdout.count("until they are compared with a meter"), 3)
 

@@ -106,7 +106,7 @@ TEST(BoardConfig, SlowExampleFitsItsBuses) {
              "channels 1, 2, 3, 4: sensors_disagree: heater.temperature_coefficient_per_K is 0");
   // The senses were never compared: the supply may be 13.2 V when 10.8 V are read.
   check_says(text, "once identified, the muscle gets no more than 2.27 W (limited_by unproven)");
-  check_says(text, "recorder 700 KiB: 16 s of ticks, 112 bytes a channel and tick");
+  check_says(text, "recorder 700 KiB: 16 s of ticks, 112 bytes per channel and tick");
 }
 
 TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
@@ -328,7 +328,7 @@ TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
   check_says(describe(c), "\n              " + model + ": as fast as a step of");
   channel.controllers.push_back(
       recommended_controller(channel.muscle).in_place_of(channel.controllers[0]));
-  check_says(describe(c), "\n  recommended controller 1, as it is: it follows closest");
+  check_says(describe(c), "\n  recommended controller 1, as configured: it follows closest");
   channel.bundle.leader_offset = -1;
   CHECK(describe_recommendation(c.settings, 0).empty());
 }
@@ -343,7 +343,7 @@ TEST(BoardConfig, AdvisesWhereLittleOfTheTravelIsHeld) {
   CHECK(advice(c).empty());
   channel.supervision.max_travel_m = 4.1 * f.travel_m;
   LONGS_EQUAL(1, advice(c).size());
-  check_says(advice(c)[0], "for good (limited_by unproven): senses that are compared");
+  check_says(advice(c)[0], "indefinitely (limited_by unproven): senses compared");
   channel.supervision.max_travel_m = 0.025;
   channel.thermal.air.coldest_C -= 9.0;
   LONGS_EQUAL(1, advice(c).size());

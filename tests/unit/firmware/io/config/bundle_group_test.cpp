@@ -69,7 +69,7 @@ TEST(BundleConfig, CheckTellsWhoLeadsAndWithHowMuch) {
       "  power       the same for each, at most 4 W: 8 W together\n",
       text.c_str());
   STRCMP_CONTAINS("controllers led by channel 1: its own are not used", text.c_str());
-  STRCMP_CONTAINS("checked of the bundle as a whole, by the channel that leads it", text.c_str());
+  STRCMP_CONTAINS("checked for the bundle as a whole, by the channel that leads it", text.c_str());
   STRCMP_CONTAINS("only the bundle as a whole proves its response", text.c_str());
 }
 

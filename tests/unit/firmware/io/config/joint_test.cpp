@@ -74,7 +74,7 @@ TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   // Only its muscle moves the joint, so the muscle can prove that it responds.
   CHECK(channel.supervision.proof_of_response);
   STRCMP_CONTAINS(
-      "  joint       finger, turned against a spring; lever of 15 mm; held for good up to",
+      "  joint       finger, turned against a spring; lever of 15 mm; held indefinitely up to",
       describe(c).c_str());
   check_answer("joint[1].antagonist = 2: is not a key of",
                small_board + spring + "antagonist = 2\n");
@@ -186,7 +186,7 @@ TEST(JointConfig, CheckSaysWhatThePairBears) {
   for (const char* part :
        {"the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension of 0.1 "
         "N: within max_pull_N = 0.8",
-        "joint 1: where something holds it, channel 1 alone may pull with up to 0.96 N at its "
+        "joint 1: if something blocks it, channel 1 alone may pull with up to 0.96 N at its "
         "max_W = 4.5, more than max_pull_N = 0.8",
         "channel 2 alone may pull with up to 0.87 N"})
     STRCMP_CONTAINS(part, text.c_str());
@@ -215,7 +215,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
 }
 
 TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
-  STRCMP_CONTAINS("  slack       not told: pretension_N is not configured\n",
+  STRCMP_CONTAINS("  slack       unknown: pretension_N is not configured\n",
                   describe(read_board(board_with_joint)).c_str());
   const BoardConfig alike = read_board(board_with_joint + "pretension_N = 0.02\n");
   const JointSettings& joint = alike.settings.joints[0];

@@ -23,7 +23,7 @@ TEST(RecommendedController, ASlowMuscleGetsALowerBandwidth) {
   muscle.thermal_mass_J_per_K *= 4.0;
   const RecommendedController slow = recommended_controller(muscle);
   DOUBLES_EQUAL(4.0, slow.bandwidth_rad_per_s, 2e-3);
-  STRCMP_CONTAINS("8 rad/s over the root of its time constant, 7.28 s, in units of",
+  STRCMP_CONTAINS("8 rad/s over the square root of its time constant, 7.28 s, in units of",
                   slow.reason.c_str());
   muscle.thermal_mass_J_per_K /= 100.0;
   DOUBLES_EQUAL(8.0, recommended_controller(muscle).bandwidth_rad_per_s, 0.0);
@@ -48,7 +48,7 @@ TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
     CHECK(margin.modulus >= 0.4);
     CHECK(margin.modulus < 0.41);
   }
-  STRCMP_CONTAINS("with 100 ms of delay more bandwidth would leave a margin below 0.4",
+  STRCMP_CONTAINS("with 100 ms of delay, more bandwidth would leave a margin below 0.4",
                   recommended_controller(muscle, {1e-3, 0.1}).reason.c_str());
 }
 
@@ -87,7 +87,7 @@ TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse
   const RecommendedController kept = suits_beside(5.0, 1e-9);
   DOUBLES_EQUAL(5.0, kept.bandwidth_rad_per_s, 0.0);
   CHECK(promised_m(in_use) < promised_m(recommended_controller({}).in_place_of(in_use)));
-  STRCMP_CONTAINS("promises as little with 5 rad/s as with 8, and asks for no motion",
+  STRCMP_CONTAINS("promises as small an error with 5 rad/s as with 8, and asks for no motion",
                   kept.reason.c_str());
   CHECK(kept.pole_rad_per_s <= 5.0);
   // It is recommended when it promises clearly less, and also when there is little to correct.
@@ -97,7 +97,7 @@ TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse
   STRCMP_CONTAINS("follows closest", closer.reason.c_str());
   const RecommendedController sooner = suits_beside(2.0, 1e-9);
   DOUBLES_EQUAL(8.0, sooner.bandwidth_rad_per_s, 0.01);
-  STRCMP_CONTAINS("corrects what disturbs it sooner than 2 rad/s, which promise less",
+  STRCMP_CONTAINS("corrects what disturbs it sooner than 2 rad/s, which promises a smaller error",
                   sooner.reason.c_str());
 }
 

@@ -46,11 +46,11 @@ std::optional<SettingsProblem> take(const BoardSettings& settings, const char* k
                                     std::size_t channel, std::set<std::size_t>& taken) {
   const std::string number = std::to_string(channel + 1);
   if (channel >= settings.channels.size()) {
-    return SettingsProblem{key, "channel " + number + " is none of the board's " +
+    return SettingsProblem{key, "channel " + number + " is not one of the board's " +
                                     std::to_string(settings.channels.size())};
   }
   if (!taken.insert(channel).second)
-    return SettingsProblem{key, "channel " + number + " pulls twice"};
+    return SettingsProblem{key, "channel " + number + " is used twice"};
   return std::nullopt;
 }
 
@@ -126,7 +126,7 @@ std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
         return SettingsProblem{"bundle", "channel " + std::to_string(channel + 1) + "'s " + why +
                                              " that of channel " +
                                              std::to_string(bundle.leader() + 1) +
-                                             ", which leads; what they share stands in "
+                                             ", which leads; set what they share in "
                                              "[every_channel]"};
       }
     }
@@ -239,7 +239,7 @@ std::vector<SettingsProblem> contradictions(const control::ControllerSettings& c
   auto problems = problems_of_arithmetic(controller, control::controller_names);
   for (const auto& [key, message, premise] : control::contradictions_of_law(controller)) {
     problems.push_back({key, premise ? std::string("premise fails: ") + message +
-                                           " (accept_failed_premises = true runs it nevertheless)"
+                                           " (accept_failed_premises = true runs it anyway)"
                                      : std::string(message)});
   }
   return problems;
@@ -247,13 +247,13 @@ std::vector<SettingsProblem> contradictions(const control::ControllerSettings& c
 
 std::vector<SettingsProblem> contradictions(const control::EstimatorSettings& estimator) {
   if (static_cast<std::size_t>(estimator.kind) >= control::estimator_names.size())
-    return {{"kind", "is no estimator's"}};
+    return {{"kind", "is not a kind of estimator"}};
   return problems_of_arithmetic(estimator, control::estimator_names);
 }
 
 std::string misfit_text(const control::Violation& misfit) {
   std::ostringstream message;
-  message << "does not fit arithmetic = \"q8.24\": it is held as " << misfit.value
+  message << "does not fit arithmetic = \"q8.24\": it is stored as " << misfit.value
           << " there, and must be " << misfit.lowest << " to " << misfit.highest;
   return message.str();
 }

@@ -22,10 +22,10 @@ constexpr double little_ratio = 0.25;
 std::string remedy(LimitedBy held_by) {
   switch (held_by) {
     case LimitedBy::temperature:
-      return "narrower bounds in [thermal] allow more, and what tells how hot it is "
+      return "narrower bounds in [thermal], or measurements that show how hot it is, allow more "
              "(docs/safety.md)";
     case LimitedBy::unproven:
-      return "senses that are compared with a meter and a sensor with less noise allow more "
+      return "senses compared with a meter and a sensor with less noise allow more "
              "(docs/faults/heater_not_responding.md)";
     default:
       return "a higher max_W, or supply voltage, allows more";
@@ -36,8 +36,8 @@ void advise_travel(const ChannelSettings& c, const Feasibility& f,
                    std::vector<std::string>& lines) {
   const double max_m = c.supervision.max_travel_m;
   if (f.travel_m < little_ratio * max_m) {
-    lines.push_back("of max_travel_m = " + length_text(max_m) + " it holds " +
-                    length_text(f.travel_m) + " indefinitely (limited_by " +
+    lines.push_back("it holds only " + length_text(f.travel_m) +
+                    " of max_travel_m = " + length_text(max_m) + " indefinitely (limited_by " +
                     std::string(name(f.held_by)) + "): " + remedy(f.held_by));
   }
   if (f.cold_travel_m < little_ratio * f.travel_m) {
@@ -79,11 +79,11 @@ void advise_noise(const ChannelSettings& c, const BoardSettings& board,
 std::string noise_remedy(const control::ControllerSettings& controller,
                          const ChannelSettings& channel, const BoardSettings& board) {
   if (recommended_controller(channel, board).has_bandwidth_of(controller)) {
-    return "a sensor with less noise makes it less; less than the recommended bandwidth would "
+    return "a sensor with less noise reduces it; a bandwidth below the recommended one would "
            "follow less closely";
   }
   return "lower gains (bandwidth_rad_per_s, derivative_Ws_per_m, derivative_filter_rad_per_s), or "
-         "a sensor with less noise, make it less";
+         "a sensor with less noise, reduce it";
 }
 
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel) {

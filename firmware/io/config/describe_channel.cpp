@@ -42,7 +42,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
                      const ChannelLabel& label) {
   const ChannelSupervision& s = c.supervision;
   out << "  heater      " << c.heater.cold_resistance_Ohm << " Ohm when cold; probed with "
-      << 100.0 * c.heater.probe_duty << " % for " << 1e3 * c.heater.probe_s << " ms\n";
+      << 100.0 * c.heater.probe_duty << " % duty for " << 1e3 * c.heater.probe_s << " ms\n";
   if (label.thermal_fuse_C.value_or(0.0) > 0.0) {
     out << "              its thermal fuse opens at " << *label.thermal_fuse_C << " °C\n";
   }
@@ -153,7 +153,7 @@ std::string describe_small_motions(const ChannelSettings& c, const BoardSettings
     out << "not measured: run identify";
   }
   out << "; " << (c.muscle_identified ? "" : "once identified, ") << "up to "
-      << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W a lost contact is found in time";
+      << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W, a lost contact is found in time";
   return out.str();
 }
 

@@ -28,8 +28,8 @@ std::string motion_line(const Feasibility& f) {
   if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
   line += "; 10 to 90 % of it in " + in_digits(f.rise_s) + " s at " + in_digits(f.max_W) +
           " W, back in " + in_digits(f.fall_s) + " s";
-  return line + "; a sine over its middle half takes " + in_digits(f.half_travel_period_s) +
-         " s at least";
+  return line + "; a sine over its middle half needs a period of at least " +
+         in_digits(f.half_travel_period_s) + " s";
 }
 
 std::string start_line(const Feasibility& f, const ChannelSettings& c) {
@@ -97,8 +97,8 @@ std::string describe_margin(const control::ControllerSettings& controller, const
   }
   const bool adapts = control::adapts(controller.kind);
   std::ostringstream out;
-  out << (adapts ? "once adapted margin " : "margin ")
-      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
+  out << "margin " << std::nearbyint(100.0 * margin->modulus) / 100.0
+      << (adapts ? " once adapted" : "") << ", holds if no parameter "
       << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * ratio) << " %";
   const double bandwidth = bandwidth_rad_per_s(controller);
   if (!std::isnan(bandwidth)) out << ", bandwidth " << in_digits(bandwidth) << " rad/s";
@@ -109,8 +109,8 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
   const auto in_um = [](double metres) { return in_digits(1e-2 * std::nearbyint(1e8 * metres)); };
   return in_um(promise.error_m()) + " um rms on a sine of " +
          in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
-         in_mm(motion.middle_m + motion.amplitude_m) + ", " + in_digits(motion.period_s) +
-         " s a period (sensor " + in_um(promise.noise_m) + ", probes " + in_um(promise.probe_m) +
+         in_mm(motion.middle_m + motion.amplitude_m) + ", period " + in_digits(motion.period_s) +
+         " s (sensor " + in_um(promise.noise_m) + ", probes " + in_um(promise.probe_m) +
          ", dither " + in_um(promise.dither_m) + ", PWM " + in_um(promise.pwm_m) + ", delay " +
          in_um(promise.delay_m) + ", not linear " + in_um(promise.unexplained_m) + ")";
 }

@@ -96,7 +96,7 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
          << " and " << of_second << " of channel " << joint.antagonist + 1
          << ": each describes the whole joint, and "
          << (joint.antagonist_lever_ratio == 1.0 ? std::string("they should be the same")
-                                                 : "at their levers they should be as " +
+                                                 : "at their levers their ratio should be " +
                                                        text_of(of_first) + " to " + text_of(same));
     lines.push_back(line.str());
   }
@@ -110,7 +110,7 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
   if (label.max_pull_N) {
     out << " of " << label.pretension_N << " N: within max_pull_N = " << *label.max_pull_N;
   } else {
-    out << "; max_pull_N, which they bear, is not configured: nothing is refused";
+    out << "; max_pull_N, the most they bear, is not configured: nothing is refused";
   }
   return out.str();
 }

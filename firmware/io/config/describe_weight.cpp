@@ -41,9 +41,9 @@ void advise_weight(const ChannelSettings& c, std::vector<std::string>& lines) {
   const double end_m = HangingArm(c.joint, c.muscle).tips_over_m(max_m);
   if (end_m >= max_m) return;
   lines.push_back("above " + in_deg(c, end_m) +
-                  " the arm tips over: its weight eases by more than the muscle does, and no power "
-                  "holds it there; end the travel, which goes up to " +
-                  in_deg(c, max_m) + ", before that");
+                  " the arm tips over: the weight's pull falls faster than the muscle's, and no "
+                  "power holds it there; end the travel, which goes up to " +
+                  in_deg(c, max_m) + ", before that angle");
 }
 
 }  // namespace supercoil::config

@@ -26,13 +26,13 @@ std::vector<std::size_t> BundleReader::read_channels(Section& section, std::size
     const auto place = static_cast<std::size_t>(number) - 1;
     const char* wrong = nullptr;
     if (number != std::floor(number)) {
-      wrong = "is none: channels are numbered from 1";
+      wrong = "does not exist: channels are numbered from 1";
     } else if (place >= channels) {
-      wrong = "is none of this file";
+      wrong = "is not in this file";
     } else if (joints.place_of(place).turns()) {
-      wrong = "turns a joint, and a bundle is no part of one";
+      wrong = "turns a joint, and so cannot be in a bundle";
     } else if (std::ranges::find(taken_, place) != taken_.end()) {
-      wrong = "pulls in a bundle already";
+      wrong = "is already in a bundle";
     }
     if (wrong != nullptr) {
       section.wrong(key, "channel " + number_text(number, 3) + " " + wrong);

@@ -69,9 +69,9 @@ void take_position(Section& section, const PositionOwner& owner, ReadChannel& ch
   section.allow({"position"});
   if (section.has_own("position")) {
     section.wrong("position",
-                  std::string(mirrored ? "is that of its agonist" : "is that of its bundle") +
+                  std::string(mirrored ? "is taken from its agonist" : "is taken from its bundle") +
                       ", channel " + std::to_string(owner.index + 1) +
-                      (mirrored ? ", with the other sign" : "'s") +
+                      (mirrored ? ", with the opposite sign" : "") +
                       ": leave it out, or move it there");
   }
   channel.label.position_in_deg = owner.label.position_in_deg;

@@ -57,7 +57,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   const double full_A = context.board.supervision.min_supply_V / cold_Ohm;
   if (s.off_current_A > 0.5 * full_A) {
     std::ostringstream message;
-    message << "the current's off_A = " << s.off_current_A
+    message << "current.off_A = " << s.off_current_A
             << " A is more than half of what a switch that is stuck on passes: " << full_A << " A";
     section.wrong("stuck_on_ms", message.str());
   }
@@ -68,8 +68,8 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   s.proof_of_response = section.flag("proof_of_response", by_default);
   if (s.proof_of_response && c.joint.has_other()) {
     section.wrong("proof_of_response",
-                  "cannot be had in a joint: the other muscle moves it as well; leave it out, or "
-                  "say false");
+                  "is not available in a joint: the other muscle moves it as well; leave it out, "
+                  "or set it to false");
   }
   // A buffered duty reads back its old value until the bus's thread has written the new one.
   const double lag_ticks = wiring.pwm.access.buffered() ? 5.0 : 2.0;

@@ -20,7 +20,7 @@ void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSe
   h.probe_s = 1e-3 * section.number("probe_ms", 1e3 * h.probe_s, {1.0, 50.0});
   if (h.probe_s < min_probe_ticks * step_s) {
     std::ostringstream message;
-    message << "must be two ticks at least: " << 1e3 * min_probe_ticks * step_s << " ms";
+    message << "must be at least two ticks: " << 1e3 * min_probe_ticks * step_s << " ms";
     section.wrong("probe_ms", message.str());
   }
   h.probe_every_s = section.number("probe_every_s", h.probe_every_s, {0.5, 600.0});
@@ -36,7 +36,7 @@ void read_thermal_fuse(Section& section, ChannelLabel& label) {
   const double opens_at_C = section.number("thermal_fuse_C", 0.0, {0.0, range_C.highest});
   label.thermal_fuse_C = opens_at_C;
   if (opens_at_C > 0.0 && opens_at_C < range_C.lowest) {
-    section.wrong("thermal_fuse_C", "must be 60 to 260, or 0 where there is no thermal fuse");
+    section.wrong("thermal_fuse_C", "must be 60 to 260, or 0 if there is no thermal fuse");
   }
 }
 

@@ -62,7 +62,7 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
     return std::nullopt;
   const auto place = static_cast<std::size_t>(number - 1);
   if (std::find(taken_.begin(), taken_.end(), place) != taken_.end()) {
-    section.wrong(key, "is a channel that pulls in a joint already");
+    section.wrong(key, "is a channel that is already in a joint");
     return std::nullopt;
   }
   taken_.push_back(place);

@@ -37,7 +37,7 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
   const auto range_deg =
       section.numbers(range_key, {-1.0, 1.0}, {-max_angle_deg, max_angle_deg}, 2, 2);
   if (!(range_deg[0] <= 0.0 && range_deg[1] >= 0.0 && range_deg[0] < range_deg[1])) {
-    section.wrong(range_key, "must be two angles, and 0 between them or one of them");
+    section.wrong(range_key, "must be two angles, with 0 between them or equal to one of them");
     return control::Lever(radii_m.front());
   }
   return {rad_per_deg * range_deg[0], rad_per_deg * range_deg[1], radii_m};

@@ -65,7 +65,7 @@ void read_temperatures(Section& section, const BoardContext& context, ChannelSet
   }
   if (l.derate_from_C <= context.air.warmest_C) {
     section.wrong("derate_from_C",
-                  "must exceed ambient.warmest_C: else a cold muscle counts as a hot one");
+                  "must exceed ambient.warmest_C: otherwise a cold muscle counts as a hot one");
   }
 }
 
@@ -101,7 +101,7 @@ void read_travel(Section& section, const BoardContext& context, ChannelSettings&
     const double given_m = section.number(key, *joint_travel_m, limits_of_travel_m);
     if (std::abs(given_m - *joint_travel_m) > max_disagreement_ratio * *joint_travel_m) {
       std::ostringstream message;
-      message << "contradicts its joint's range_deg, by which it is " << *joint_travel_m
+      message << "contradicts its joint's range_deg, which gives " << *joint_travel_m
               << ": leave one of them out";
       section.wrong(key, message.str());
     }
@@ -109,9 +109,9 @@ void read_travel(Section& section, const BoardContext& context, ChannelSettings&
   const double reading_m = c.joint.reading_of_position_m(s.max_travel_m);
   if (!(reading_m > s.max_position_m)) return;
   std::ostringstream message;
-  if (joint_travel_m) message << "is " << s.max_travel_m << " by its joint's range_deg, and ";
+  if (joint_travel_m) message << "is " << s.max_travel_m << " from its joint's range_deg, and ";
   message << "must be within what the sensor can read: " << sensor_limit(c, label);
-  if (reading_m != s.max_travel_m) message << ", and by its lever it reads " << reading_m;
+  if (reading_m != s.max_travel_m) message << ", and with its lever it reads " << reading_m;
   section.wrong(key, message.str());
 }
 

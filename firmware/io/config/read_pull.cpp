@@ -42,8 +42,8 @@ std::string excess(const Puller& p, const JointSettings& joint, double allowed_W
   std::ostringstream message;
   message << "is less than channel " << p.channel + 1 << " may pull with: a pretension of "
           << p.pretension_N << " N, and " << rounded_up(p.heat_N)
-          << " N by the heat of max_co_contraction_W = " << joint.max_co_contraction_W
-          << ", which are " << rounded_up(p.power_W)
+          << " N from the heat of max_co_contraction_W = " << joint.max_co_contraction_W
+          << ", which is " << rounded_up(p.power_W)
           << " W there; max_co_contraction_W must be 0 to " << rounded_down(allowed_W)
           << ", or max_pull_N at least " << rounded_up(p.pretension_N + p.heat_N);
   return message.str();
@@ -57,7 +57,7 @@ void read_stiffness_ratio(Section& section, JointSettings& joint) {
   if (ratios.empty()) return;
   constexpr double rounding = 1e-9;
   if (ratios[0] + ratios[1] > 1.0 + rounding)
-    return section.wrong(key, "must not be more than 1 together: a spring has the rest");
+    return section.wrong(key, "must not exceed 1 in total: a spring has the rest");
   joint.stiffness_ratio = {ratios[0], ratios[1]};
 }
 

@@ -22,7 +22,7 @@ void refuse_upright(Section& section, const ChannelSettings& channel) {
   if (!(end_rad >= upright_rad)) return;
   std::ostringstream message;
   message << "lets the arm stand upright at " << deg_per_rad * upright_rad
-          << "°, from where nothing draws it back, and its travel goes up to "
+          << "°, from where nothing pulls it back, and its travel goes up to "
           << deg_per_rad * end_rad << "°";
   section.wrong(angle_key, message.str());
 }
@@ -35,7 +35,7 @@ void refuse_heavier(Section& section, const ChannelSettings& channel, std::size_
   std::ostringstream message;
   message << "alone makes the joint " << weight_N_per_m << " N/m stiff at 0°, and channel["
           << number << "].muscle.stiffness_N_per_m = " << all_N_per_m
-          << " is of muscle and weight together: give that more, or the weight less than "
+          << " is that of muscle and weight together: raise it, or reduce the weight to less than "
           << channel.joint.weight_Nm * all_N_per_m / weight_N_per_m;
   section.wrong(weight_key, message.str());
 }

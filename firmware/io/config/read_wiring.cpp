@@ -123,7 +123,7 @@ std::optional<Capture> WiringReader::capture(Section& section, const ConverterAd
   } else if (first->second != capture) {
     section.wrong("device",
                   "has another input with another capture: all its inputs are converted together, "
-                  "and none can be read beside that");
+                  "and none can be read separately");
   }
   return capture;
 }
@@ -145,8 +145,8 @@ double WiringReader::max_age_s(Section& section, const ConverterAddress& convert
   const double age_s = 1e-3 * section.number("max_age_ms", 1e3 * fallback_s, {0.1, 1000.0});
   if (converter.access.buffered() && age_s < step_s_) {
     section.wrong("max_age_ms",
-                  "must be at least a tick: a buffered value is older than that "
-                  "before the next one comes");
+                  "must be at least one tick: a buffered value becomes older than that before the "
+                  "next one arrives");
   }
   return age_s;
 }

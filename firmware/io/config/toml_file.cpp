@@ -46,7 +46,7 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics) {
     return {};
   }
   if (std::filesystem::file_size(path, error) > max_bytes) {
-    diagnostics.add(0, "", "is larger than 1 MiB, which no configuration is");
+    diagnostics.add(0, "", "is larger than the limit of 1 MiB");
     return {};
   }
   std::ifstream in(path, std::ios::binary);

@@ -37,22 +37,22 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
   const double probe_A = h.probe_duty * board.supervision.min_supply_V / h.cold_resistance_Ohm;
   if (probe_A < min_probe_counts * h.current.scaling.per_count) {
     std::ostringstream reason;
-    reason << "a probe's " << 1e3 * probe_A << " mA are only "
-           << probe_A / h.current.scaling.per_count << " counts: the resistance is hardly measured";
+    reason << "a probe's " << 1e3 * probe_A << " mA is only "
+           << probe_A / h.current.scaling.per_count << " counts: the resistance is barely resolved";
     findings.add(Fault::resistance_drift, reason.str());
   }
   // What run_self_test() counts as a current that flows.
   const double idle_A = 0.3 * probe_A;
   if (s.off_current_A > idle_A) {
     std::ostringstream reason;
-    reason << "more than " << 1e3 * idle_A << " mA fail it, and current.off_A is "
+    reason << "more than " << 1e3 * idle_A << " mA fails it, and current.off_A is "
            << 1e3 * s.off_current_A << " mA: the configured off current may be too large";
     findings.add(Fault::self_test_failed, reason.str());
   }
   const double furthest_m = c.limiter.max_W * c.muscle.dc_gain_m_per_W();
   if (furthest_m < s.responding_min_m) {
     findings.add(Fault::heater_not_responding,
-                 "max_W moves the muscle less than detectors.responding_min_m: never judged");
+                 "max_W moves the muscle less than detectors.responding_min_m: never checked");
   }
 }
 
@@ -60,11 +60,11 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
 void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   if (!c.supervision.proof_of_response) {
     findings.add(Fault::heater_not_responding,
-                 std::string(c.joint.has_other()  ? "no proof of response is had in a joint"
+                 std::string(c.joint.has_other()  ? "proof of response is not available in a joint"
                              : c.bundle.follows() ? "only the bundle as a whole proves its response"
                                                   : "detectors.proof_of_response is false") +
-                     ": a muscle that is held still, off its sensor and badly cooled may pass its "
-                     "limit unseen");
+                     ": a muscle that is held still, off its sensor and poorly cooled may exceed "
+                     "its limit undetected");
     return;
   }
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
@@ -72,9 +72,9 @@ void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings&
   std::ostringstream reason;
   const bool friction = c.response_ratio > 0.0 && c.response_ratio < 1.0;
   reason << (friction
-                 ? "friction leaves too little of a small motion to stand out of noise in time: "
-                 : "a motion of 20 um or two counts stands out of the sensor's noise too late for "
-                   "more: once identified, ")
+                 ? "friction leaves too little of a small motion to stand out from noise in time: "
+                 : "a motion of 20 um or two counts stands out from the sensor's noise too late "
+                   "for more: once identified, ")
          << "the muscle gets no more than " << std::nearbyint(1e2 * plan.provable_W) / 1e2
          << " W (limited_by unproven)";
   findings.add(Fault::heater_not_responding, reason.str());
@@ -96,13 +96,14 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
   if (!opens_at_C) {
     reason << "heater.thermal_fuse_C is not given: state the temperature at which it opens";
   } else if (*opens_at_C == 0.0) {
-    reason << "there is none: nothing sees hot spots and shorted turns";
+    reason << "none: nothing detects hot spots and shorted turns";
   } else if (*opens_at_C < trip_C) {
     reason << "opens at " << *opens_at_C << " °C, below trip_C = " << trip_C
-           << " °C: it may open in ordinary use, and for good";
+           << " °C: it may open, permanently, in normal use";
   } else if (*opens_at_C > trip_C + max_fuse_above_trip_K) {
     reason << "opens at " << *opens_at_C << " °C, more than " << max_fuse_above_trip_K
-           << " K above trip_C = " << trip_C << " °C: what is too hot stays on until then";
+           << " K above trip_C = " << trip_C
+           << " °C: an overheated muscle stays powered until then";
   } else {
     return;
   }
@@ -116,7 +117,8 @@ void judge_bundle(const Bundle& bundle, const ChannelSettings& c, Findings& find
   reason << "one shorted muscle of " << bundle.muscles << " in series is "
          << std::nearbyint(100.0 * bundle.one_lost_ratio())
          << " % less resistance, which resistance_drift lets pass: the others get "
-         << bundle.others_power_ratio() << " times their share unseen, but for their thermal fuses";
+         << bundle.others_power_ratio()
+         << " times their share undetected, except by their thermal fuses";
   findings.add(Fault::resistance_drift, reason.str());
 }
 
@@ -135,9 +137,10 @@ std::vector<std::string> warnings(const BoardConfig& config) {
     if (const auto& bundle = config.labels[i].bundle) judge_bundle(*bundle, c, findings);
   }
   std::vector<std::string> lines = findings.lines();
-  lines.push_back("board: " + std::string(name(Fault::duty_wrong)) +
-                  ": a duty read back from sysfs is the kernel's memory of it; only current proves "
-                  "power");
+  lines.push_back(
+      "board: " + std::string(name(Fault::duty_wrong)) +
+      ": a duty read back from sysfs is only what the kernel stored; only current proves "
+      "power");
   if (!config.wiring.watchdog) {
     lines.emplace_back("board: no watchdog: a hung kernel is cut by the charge pump alone");
   }

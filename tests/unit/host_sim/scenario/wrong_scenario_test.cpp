@@ -169,10 +169,10 @@ TEST(WrongScenario, MracSaysWhichPremiseFails) {
   check_answer(
       "s.toml:2: controller.kind = 'mrac': premise fails: Wm(s)(s+p0)(s+p1) is not strictly "
       "positive "
-      "real (accept_failed_premises = true runs it nevertheless)\n"
+      "real (accept_failed_premises = true runs it anyway)\n"
       "s.toml:2: controller.kind = 'mrac': premise fails: Eq. (12) needs Wm = "
       "k/((s+p0)(s+p1)(s+q0)) "
-      "(accept_failed_premises = true runs it nevertheless)",
+      "(accept_failed_premises = true runs it anyway)",
       "reference_model.kind = 'eq8'\ncontroller.kind = 'mrac'");
   STRCMP_EQUAL("in order", problems("reference_model.kind = 'eq8'\n"
                                     "controller = {kind = 'mrac', accept_failed_premises = true}")

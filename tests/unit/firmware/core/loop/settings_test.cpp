@@ -55,14 +55,14 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
     POINTERS_EQUAL(nullptr, settings.joint_of(channel));
 
   settings.joints[0].antagonist = 4;
-  check_says("channel 5 is none of the board's 4", "joint");
+  check_says("channel 5 is not one of the board's 4", "joint");
   settings.joints[0].agonist = 5;
-  check_says("channel 6 is none of the board's 4", "joint");
+  check_says("channel 6 is not one of the board's 4", "joint");
   settings.joints[0].agonist = 2;
   settings.joints[0].antagonist = 2;
-  check_says("channel 3 pulls twice", "joint");
+  check_says("channel 3 is used twice", "joint");
   settings.joints = {{.agonist = 0, .antagonist = 1}, {.agonist = 2, .antagonist = 1}};
-  check_says("channel 2 pulls twice", "joint");
+  check_says("channel 2 is used twice", "joint");
   settings.joints.resize(1);
   settings.channels[1].supervision.proof_of_response = true;
   check_says("channel 2 cannot prove by itself that it responds", "joint");

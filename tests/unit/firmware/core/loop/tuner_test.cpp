@@ -156,7 +156,7 @@ TEST(Tuner, AnEstimatorThatCannotRunIsRefused) {
   channel.estimators[0].arithmetic = control::Arithmetic::q8_24;
   supercoil::Tuner tuner(channel, tick_s);
   for (const auto& [wanted, why] :
-       {std::pair{2.0, "must be double or float"}, std::pair{3.0, "is no estimator's"}}) {
+       {std::pair{2.0, "must be double or float"}, std::pair{3.0, "is not a kind of estimator"}}) {
     CHECK(tuner.prepare(place, kind, wanted).refusal == Refusal::none);
     Command tune = command(Verb::tune, place);
     tuner.add_to(tune, muscle);

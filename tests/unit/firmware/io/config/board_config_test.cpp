@@ -49,7 +49,7 @@ TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
   check_says(described("muscles = 5"),
              "channel 1: resistance_drift: one shorted muscle of 5 in series is 20 % less "
              "resistance, which resistance_drift lets pass: the others get 1.25 times their share "
-             "unseen");
+             "undetected");
   // A muscle of three that is hot, but by its bounds may be cold, has as much as all three cold.
   check_says(described("muscles = 3", "temperature_coefficient_per_K = 0.002\n"),
              "one shorted muscle of 3 in series is 33 % less resistance");
@@ -220,7 +220,7 @@ TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
   check_says(quiet, "board: no watchdog: ");
   const std::string coarse = describe(
       read(test::small_board_with("A_per_count = 0.0001", "A_per_count = 0.005\noff_A = 0.001")));
-  check_says(coarse, "channel 1: resistance_drift: a probe's 21.6 mA are only 4.32 counts");
+  check_says(coarse, "channel 1: resistance_drift: a probe's 21.6 mA is only 4.32 counts");
 }
 
 TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
@@ -229,7 +229,7 @@ TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
     return describe(read(test::small_board_with(heater, heater + fuse)));
   };
   check_says(described(""), "channel 1: thermal fuse: heater.thermal_fuse_C is not given");
-  check_says(described("thermal_fuse_C = 0\n"), "channel 1: thermal fuse: there is none");
+  check_says(described("thermal_fuse_C = 0\n"), "channel 1: thermal fuse: none: nothing detects");
   check_says(described("thermal_fuse_C = 152.0\n"), "opens at 152 °C, below trip_C = 160 °C");
   check_says(described("thermal_fuse_C = 216\n"), "opens at 216 °C, more than 30 K above trip_C");
   for (const char* suits : {"160", "169", "190"}) {

@@ -78,7 +78,7 @@ TEST(BundleConfig, TheLeaderMayBeALaterChannel) {
   CHECK(small_board.find("voltage1") != std::string::npos);
   const std::string problems = problems_of(with_channels("[2, 1]"));
   // In this file the first channel has the sensor: the problem is reported there.
-  STRCMP_CONTAINS("position: is that of its bundle, channel 2's: leave it out, or move it there",
+  STRCMP_CONTAINS("position: is taken from its bundle, channel 2: leave it out, or move it there",
                   problems.c_str());
 }
 
@@ -91,19 +91,19 @@ TEST(BundleConfig, WrongOnesAreToldWhatIsWrong) {
                 with_channels("[1, 3]"));
   check_refused("bundle[1].channels = [1, 1.5]: channel 1.5 is none: channels are numbered from 1",
                 with_channels("[1, 1.5]"));
-  check_refused("bundle[1].channels = [1, 1]: channel 1 pulls in a bundle already",
+  check_refused("bundle[1].channels = [1, 1]: channel 1 is already in a bundle",
                 with_channels("[1, 1]"));
-  check_refused("bundle[2].channels = [1, 2]: channel 1 pulls in a bundle already",
+  check_refused("bundle[2].channels = [1, 2]: channel 1 is already in a bundle",
                 board_with_bundle + one_bundle);
   check_refused("bundle[1].wired = 'series': is not a key of [bundle[1]]",
                 board_with_bundle + "wired = 'series'\n");
   check_refused(
-      "bundle[1].channels = [1, 2]: channel 1 turns a joint, and a bundle is no part of one",
+      "bundle[1].channels = [1, 2]: channel 1 turns a joint, and so cannot be in a bundle",
       supercoil::test::board_with_joint + one_bundle);
 }
 
 TEST(BundleConfig, ABoardThatLacksItsChannelsIsRefused) {
-  check_refused("bundle[1].channels = [1, 2]: channel 2 is none of this file",
+  check_refused("bundle[1].channels = [1, 2]: channel 2 is not in this file",
                 small_board + one_bundle);
 }
 

@@ -90,8 +90,7 @@ TEST(JointInDegrees, ATravelInMetresMustAgreeWithTheRange) {
   DOUBLES_EQUAL(30.0 * degree_m, travel_m(read_in_degrees(ranged("[-20, 30]", agreeing)), 0),
                 1e-12);
   check_only_problem(
-      "60: channel[2].limits.max_travel_m = 0.0052: contradicts its joint's range_deg, by which it "
-      "is "
+      "60: channel[2].limits.max_travel_m = 0.0052: contradicts its joint's range_deg, which gives "
       "0.00549779: leave one of them out",
       ranged("[-21, 30]", agreeing));
 }
@@ -108,7 +107,7 @@ TEST(JointInDegrees, ARangeThatCannotBeIsNamedAlone) {
   check_only_problem("64: joint[1].range_deg = 30: must be a list of 2 numbers, each -180 to 180",
                      ranged("30"));
   check_only_problem(
-      "39: channel[1].limits.max_travel_m (its default): is 0.0445059 by its joint's range_deg, "
+      "39: channel[1].limits.max_travel_m (its default): is 0.0445059 from its joint's range_deg, "
       "and must be within what the sensor can read: position.max_m = 0.041",
       ranged("[-20, 170]"));
 }
@@ -124,8 +123,8 @@ TEST(JointInDegrees, OfOneMuscleTheRangeBeginsWhereThatIsCold) {
                        ranged(wrong, finger));
   }
   check_only_problem(
-      "41: channel[1].limits.max_travel_m = 0.025: contradicts its joint's range_deg, by which it "
-      "is 0.010472: leave one of them out",
+      "41: channel[1].limits.max_travel_m = 0.025: contradicts its joint's range_deg, which gives "
+      "0.010472: leave one of them out",
       ranged("[0, 40]", supercoil::test::small_board + finger.substr(finger.find("[[joint]]"))));
   STRCMP_CONTAINS("channel[1].limits.max_travel_m: is missing", problems_of(finger).c_str());
 }
@@ -154,7 +153,7 @@ TEST(JointInDegrees, OfALeverThatDependsOnTheAngleAReadingIsAtTheLeverOfZero) {
 
 TEST(JointInDegrees, WhatTheSensorCannotReadIsToldInDegrees) {
   check_only_problem(
-      "59: channel[2].limits.max_travel_m (its default): is 0.00523599 by its joint's range_deg, "
+      "59: channel[2].limits.max_travel_m (its default): is 0.00523599 from its joint's range_deg, "
       "and "
       "must be within what the sensor can read: its agonist's position.min_deg = -10",
       replaced(in_deg, "min_deg = -90", "min_deg = -10"));

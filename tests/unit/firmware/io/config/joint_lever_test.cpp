@@ -44,10 +44,12 @@ TEST(JointLeverConfig, ALeverThatCannotBeIsNamed) {
   check_lever("joint[1].lever_range_deg = [-40, 40]: needs lever_m to be a list",
               "lever_m = 0.012\nlever_range_deg = [-40.0, 40.0]\n");
   check_lever(
-      "joint[1].lever_range_deg = [10, 40]: must be two angles, and 0 between them or one of them",
+      "joint[1].lever_range_deg = [10, 40]: must be two angles, with 0 between them or equal to "
+      "one of them",
       "lever_m = [0.012, 0.016]\nlever_range_deg = [10.0, 40.0]\n");
   check_lever(
-      "joint[1].lever_range_deg = [0, 0]: must be two angles, and 0 between them or one of them",
+      "joint[1].lever_range_deg = [0, 0]: must be two angles, with 0 between them or equal to one "
+      "of them",
       "lever_m = [0.012, 0.016]\nlever_range_deg = [0.0, 0.0]\n");
   check_lever(
       "joint[1].lever_m = [0.012, 0]: must be a list of 2 to 7 numbers, each 0.0001 to 1; 0 is not",
@@ -70,7 +72,7 @@ TEST(JointLeverConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
   // With a constant lever of 15 mm, 25 mm are read as 25 mm.
   check_answer(
       "channel[1].limits.max_travel_m = 0.025: must be within what the sensor can read: "
-      "position.max_m = 0.041, and by its lever it reads 0.079351",
+      "position.max_m = 0.041, and with its lever it reads 0.079351",
       with_lever("[0.015, 0.015, 0.004]", "0.025"));
   // Where the lever grows, the travel may exceed what the sensor reads.
   read_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));

@@ -146,7 +146,7 @@ TEST(JointConfig, APairThatCanTearItselfIsRefused) {
   // For the agonist 0.0086 N/K at 2.25 W / 0.045 W/K, for the antagonist at 1.8 W.
   STRCMP_EQUAL(
       "b.toml:66: joint[1].max_pull_N = 0.5: is less than channel 1 may pull with: a pretension of "
-      "0.1 N, and 0.43 N by the heat of max_co_contraction_W = 2.25, which are 2.25 W there; "
+      "0.1 N, and 0.43 N from the heat of max_co_contraction_W = 2.25, which is 2.25 W there; "
       "max_co_contraction_W must be 0 to 2.093, or max_pull_N at least 0.53\n",
       problems_of(board_with_joint + "max_pull_N = 0.5\npretension_N = 0.1\n").c_str());
   for (const char* in_order :
@@ -170,7 +170,7 @@ TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
                "0.18\n[channel.limits]\nmax_W = 4.0");
   check_answer(
       "joint[1].max_pull_N = 0.45: is less than channel 2 may pull with: a pretension of 0 N, and "
-      "0.516 N by the heat of max_co_contraction_W = 2.25, which are 1.8 W there; "
+      "0.516 N from the heat of max_co_contraction_W = 2.25, which is 1.8 W there; "
       "max_co_contraction_W must be 0 to 1.962, or max_pull_N at least 0.516",
       badly_cooled + "max_pull_N = 0.45\n");
   // Not hotter than it may become: (50 - 15) K.
@@ -208,8 +208,8 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
         "at most with 2.2 W and 1.8 W",
         // By 2.25 W, and 1.8 W for the antagonist, at 0.045 W/K: hotter than is believed.
         "the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension; "
-        "max_pull_N, which "
-        "they bear, is not configured",
+        "max_pull_N, "
+        "the most they bear, is not configured",
         "stiffness   16 N/m at the lever, 0.0036 Nm/rad, however much both pull: linear muscles\n"})
     STRCMP_CONTAINS(part, text.c_str());
 }
@@ -234,8 +234,7 @@ TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
   STRCMP_CONTAINS("the agonist from 19.1° on", describe(told).c_str());
   STRCMP_CONTAINS("the antagonist nowhere within its travel\n", describe(told).c_str());
   check_answer(
-      "joint[1].stiffness_ratio = [0.5, 0.6]: must not be more than 1 together: a spring has the "
-      "rest",
+      "joint[1].stiffness_ratio = [0.5, 0.6]: must not exceed 1 in total: a spring has the rest",
       board_with_joint + "stiffness_ratio = [0.5, 0.6]\n");
   check_answer("joint[1].stiffness_ratio", board_with_joint + "stiffness_ratio = [0.5]\n");
 }
@@ -259,21 +258,22 @@ TEST(JointConfig, NothingFollowsFromWhatIsWrongWithAJoint) {
              replaced(board_with_joint, "agonist = 1\n", "agonist = [1, 3]\n"));
   check_only("63: joint[1].agonist = 9: must be 1 to 2",
              replaced(board_with_joint, "agonist = 1\n", "agonist = 9\n"));
-  check_only("64: joint[1].antagonist = 1: is a channel that pulls in a joint already",
+  check_only("64: joint[1].antagonist = 1: is a channel that is already in a joint",
              replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
 }
 
 TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
   const std::string proof = board_with_joint + "[every_channel.detectors]\nproof_of_response = ";
   check_answer(
-      "every_channel.detectors.proof_of_response = true: cannot be had in a joint: the other "
-      "muscle moves it as well; leave it out, or say false",
+      "every_channel.detectors.proof_of_response = true: is not available in a joint: the other "
+      "muscle moves it as well; leave it out, or set it to false",
       proof + "true\n");
   STRCMP_EQUAL("", problems_of(proof + "false\n").c_str());
   const std::string text = describe(read_board(board_with_joint));
-  STRCMP_CONTAINS("of some um: not checked: the joint's other muscle moves it as well",
+  STRCMP_CONTAINS("of a few um: not checked: the joint's other muscle moves it as well",
                   text.c_str());
-  STRCMP_CONTAINS("heater_not_responding: no proof of response is had in a joint", text.c_str());
+  STRCMP_CONTAINS("heater_not_responding: proof of response is not available in a joint",
+                  text.c_str());
   CHECK(text.find("proof_of_response is false") == std::string::npos);
 }
 
@@ -306,22 +306,22 @@ TEST(JointConfig, AnAntagonistIsLed) {
 
 TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer(
-      "channel[2].position: is that of its agonist, channel 1, with the other sign",
+      "channel[2].position: is taken from its agonist, channel 1, with the opposite sign",
       replaced(board_with_joint, "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
                "position = {device = \"adc\", input = \"voltage9\"}\n"
                "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
   check_answer(
-      "channel[1].position: is that of its agonist, channel 2, with the other sign: leave "
+      "channel[1].position: is taken from its agonist, channel 2, with the opposite sign: leave "
       "it out, or move it there",
       swapped);
-  check_answer("joint[1].antagonist = 1: is a channel that pulls in a joint already",
+  check_answer("joint[1].antagonist = 1: is a channel that is already in a joint",
                replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
   check_answer("joint[1].antagonist = 3: must be 1 to 2",
                replaced(board_with_joint, "antagonist = 2", "antagonist = 3"));
   CHECK(
       problems_of(replaced(board_with_joint, "antagonist = 2", "antagonist = 3")).find("already") ==
       std::string::npos);
-  check_answer("joint[2].agonist = 1: is a channel that pulls in a joint already",
+  check_answer("joint[2].agonist = 1: is a channel that is already in a joint",
                board_with_joint + one_joint);
   check_answer("joint[1].lever_m: is missing", replaced(board_with_joint, "lever_m = 0.015\n", ""));
   check_answer("is not a key of [joint[1]]; did you mean antagonist?",

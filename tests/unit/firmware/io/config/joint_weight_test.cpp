@@ -67,15 +67,15 @@ TEST(JointWithAWeight, CheckTellsThePowerOfItsAngles) {
 TEST(JointWithAWeight, MustDrawTheArmBackFromWhereverItIs) {
   check_only_arm_problem(
       "48: joint[1].hangs_at_deg = -130: lets the arm stand upright at 50°, from where nothing "
-      "draws it back, and its travel goes up to 60°",
+      "pulls it back, and its travel goes up to 60°",
       replaced(arm, "-45", "-130"));
 }
 
 TEST(JointWithAWeight, IsNotAllThatTheMuscleDescribes) {
   check_only_arm_problem(
       "47: joint[1].weight_Nm = 0.0101: alone makes the joint 31.7412 N/m stiff at 0°, and "
-      "channel[1].muscle.stiffness_N_per_m = 31.7 is of muscle and weight together: give that "
-      "more, or the weight less than 0.0100869",
+      "channel[1].muscle.stiffness_N_per_m = 31.7 is that of muscle and weight together: raise it, "
+      "or reduce the weight to less than 0.0100869",
       replaced(arm, "weight_Nm = 0.005", "weight_Nm = 0.0101"));
 }
 

@@ -87,7 +87,7 @@ TEST(WrongBoard, NotANumber) {
 
 TEST(WrongBoard, ThermalFuseOfAnImpossibleTemperature) {
   check_replaced("cold_resistance_Ohm = 10.0", "cold_resistance_Ohm = 10.0\nthermal_fuse_C = 45",
-                 "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 where "
+                 "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 if "
                  "there is no thermal fuse");
 }
 
@@ -272,7 +272,7 @@ TEST(WrongBoard, WhatFixedPointCannotHold) {
       "[channel.controller]\nkind = 'pi'\narithmetic = 'q8.24'\nproportional_W_per_m = 50000.0\n");
   STRCMP_EQUAL(
       "b.toml:45: channel[1].controller.proportional_W_per_m = 50000: does not fit arithmetic = "
-      "\"q8.24\": it is held as 301.966 there, and must be -127 to 127\n",
+      "\"q8.24\": it is stored as 301.966 there, and must be -127 to 127\n",
       answer.c_str());
 }
 

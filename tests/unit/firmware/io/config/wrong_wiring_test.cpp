@@ -73,15 +73,14 @@ TEST(WrongWiring, BusTimeOfADirectDevice) {
 
 TEST(WrongWiring, AgeThatABufferedValueAlwaysHas) {
   check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nmax_age_ms = 0.5",
-                 "b.toml:26: channel[1].position.max_age_ms = 0.5: must be at least a tick: a "
-                 "buffered value is older than that before the next one comes");
+                 "b.toml:26: channel[1].position.max_age_ms = 0.5: must be at least one tick: a "
+                 "buffered value becomes older than that before the next one arrives");
 }
 
 TEST(WrongWiring, CaptureOfSomeInputsOfADevice) {
-  check_replaced(
-      "input = \"voltage1\"", "input = \"voltage1\"\ncapture = {trigger = 'clock'}",
-      "b.toml:23: channel[1].position.device = 'adc': has another input with another "
-      "capture: all its inputs are converted together, and none can be read beside that");
+  check_replaced("input = \"voltage1\"", "input = \"voltage1\"\ncapture = {trigger = 'clock'}",
+                 "b.toml:23: channel[1].position.device = 'adc': has another input with another "
+                 "capture: all its inputs are converted together, and none can be read separately");
 }
 
 TEST(WrongWiring, CaptureBehindABus) {

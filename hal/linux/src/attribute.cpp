@@ -54,7 +54,7 @@ Result<Attribute> Attribute::open(const std::string& path, Use use) {
   auto file = open_file(path, flags(use));
   if (!file) return tl::unexpected(file.error());
   struct stat about {};
-  if (::fstat(file->number(), &about) != 0) return failed_call("cannot look at " + path, errno);
+  if (::fstat(file->number(), &about) != 0) return failed_call("cannot examine " + path, errno);
   if (!S_ISREG(about.st_mode)) return failure(path + " is not a file");
   return Attribute(std::move(*file), path);
 }
@@ -97,7 +97,7 @@ Result<void> Attribute::set(std::string_view text) const {
   errno = 0;
   if (write(text) == hal::Status::ok) return {};
   const std::string what = "cannot write '" + std::string(text) + "' to " + path_;
-  return errno == 0 ? failure(what + ": only a part was taken") : failed_call(what, errno);
+  return errno == 0 ? failure(what + ": only part was accepted") : failed_call(what, errno);
 }
 
 Result<std::int64_t> Attribute::whole() const {

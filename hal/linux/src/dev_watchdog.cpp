@@ -16,7 +16,8 @@ Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::strin
   int taken_s = wanted_s;
   if (::ioctl(device.number(), WDIOC_SETTIMEOUT, &taken_s) == 0) return taken_s;
   const int refused = errno;
-  const std::string what = path + " does not take a time-out of " + std::to_string(wanted_s) + " s";
+  const std::string what =
+      path + " does not accept a time-out of " + std::to_string(wanted_s) + " s";
   int has_s = 0;
   if (::ioctl(device.number(), WDIOC_GETTIMEOUT, &has_s) != 0) return failed_call(what, refused);
   if (has_s >= 1 && has_s <= wanted_s) return has_s;

@@ -106,7 +106,7 @@ Result<std::vector<std::string>> names_in(const std::string& folder) {
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     names.push_back(entry->path().filename().string());
   }
-  if (error) return failed_call("cannot look into " + folder, error.value());
+  if (error) return failed_call("cannot list " + folder, error.value());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -45,7 +45,7 @@ Result<GpioChip> find_chip(const std::string& label, const std::string& dev) {
     found = std::move(chip);
   }
   if (found) return std::move(*found);
-  if (chips->described.empty()) return failure("no " + what + ": there is no chip at all");
+  if (chips->described.empty()) return failure("no " + what + ": there is no chip");
   return failure("no " + what + ": there are " + listed(chips->described));
 }
 

@@ -21,13 +21,13 @@ std::string inputs_of(const std::string& folder) {
     inputs.push_back(name.substr(before.size(), name.size() - before.size() - behind.size()));
   }
   std::sort(inputs.begin(), inputs.end());
-  return inputs.empty() ? "none at all" : listed(inputs);
+  return inputs.empty() ? "none" : listed(inputs);
 }
 
 }  // namespace
 
 Result<std::unique_ptr<IioAdc>> IioAdc::open(const ConverterLocation& place) {
-  if (!is_input_name(place.input)) return failure("'" + place.input + "' is not an input's name");
+  if (!is_input_name(place.input)) return failure("'" + place.input + "' is not an input name");
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return tl::unexpected(device.error());
   auto raw = Attribute::open(device->folder + "/in_" + place.input + "_raw", Attribute::Use::read);

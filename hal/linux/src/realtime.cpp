@@ -97,7 +97,7 @@ SetupStep pin_to_cpu(pthread_t thread, int cpu) {
   const std::string step = "on CPU " + std::to_string(cpu) + " alone";
   const std::string remedy =
       "choose one of the " + std::to_string(::sysconf(_SC_NPROCESSORS_ONLN)) +
-      " CPUs that run, counted from 0, and that the service's AllowedCPUs= leaves";
+      " CPUs that run, counted from 0, and are within the service's AllowedCPUs=";
   if (cpu < 0 || cpu >= CPU_SETSIZE) return outcome(step, message(EINVAL), remedy);
   cpu_set_t wanted;
   CPU_ZERO(&wanted);

@@ -17,11 +17,11 @@ Result<void> check(const ScanLocation& place) {
   if (place.length < 2 || place.length > max_scans) {
     return failure("a buffer of " + std::to_string(place.length) + " scans: must be 2 to 4096");
   }
-  if (place.inputs.empty()) return failure("a scan of no inputs");
+  if (place.inputs.empty()) return failure("a scan without inputs");
   for (auto input = place.inputs.begin(); input != place.inputs.end(); ++input) {
-    if (!is_input_name(*input)) return failure("'" + *input + "' is not an input's name");
+    if (!is_input_name(*input)) return failure("'" + *input + "' is not an input name");
     if (std::find(place.inputs.begin(), input, *input) != input) {
-      return failure("input '" + *input + "' is there twice");
+      return failure("input '" + *input + "' is listed twice");
     }
   }
   return {};
@@ -90,7 +90,7 @@ Result<void> place_elements(ReadyScan& ready) {
   for (ScanElement& input : ready.inputs) {
     constexpr int bits_of_counts = 32;
     if (input.type.bits + (input.type.is_signed ? 0 : 1) > bits_of_counts) {
-      return failure("an input of " + std::to_string(input.type.bits) + " bits: 32 are the most");
+      return failure("an input of " + std::to_string(input.type.bits) + " bits: the maximum is 32");
     }
     input.offset = offset_of(input);
   }

@@ -31,7 +31,7 @@ Result<void> check(const CanLocation& place) {
   }
   if (place.listen.size() > CAN_RAW_FILTER_MAX) {
     return failure(name + ": listens to " + std::to_string(place.listen.size()) +
-                   " identifiers, and 512 are the most");
+                   " identifiers; the maximum is 512");
   }
   for (const std::uint16_t id : place.listen) {
     if (id > CAN_SFF_MASK) {

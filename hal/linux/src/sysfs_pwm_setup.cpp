@@ -40,7 +40,7 @@ Result<void> export_output(const DeviceFolder& chip, int number) {
   auto written = write_text(chip.folder + "/export", std::to_string(number));
   if (!written && written.error().code == std::errc::device_or_resource_busy) {
     return failed_call("output " + std::to_string(number) + " of " + chip.describe() +
-                           " is used by a driver of the kernel (see /sys/kernel/debug/pwm)",
+                           " is used by a kernel driver (see /sys/kernel/debug/pwm)",
                        EBUSY);
   }
   if (written) wait_for_rights(folder);

@@ -120,7 +120,7 @@ TEST(Attribute, NamesPathValueAndCauseInTheSetUp) {
   STRCMP_EQUAL(("cannot write '0' to " + path + ": Invalid argument").c_str(),
                attribute.set("0").error().text().c_str());
   next(Call::pwrite, "/value", [] { return 1; });
-  STRCMP_EQUAL(("cannot write '100' to " + path + ": only a part was taken").c_str(),
+  STRCMP_EQUAL(("cannot write '100' to " + path + ": only part was accepted").c_str(),
                attribute.set("100").error().text().c_str());
   fail_next(Call::pread, "/value", EIO);
   STRCMP_EQUAL(("cannot read " + path + ": Input/output error").c_str(),

@@ -92,7 +92,7 @@ TEST(DevWatchdog, IsStoppedAgainWhenItsTimeIsTooLong) {
   max_s = 0;
   has_s = 30;
   STRCMP_EQUAL(
-      (dev / "watchdog" + " does not take a time-out of 5 s, and has 30 s: Invalid argument")
+      (dev / "watchdog" + " does not accept a time-out of 5 s, and has 30 s: Invalid argument")
           .c_str(),
       open(5.0).error().text().c_str());
   STRCMP_EQUAL("V", written().c_str());

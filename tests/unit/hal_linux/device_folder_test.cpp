@@ -77,7 +77,7 @@ TEST(DeviceFolders, OfARootThatIsNotThereAreAnError) {
   const TemporaryFolder root;
   const auto folders = numbered_folders(root / "class/pwm", "pwmchip");
   LONGS_EQUAL(ENOENT, folders.error().code);
-  STRCMP_EQUAL(("cannot look into " + root / "class/pwm" + ": No such file or directory").c_str(),
+  STRCMP_EQUAL(("cannot list " + root / "class/pwm" + ": No such file or directory").c_str(),
                folders.error().text().c_str());
 }
 

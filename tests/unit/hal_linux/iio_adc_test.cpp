@@ -90,8 +90,8 @@ TEST(IioAdc, NamesTheInputsThatThereAre) {
                 ": there are voltage0, voltage0-voltage1")
                    .c_str(),
                answer(place("voltage7")).c_str());
-  STRCMP_EQUAL("'../../etc/x' is not an input's name", answer(place("../../etc/x")).c_str());
-  STRCMP_EQUAL("'' is not an input's name", answer(place("")).c_str());
+  STRCMP_EQUAL("'../../etc/x' is not an input name", answer(place("../../etc/x")).c_str());
+  STRCMP_EQUAL("'' is not an input name", answer(place("")).c_str());
 }
 
 TEST(IioAdc, IsRefusedWhenItDoesNotAnswerAtOnce) {
@@ -161,6 +161,6 @@ TEST(IioAdc, GivesNoCountsWithAFailure) {
 TEST(IioAdc, SaysThatThereAreNoConverters) {
   ConverterLocation where = place();
   where.root = "/nowhere";
-  STRCMP_EQUAL("cannot look into /nowhere: No such file or directory", answer(where).c_str());
+  STRCMP_EQUAL("cannot list /nowhere: No such file or directory", answer(where).c_str());
   CHECK_FALSE(count_range(where).has_value());
 }

@@ -22,9 +22,9 @@ TEST_GROUP(IioWrongScan) {
 };
 
 TEST(IioWrongScan, IsOneOfNoOrDoubleOrUnknownInputs) {
-  STRCMP_EQUAL("a scan of no inputs", answer_to({}).c_str());
-  STRCMP_EQUAL("input 'voltage1' is there twice", answer_to({"voltage1", "voltage1"}).c_str());
-  STRCMP_EQUAL("'../x' is not an input's name", answer_to({"../x"}).c_str());
+  STRCMP_EQUAL("a scan without inputs", answer_to({}).c_str());
+  STRCMP_EQUAL("input 'voltage1' is listed twice", answer_to({"voltage1", "voltage1"}).c_str());
+  STRCMP_EQUAL("'../x' is not an input name", answer_to({"../x"}).c_str());
   STRCMP_CONTAINS("in_voltage9_en: No such file or directory", answer_to({"voltage9"}).c_str());
 }
 
@@ -68,7 +68,7 @@ TEST(IioWrongScan, HasTypesThatAreNone) {
   board.element("voltage0", 0, "le:s16/16X4>>0", false);
   STRCMP_CONTAINS("'le:s16/16X4>>0' is not a scan type", answer(board.place()).c_str());
   board.element("voltage0", 0, "le:u32/32>>0", false);
-  STRCMP_EQUAL("an input of 32 bits: 32 are the most", answer(board.place()).c_str());
+  STRCMP_EQUAL("an input of 32 bits: the maximum is 32", answer(board.place()).c_str());
   board.element("voltage0", 0, "le:s32/32>>0", false);
   STRCMP_EQUAL("open", answer(board.place()).c_str());
 }

@@ -221,7 +221,7 @@ TEST(SocketCan, RefusesPlacesThatCannotBe) {
   place.listen = {0x800};
   STRCMP_EQUAL("can0: 2048 is not an 11-bit identifier (0 to 2047)", problem_of_opening().c_str());
   place.listen.assign(513, 1);
-  STRCMP_EQUAL("can0: listens to 513 identifiers, and 512 are the most",
+  STRCMP_EQUAL("can0: listens to 513 identifiers; the maximum is 512",
                problem_of_opening().c_str());
   for (const char* name : {"", "../can0", "sixteen_letters_"}) {
     place = {name, {}, kernel.net.path()};

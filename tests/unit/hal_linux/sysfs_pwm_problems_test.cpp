@@ -56,13 +56,13 @@ TEST(SysfsPwmProblems, NameTheChipsThatThereAre) {
                    .c_str(),
                answer(where).c_str());
   where.root = "/nowhere";
-  STRCMP_EQUAL("cannot look into /nowhere: No such file or directory", answer(where).c_str());
+  STRCMP_EQUAL("cannot list /nowhere: No such file or directory", answer(where).c_str());
 }
 
 TEST(SysfsPwmProblems, TellAnOutputThatTheKernelUses) {
   PwmKernel kernel({}, false);
   fail_next(Call::pwrite, "/export", EBUSY);
-  STRCMP_CONTAINS("is used by a driver of the kernel", answer(place(kernel)).c_str());
+  STRCMP_CONTAINS("is used by a kernel driver", answer(place(kernel)).c_str());
 }
 
 TEST(SysfsPwmProblems, AreNoneWhereUdevGivesTheFilesAMomentLater) {

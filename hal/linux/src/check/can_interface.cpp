@@ -55,13 +55,13 @@ void check_can_interface(const Machine& machine, const std::string& interface,
   // Not operstate, which follows a second later.
   if (read_whole(folder + "/carrier").value_or(0) != 1) {
     return sink({what, Severity::problem, "set up, but off the bus (no carrier)",
-                 "look for wires, ends and bit rate; then " + bring_up});
+                 "check the wires, terminations and bit rate; then " + bring_up});
   }
   const auto rate = can_bit_rate(interface);
   const auto queue = read_whole(folder + "/tx_queue_len");
-  const std::string found =
-      "up, " + (rate ? std::to_string(*rate) + " bit/s" : "without a bit rate") + ", queue of " +
-      (queue ? std::to_string(*queue) : "unknown many") + " frames";
+  const std::string found = "up, " + (rate ? std::to_string(*rate) + " bit/s" : "no bit rate") +
+                            ", queue of " +
+                            (queue ? std::to_string(*queue) : "an unknown number of") + " frames";
   if (queue && *queue >= min_queue) {
     sink({what, Severity::ok, found, ""});
   } else {

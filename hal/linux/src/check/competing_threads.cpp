@@ -103,16 +103,16 @@ void check_competing_threads(const Machine& machine, const LoopThreadSettings& s
             competing);
   }
   const std::string above = " above priority " + std::to_string(settings.priority);
-  const std::string kernel = counted(competing.of_kernel, "thread") + " of the kernel";
+  const std::string kernel = counted(competing.of_kernel, "kernel thread");
   if (competing.programs.empty()) {
-    sink({what, Severity::ok, "none" + above + " (beside " + kernel + ")", ""});
+    sink({what, Severity::ok, "none" + above + " (besides " + kernel + ")", ""});
     return;
   }
   std::vector<std::string> names;
   for (const auto& [name, threads] : competing.programs)
     names.push_back(threads == 1 ? name : name + ", " + counted(threads, "thread"));
   sink({what, Severity::warning, listed(names) + above + " (and " + kernel + ")",
-        "give them less (chrt), or supercoild more (--priority): what they do makes ticks late"});
+        "lower their priority (chrt), or raise supercoild's (--priority): they make ticks late"});
 }
 
 }  // namespace supercoil::hal_linux

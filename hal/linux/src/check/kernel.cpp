@@ -86,7 +86,7 @@ void check_throttling(const Machine& machine, const hal::FindingSink& sink) {
     sink({what, Severity::ok, found, ""});
   } else {
     sink({what, percent == 0 ? Severity::problem : Severity::warning,
-          found + ", then they stand still", "sysctl kernel.sched_rt_runtime_us=950000"});
+          found + ", then they are throttled", "sysctl kernel.sched_rt_runtime_us=950000"});
   }
 }
 
@@ -104,7 +104,7 @@ void check_governor(const Machine& machine, const hal::FindingSink& sink) {
     if (governor != "performance") slow.push_back("'" + governor + "' on " + listed(which));
   if (slow.empty()) {
     sink({what, Severity::ok,
-          by_governor.empty() ? "the processors keep theirs (no cpufreq in " + root + ")"
+          by_governor.empty() ? "fixed (no cpufreq in " + root + ")"
                               : "governor 'performance' on all processors",
           ""});
     return;
@@ -126,11 +126,12 @@ void check_processors(const Machine& machine, const LoopThreadSettings& settings
   if (settings.cpu < 0 || in_list(isolated, settings.cpu)) {
     sink({what, Severity::ok, found, ""});
   } else if (!in_list(online, settings.cpu)) {
-    sink({what, Severity::problem, found + ": " + std::to_string(settings.cpu) + " does not run",
+    sink({what, Severity::problem,
+          found + ": CPU " + std::to_string(settings.cpu) + " is not running",
           "choose another --cpu"});
   } else {
     const std::string cpu = std::to_string(settings.cpu);
-    sink({what, Severity::warning, found + ": other work may run on the loop's, " + cpu,
+    sink({what, Severity::warning, found + ": other work may run on the loop's CPU, " + cpu,
           "isolcpus=" + cpu + " on the kernel's command line"});
   }
 }

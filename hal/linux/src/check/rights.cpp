@@ -58,10 +58,10 @@ void check_priority(const Machine& machine, const LoopThreadSettings& settings,
   if (!tried) step = {"a thread", false, tried.error().text(), "free memory"};
   Finding result = finding("priority", step);
   if (!step.worked && has_capability(machine, CAP_SYS_NICE).value_or(false)) {
-    result.found += ", although CAP_SYS_NICE is there";
+    result.found += ", despite CAP_SYS_NICE";
     result.remedy =
         "the control group has no real-time share (CONFIG_RT_GROUP_SCHED): give it one in "
-        "cpu.rt_runtime_us, or run outside of the container";
+        "cpu.rt_runtime_us, or run outside the container";
   }
   sink(result);
 }

@@ -69,14 +69,14 @@ void check_watchdog(const Machine& machine, const std::string& path, bool in_use
   }
   const auto folder = behind(about, all);
   if (!folder) {
-    sink({what, Severity::warning, path + " is there; " + root + " does not tell what it is",
+    sink({what, Severity::warning, path + " exists; " + root + " does not identify it",
           "use a kernel with CONFIG_WATCHDOG_SYSFS, or look at wdctl"});
     return;
   }
   const std::string found = path + " is " + identity(*folder);
   if (!in_use && read_text(folder->folder + "/state").value_or("") == "active") {
-    sink({what, Severity::problem, found + ", and somebody else uses it",
-          "end what does: of systemd RuntimeWatchdogSec=off, else the watchdog daemon"});
+    sink({what, Severity::problem, found + ", and another process uses it",
+          "stop that process: RuntimeWatchdogSec=off for systemd, else the watchdog daemon"});
   } else if (read_text(folder->folder + "/nowayout").value_or("") == "1") {
     sink({what, Severity::warning, found + "; once started it cannot be stopped (nowayout)",
           "expect the board to be reset when supercoild ends, or load the driver with nowayout=0"});

@@ -84,7 +84,7 @@ TEST_GROUP(CheckCanLink) {
 };
 
 TEST(CheckCanLink, IsInOrder) {
-  check_finding("ok", "up, without a bit rate, queue of 1000 frames", "", found());
+  check_finding("ok", "up, no bit rate, queue of 1000 frames", "", found());
   STRCMP_EQUAL("CAN supercoil-no0", found().what.c_str());
 }
 

@@ -44,7 +44,7 @@ TEST_GROUP(CheckRivals) {
 };
 
 TEST(CheckRivals, CountsTheKernelsOwnOnly) {
-  check_finding("ok", "none above priority 80 (beside 1 thread of the kernel)", "", found());
+  check_finding("ok", "none above priority 80 (besides 1 kernel thread)", "", found());
 }
 
 TEST(CheckRivals, NamesProgramsThatComeFirst) {
@@ -54,8 +54,8 @@ TEST(CheckRivals, NamesProgramsThatComeFirst) {
   root.write("proc/400/task/400/stat", stat("camera", of_user, 0, 6));
   root.write("proc/500/task/500/stat", stat("as loud", of_user, 80, SCHED_RR));
   check_finding("warning",
-                "camera (deadline), pulse (audio) (90), 2 threads above priority 80 (and 1 thread "
-                "of the kernel)",
+                "camera (deadline), pulse (audio) (90), 2 threads above priority 80 (and 1 kernel "
+                "thread)",
                 "chrt", found());
   check_finding("warning", "camera (deadline) above priority 90", "chrt", found(90));
   check_finding("warning", "as loud (80)", "chrt", found(79));

@@ -92,13 +92,13 @@ TEST(CheckKernel, NamesProcessorsThatSlowDown) {
 
 TEST(CheckKernel, AsksForTheLoopsOwnProcessor) {
   check_finding("ok", "running 0-3, isolated none", "", processors(-1));
-  check_finding("warning", "other work may run on the loop's, 3", "isolcpus=3", processors(3));
-  check_finding("warning", "other work may run on the loop's, 0", "isolcpus=0", processors(0));
+  check_finding("warning", "other work may run on the loop's CPU, 3", "isolcpus=3", processors(3));
+  check_finding("warning", "other work may run on the loop's CPU, 0", "isolcpus=0", processors(0));
   root.write(cpus + "isolated", "1,3\n");
   check_finding("ok", "isolated 1,3", "", processors(3));
   check_finding("ok", "isolated 1,3", "", processors(1));
   check_finding("warning", "isolated 1,3", "isolcpus=2", processors(2));
-  check_finding("problem", "4 does not run", "another --cpu", processors(4));
+  check_finding("problem", ": CPU 4 is not running", "another --cpu", processors(4));
   root.write(cpus + "isolated", "0,2-3\n");
   check_finding("ok", "isolated 0,2-3", "", processors(2));
   check_finding("warning", "isolated 0,2-3", "isolcpus=1", processors(1));

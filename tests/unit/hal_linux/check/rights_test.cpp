@@ -52,7 +52,7 @@ TEST(CheckRights, SaysWhatRefusesThePriority) {
                 "not priority 80 of SCHED_FIFO: Operation not permitted; the limit of priority is",
                 "LimitRTPRIO=99", priority(EPERM));
   may("0000000000800000");
-  check_finding("warning", "although CAP_SYS_NICE is there", "cpu.rt_runtime_us", priority(EPERM));
+  check_finding("warning", "despite CAP_SYS_NICE", "cpu.rt_runtime_us", priority(EPERM));
   STRCMP_CONTAINS("not priority 80 of SCHED_FIFO", told.findings.back().found.c_str());
   // A sandbox that accepts the call but does nothing.
   may("0000000000000000");

@@ -61,7 +61,7 @@ TEST(CheckWatchdog, NamesWhatThereIsInstead) {
 
 TEST(CheckWatchdog, SaysThatSomebodyElseHasIt) {
   root.write(first + "state", "active\n");
-  check_finding("problem", "somebody else uses it", "RuntimeWatchdogSec=off", found(device));
+  check_finding("problem", "another process uses it", "RuntimeWatchdogSec=off", found(device));
   check_finding("ok", "is watchdog0", "", found(device, true));
 }
 
@@ -77,7 +77,7 @@ TEST(CheckWatchdog, SaysThatThisUserMayNotWriteToIt) {
 
 TEST(CheckWatchdog, SaysThatItIsNotKnown) {
   root.write(first + "dev", "10:131\n");
-  check_finding("warning", "/dev/null is there; ", "CONFIG_WATCHDOG_SYSFS", found(device));
+  check_finding("warning", "/dev/null exists; ", "CONFIG_WATCHDOG_SYSFS", found(device));
 }
 
 TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
@@ -89,7 +89,7 @@ TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
   check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));
   for (const auto& [major, minor] : {std::pair(10U, 131U), {11U, 130U}, {250U, 1U}}) {
     set_device(major, minor);
-    check_finding("warning", "does not tell what it is", "wdctl", found(device));
+    check_finding("warning", "does not identify it", "wdctl", found(device));
   }
 }
 
@@ -101,5 +101,5 @@ TEST(CheckWatchdog, TakesNoOtherOneForTheFirst) {
   set_device(10, 130);
   Told told;
   check_watchdog(other, device, false, told.sink());
-  check_finding("warning", "does not tell what it is", "wdctl", told.findings.front());
+  check_finding("warning", "does not identify it", "wdctl", told.findings.front());
 }

@@ -31,7 +31,7 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder) {
     result.made_.push_back(missing);
   }
   fs::create_directories(folder, error);
-  if (error) return refuse("cannot be made: " + error.message());
+  if (error) return refuse("cannot be created: " + error.message());
   if (!fs::is_directory(folder, error)) return refuse("is not a folder");
   // Root may write whatever the mode says, but not to a read-only file system: try it.
   std::string probe = (folder / ".supercoil-XXXXXX").string();

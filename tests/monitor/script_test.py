@@ -136,7 +136,7 @@ class Scripts(OnSimulatedBoard):
         self.command("1", "disarm")
         for words, why in ((("1", "position", "0.01"), "wrong_state: arm it first, or reset its fault; or command the channel that leads its joint or bundle"),
                            (("1", "reset"), "wrong_state: it has no fault"),
-                           (("1", "rest"), "wrong_state: it rests already, or is off")):
+                           (("1", "rest"), "wrong_state: it is already resting, or is off")):
             self.assertEqual(self.command(*words).stderr, f"supercoil: {' '.join(words)}: refused: {why}\n")
         # Programs get only its name.
         self.assertEqual(json.loads(self.command("1", "reset", "--json").stdout)["answer"], "refused: wrong_state")

@@ -42,7 +42,7 @@ Result<LogLine> parse_candump_line(std::string_view line) {
   next_word(rest);  // the interface
   const std::string_view frame = next_word(rest);
   const std::size_t mark = frame.find('#');
-  if (mark == std::string_view::npos) return failure("must go on with an interface and ID#DATA");
+  if (mark == std::string_view::npos) return failure("must continue with an interface and ID#DATA");
   const auto id = number<std::uint32_t>(frame.substr(0, mark), 16);
   if (!id || (mark != digits_of_standard_id && mark != digits_of_extended_id))
     return failure("an identifier has 3 or 8 hexadecimal digits");

@@ -21,7 +21,7 @@ std::string reason(int error) {
 /// who could put anything in the lock's place: root must not write into another user's file.
 std::string objection(const hal_linux::Descriptor& file, const std::string& path) {
   struct stat found {};
-  if (::fstat(file.number(), &found) != 0) return "cannot be looked at: " + reason(errno);
+  if (::fstat(file.number(), &found) != 0) return "cannot be examined: " + reason(errno);
   if (!S_ISREG(found.st_mode)) return "is not a regular file";
   if (found.st_nlink != 1)
     return "has " + std::to_string(found.st_nlink) + " names (hard links) and may be another file";
@@ -37,7 +37,7 @@ std::string objection(const hal_linux::Descriptor& file, const std::string& path
 /// Why open() failed, from errno.
 std::string open_failure(int error) {
   if (error == ELOOP) return "the lock file is a symbolic link, which is not followed";
-  return "the lock file cannot be made: " + reason(error);
+  return "the lock file cannot be created: " + reason(error);
 }
 
 std::string content(const hal_linux::Descriptor& file) {

@@ -114,7 +114,7 @@ bool FlightRecorder::write(const Job& job, bool last_try) {
       folder_.write(std::array<std::string_view, 3>{start, found.first, found.second});
   if (!written) {
     note(true, what(job.cause) + " is not recorded: " + written.error().text() +
-                   (last_try ? "; given up" : "; will be tried once more"));
+                   (last_try ? "; giving up" : "; will try once more"));
     return false;
   }
   note(false, written->path + ": " + what(job.cause) + " is recorded");

@@ -132,7 +132,7 @@ Result<Header> decode_header(std::string_view start) {
   h.fault_time_ns = reader.number<std::int64_t>("fault_time_ns", INT64_MIN, INT64_MAX);
   h.rows_crc32 = reader.crc("rows_CRC32");
   if (!value_of(start, "program").empty()) h.program = std::string(reader.quoted("program"));
-  if (!reader.wrong().empty()) return failure("has a header that cannot be: " + reader.wrong());
+  if (!reader.wrong().empty()) return failure("has an impossible header: " + reader.wrong());
   if (row_bytes != sizeof(Row)) {
     return failure("has rows of " + std::to_string(row_bytes) +
                        " bytes; this program reads rows of " + std::to_string(sizeof(Row)),

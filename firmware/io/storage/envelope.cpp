@@ -54,7 +54,7 @@ std::string difference(std::string_view line, std::string_view body) {
   if (body.size() > bytes) {
     return "has " + std::to_string(body.size() - bytes) + " bytes more than were written";
   }
-  return "is damaged: its content and its first line do not belong together (CRC-32 of the "
+  return "is damaged: its content and its first line do not match (CRC-32 of the "
          "content: " +
          hexadecimal(crc32(body), 8) + ")";
 }
@@ -76,7 +76,7 @@ std::string seal(std::string_view body, unsigned format) {
 Result<Unsealed> unseal(std::string_view text) {
   if (text.empty()) return failure("is empty");
   if (text.size() > max_file_bytes) {
-    return failure("is larger than 64 KiB, which no stored set is");
+    return failure("is larger than the limit of 64 KiB");
   }
   // A file whose data never reached the disk is often zeros of the right length.
   if (const std::size_t at = first_binary(text); at < text.size()) {

@@ -78,7 +78,7 @@ Result<NewFile> PosixFiles::create(const std::string& path) {
   const int descriptor = uninterrupted([&] {
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, readable_by_all);
   });
-  if (descriptor < 0) return failed(path, "cannot be made");
+  if (descriptor < 0) return failed(path, "cannot be created");
   return NewFile{descriptor, path};
 }
 
@@ -107,7 +107,7 @@ Result<void> PosixFiles::rename(const std::string& from, const std::string& to) 
 }
 
 Result<void> PosixFiles::link(const std::string& from, const std::string& to) {
-  return done(::link(from.c_str(), to.c_str()), to, "cannot be made as a second name (hard link)");
+  return done(::link(from.c_str(), to.c_str()), to, "cannot be linked (hard link)");
 }
 
 Result<void> PosixFiles::unlink(const std::string& path) {

@@ -59,7 +59,7 @@ std::vector<std::string> known_verbs() {
 }
 
 std::string no_command(std::string_view word) {
-  if (word.empty()) return "no command behind the channel; there are: " + joined(known_verbs());
+  if (word.empty()) return "no command after the channel; there are: " + joined(known_verbs());
   return "'" + std::string(word) + "' is not a command; " +
          meant_or_all(word, known_verbs(), "there are");
 }
@@ -78,7 +78,7 @@ Result<double> finite_number(std::string_view word, Verb verb, std::string_view 
   const auto value = number<double>(word);
   if (value && std::isfinite(*value)) return *value;
   const std::string what = std::string(name(verb)) + " needs " + std::string(needs);
-  return failure(word.empty() ? what : what + "; '" + std::string(word) + "' is none");
+  return failure(word.empty() ? what : what + "; '" + std::string(word) + "' is not one");
 }
 
 std::string unexpected_word(Verb verb, std::string_view rest) {
@@ -134,7 +134,7 @@ std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
   double velocity_m_per_s = 0.0;
   const std::array<double*, 3> of_knot{&after_s, &command.value, &velocity_m_per_s};
   const std::string_view needs =
-      is_knot ? "three numbers: s after the one before, m, m/s" : "a time of the board, in s";
+      is_knot ? "three numbers: s after the previous one, m, m/s" : "a time of the board, in s";
   for (double* wanted : is_knot ? std::span<double* const>(of_knot) : std::span(of_start)) {
     const auto value = finite_number(next_word(text), command.verb, needs);
     if (!value) return tl::unexpected(value.error());
@@ -144,15 +144,15 @@ std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
   constexpr double max_float = std::numeric_limits<float>::max();
   if (is_knot && after_s != 0.0 && !(after_s >= min_after_s && after_s <= max_float)) {
     return failure(shortest_text(after_s) +
-                   " s after the one before: must be 0.001 or more, or 0 of the first");
+                   " s after the previous one: must be 0.001 or more, or 0 of the first");
   }
   if (std::abs(velocity_m_per_s) > max_float)
-    return failure(shortest_text(velocity_m_per_s) + " m/s is no velocity");
+    return failure(shortest_text(velocity_m_per_s) + " m/s is not a valid velocity");
   command.after_s = static_cast<float>(after_s);
   command.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
   const std::string_view rest = next_word(text);
   if (!rest.empty()) {
-    return failure(std::string(name(command.verb)) + " takes no more: leave out '" +
+    return failure(std::string(name(command.verb)) + " takes no further value: leave out '" +
                    std::string(rest) + "'");
   }
   return command;

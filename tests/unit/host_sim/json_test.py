@@ -108,8 +108,8 @@ class Json(ProgramCase):
                 ("", "pr is none", ("compare", "--controllers", "pr is none")),
                 ("", "which study", ("campaign",)),
                 ("study.runs", "must be", ("campaign", "wrong.toml")),
-                ("", "/proc/none: cannot be made", ("estimators", "--out", "/proc/none")),
-                ("", "/proc/none: cannot be made", ("reproduce", "--out", "/proc/none")),
+                ("", "/proc/none: cannot be created", ("estimators", "--out", "/proc/none")),
+                ("", "/proc/none: cannot be created", ("reproduce", "--out", "/proc/none")),
                 ("", "--slurm excludes --json", ("campaign", "study.toml", "--slurm", 2)),
                 ("", "not expected", ("compare", "--bogus")),
                 ("", "'fly' is not a command", ("fly",))):

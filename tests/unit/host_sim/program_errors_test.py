@@ -58,9 +58,9 @@ class Errors(ProgramCase):
     def test_an_output_folder_that_cannot_be_written(self):
         (self.path / "file").write_text("x")
         self.check_refused("file: ", "run", self.scenario(SHORT), "--out", "file")
-        self.check_refused("/proc/none: cannot be made", "run", self.scenario(SHORT),
+        self.check_refused("/proc/none: cannot be created", "run", self.scenario(SHORT),
                            "--out", "/proc/none")
-        self.check_refused("/proc/none: cannot be made", "reproduce", "--out", "/proc/none")
+        self.check_refused("/proc/none: cannot be created", "reproduce", "--out", "/proc/none")
 
     def test_scenarios_that_cannot_share_a_bus(self):
         (self.path / "a.toml").write_text(SHORT)

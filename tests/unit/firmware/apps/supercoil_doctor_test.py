@@ -94,7 +94,7 @@ class Doctor(unittest.TestCase):
 
     def test_without_its_folder_no_device_is_touched(self):
         found = self.findings("--run-folder", "none")
-        self.assertIn("none/lock: the lock file cannot be made", found["devices"]["found"])
+        self.assertIn("none/lock: the lock file cannot be created", found["devices"]["found"])
         self.assertNotIn("heartbeat", found)
 
     def test_warnings_alone_are_no_failure(self):

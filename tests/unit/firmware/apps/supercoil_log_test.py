@@ -289,7 +289,7 @@ class Log(unittest.TestCase):
         (self.path / "folder").mkdir()
         self.refused("folder: is not a file", "r.scfr", "--out", "folder")
         self.refused("/dev/full: is not a file", "r.scfr", "--out", "/dev/full")
-        self.refused("none/x.csv.part: cannot be made", "r.scfr", "--out", "none/x.csv")
+        self.refused("none/x.csv.part: cannot be created", "r.scfr", "--out", "none/x.csv")
 
     def test_a_full_disk_ends_with_status_1_and_leaves_what_was_there(self):
         (self.path / "out.csv").write_text("earlier")

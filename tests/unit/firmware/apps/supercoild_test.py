@@ -184,7 +184,7 @@ class Program(unittest.TestCase):
         arguments = self.no_such_board()
         done = self.run_program(*arguments[:3], "none")
         self.assertEqual((done.returncode, done.stderr),
-                         (1, "supercoild: problem: none/lock: the lock file cannot be made: "
+                         (1, "supercoild: problem: none/lock: the lock file cannot be created: "
                              "No such file or directory\n"))
 
     def test_what_was_learned_and_is_damaged_is_no_start(self):

@@ -117,7 +117,7 @@ TEST(OutputFolder, CannotBeWhereAFileIs) {
 TEST(OutputFolder, CannotBeWhereNothingMayBeWritten) {
   const auto folder = OutputFolder::open("/proc/supercoil");
   CHECK_FALSE(folder.has_value());
-  STRCMP_CONTAINS("/proc/supercoil: cannot be made: ", folder.error().text().c_str());
+  STRCMP_CONTAINS("/proc/supercoil: cannot be created: ", folder.error().text().c_str());
   const auto existing = OutputFolder::open("/proc");
   CHECK_FALSE(existing.has_value());
   STRCMP_CONTAINS("/proc: cannot be written to: ", existing.error().text().c_str());

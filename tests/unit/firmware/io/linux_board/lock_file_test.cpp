@@ -40,7 +40,7 @@ TEST(LockFile, OnlyOneHoldsIt) {
 TEST(LockFile, WithoutItsFolderItSaysSo) {
   const auto lock = LockFile::take(folder / "none/lock");
   const std::string why =
-      folder / "none/lock" + ": the lock file cannot be made: No such file or directory";
+      folder / "none/lock" + ": the lock file cannot be created: No such file or directory";
   STRCMP_EQUAL(why.c_str(), lock.error().text().c_str());
 }
 
@@ -71,7 +71,7 @@ TEST(LockFile, APipeIsRefusedWithoutWaiting) {
 
 TEST(LockFile, AFolderIsRefused) {
   folder.make_folder("lock");
-  refused("cannot be made: Is a directory");
+  refused("cannot be created: Is a directory");
 }
 
 /// Only root can give a file to another user.

@@ -145,7 +145,7 @@ TEST(Mishap, AFileSystemWithoutRoomForItIsReported) {
       static_cast<void>(!write(report, note.text.data(), note.text.size()));
   });
   STRCMP_EQUAL(("over_travel (31) of channel 1 is not recorded: " + folder.path() +
-                "/flight-1.scfr.new: cannot be written: File too large; will be tried once more")
+                "/flight-1.scfr.new: cannot be written: File too large; will try once more")
                    .c_str(),
                child.read(1000).c_str());
   LONGS_EQUAL(0, content().size());

@@ -198,12 +198,12 @@ TEST(Recording, AHeaderThatLiesIsNotBelieved) {
            {"fault_channel = 2", "fault_channel = 0"},
            {"fault_name = \"over", "fault_name = over"},
        }) {
-    STRCMP_EQUAL(("has a header that cannot be: " +
+    STRCMP_EQUAL(("has an impossible header: " +
                   (from.starts_with("fault_name") ? to + "_temperature\"" : to))
                      .c_str(),
                  error(with(from, to)).c_str());
   }
-  STRCMP_CONTAINS("has a header that cannot be: rows_CRC32 = ",
+  STRCMP_CONTAINS("has an impossible header: rows_CRC32 = ",
                   error(with("rows_CRC32 = \"", "rows_CRC32 = \"x")).c_str());
 }
 

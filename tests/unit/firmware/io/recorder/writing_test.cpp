@@ -110,7 +110,7 @@ TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsTriedOnceMoreAsComplete) {
   CHECK(said[0].problem);
   STRCMP_EQUAL(
       "over_temperature (30) of channel 1 is not recorded: /d/flight-1.scfr.new: simulated: "
-      "No space left on device; will be tried once more",
+      "No space left on device; will try once more",
       said[0].text.c_str());
   LONGS_EQUAL_TEXT(0, recordings(), "the half file is removed");
   t.until(26.01);
@@ -129,7 +129,7 @@ TEST(Writing, TheSecondTryIsTheLastAndLaterFaultsAreRecorded) {
   t.until(30.0);
   const auto said = failing.take_notes();
   LONGS_EQUAL(2, said.size());
-  STRCMP_CONTAINS("Read-only file system; given up", said[1].text.c_str());
+  STRCMP_CONTAINS("Read-only file system; giving up", said[1].text.c_str());
   const int calls = full.calls();
   t.until(60.0);
   LONGS_EQUAL(calls, full.calls());

@@ -114,7 +114,7 @@ TEST(Damage, IsSaidInWords) {
   STRCMP_EQUAL("is not text: byte 0xff at offset 3", answer("# s\xff").c_str());
   STRCMP_EQUAL("is not a stored set: it does not start with '# supercoil learned, format '",
                answer("[plant]\nstiffness_N_per_m = 12.0\n").c_str());
-  STRCMP_CONTAINS("is damaged: its content and its first line do not belong together (CRC-32 of ",
+  STRCMP_CONTAINS("is damaged: its content and its first line do not match (CRC-32 of ",
                   answer(replaced(text, "0.162", "0.163")).c_str());
   STRCMP_EQUAL("is damaged: its first line is not as it was written",
                answer(replaced(text, "format 2", "format x")).c_str());
@@ -130,6 +130,6 @@ TEST(Damage, AFileOfANewerFirmwareIsNotCalledDamaged) {
 
 TEST(Damage, AFileOfMoreThan64KiBIsRefusedWhateverItHolds) {
   const std::string comment = "#" + std::string(max_file_bytes, ' ') + "\n";
-  STRCMP_EQUAL("is larger than 64 KiB, which no stored set is",
+  STRCMP_EQUAL("is larger than the limit of 64 KiB",
                answer(seal("version = 1\n" + comment)).c_str());
 }

@@ -28,8 +28,7 @@ TEST(DamagedFile, OneByteTooManyIsSeen) {
   save(1);
   save(2);
   text_of(path).append(max_file_bytes - text_of(path).size() + 1, '#');
-  check_loaded(Source::previous, 1,
-               "/d/learned-3.toml: is larger than 64 KiB, which no stored set is");
+  check_loaded(Source::previous, 1, "/d/learned-3.toml: is larger than the limit of 64 KiB");
 }
 
 TEST(DamagedFile, SaysThatThePreviousVersionIsDamagedWhileTheCurrentOneIsGood) {

@@ -52,7 +52,8 @@ TEST(PosixFiles, NeverWriteOverAFile) {
   const auto again = files.create(path("x"));
   CHECK_FALSE(again.has_value());
   LONGS_EQUAL(EEXIST, again.error().code);
-  STRCMP_EQUAL((path("x") + ": cannot be made: File exists").c_str(), again.error().text().c_str());
+  STRCMP_EQUAL((path("x") + ": cannot be created: File exists").c_str(),
+               again.error().text().c_str());
 }
 
 TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {

@@ -63,7 +63,7 @@ TEST(RealDisk, KeepsTheOldSetWhenNoFileCanBeOpened) {
     const rlimit no_more{0, 0};
     setrlimit(RLIMIT_NOFILE, &no_more);
   });
-  STRCMP_EQUAL((file(".new") + ": cannot be made: Too many open files").c_str(), answer.c_str());
+  STRCMP_EQUAL((file(".new") + ": cannot be created: Too many open files").c_str(), answer.c_str());
   LONGS_EQUAL(1, loaded());
 }
 
@@ -75,7 +75,7 @@ TEST(RealDisk, SaysThatAFolderIsReadOnlyAndStillLoads) {
     constexpr uid_t nobody = 65534;
     if (geteuid() == 0 && setuid(nobody) != 0) _exit(1);
   });
-  STRCMP_EQUAL((file(".new") + ": cannot be made: Permission denied").c_str(), answer.c_str());
+  STRCMP_EQUAL((file(".new") + ": cannot be created: Permission denied").c_str(), answer.c_str());
   LONGS_EQUAL(1, loaded());
   chmod(folder.path().c_str(), 0755);
 }
@@ -89,7 +89,7 @@ TEST(RealDisk, SaysThatTheFolderIsNotThere) {
                loaded_there.error().text().c_str());
   const auto saved = lost.save(nth_set(1));
   CHECK_FALSE(saved.has_value());
-  STRCMP_EQUAL((gone + "/learned-2.toml.new: cannot be made: No such file or directory").c_str(),
+  STRCMP_EQUAL((gone + "/learned-2.toml.new: cannot be created: No such file or directory").c_str(),
                saved.error().text().c_str());
 }
 

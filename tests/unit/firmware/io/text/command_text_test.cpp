@@ -49,12 +49,12 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("-1 arm", "channel '-1': must be 1 to 4");
   check_wrong("99999999999999999999 arm", "channel '99999999999999999999': must be 1 to 4");
   check_wrong("1 position", "position needs a number, in m");
-  check_wrong("1 position 5mm", "position needs a number, in m; '5mm' is none");
-  check_wrong("1 position nan", "position needs a number, in m; 'nan' is none");
-  check_wrong("1 power inf", "power needs a number, in W; 'inf' is none");
+  check_wrong("1 position 5mm", "position needs a number, in m; '5mm' is not one");
+  check_wrong("1 position nan", "position needs a number, in m; 'nan' is not one");
+  check_wrong("1 power inf", "power needs a number, in W; 'inf' is not one");
   check_wrong("arm 1", "channel 'arm': must be 1 to 4; it comes first, as in '1 arm'");
   check_wrong("1",
-              "no command behind the channel; there are: arm, disarm, reset, position, power, "
+              "no command after the channel; there are: arm, disarm, reset, position, power, "
               "renew, rest, identify, calibrate, scale, controller, estimator, store, "
               "compare_supply, compare_current, compare_rise, tune, clear, store tuning, clear "
               "tuning");
@@ -62,7 +62,7 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("1 calibrat", "'calibrat' is not a command; did you mean calibrate?");
   check_wrong("1 power", "power needs a number, in W");
   check_wrong("1 tune pi",
-              "tune needs a number, its place in the configuration from 0; 'pi' is none");
+              "tune needs a number, its place in the configuration from 0; 'pi' is not one");
   check_wrong("1 position 0.01 5", "position takes one value: leave out '5'");
   check_wrong("1 arm now", "arm takes no value: leave out 'now'");
   check_wrong("1 heat",
@@ -92,16 +92,17 @@ TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
               "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
   for (const auto& [text, why] :
        {std::pair{"5 knot 0 0 0", "channel '5': must be 1 to 4"},
-        std::pair{"1 knot 0.02 0.005", "knot needs three numbers: s after the one before, m, m/s"},
+        std::pair{"1 knot 0.02 0.005",
+                  "knot needs three numbers: s after the previous one, m, m/s"},
         std::pair{"1 knot 0.02 0.005 inf",
-                  "knot needs three numbers: s after the one before, m, m/s; 'inf' is none"},
+                  "knot needs three numbers: s after the previous one, m, m/s; 'inf' is not one"},
         std::pair{"1 knot 1e-50 0.005 0",
-                  "1e-50 s after the one before: must be 0.001 or more, or 0 of the first"},
+                  "1e-50 s after the previous one: must be 0.001 or more, or 0 of the first"},
         std::pair{"1 knot 1e300 0.005 0",
-                  "1e+300 s after the one before: must be 0.001 or more, or 0 of the first"},
-        std::pair{"1 knot 0.02 0.005 1e300", "1e+300 m/s is no velocity"},
-        std::pair{"1 start soon", "start needs a time of the board, in s; 'soon' is none"},
-        std::pair{"1 start 5 6", "start takes no more: leave out '6'"}}) {
+                  "1e+300 s after the previous one: must be 0.001 or more, or 0 of the first"},
+        std::pair{"1 knot 0.02 0.005 1e300", "1e+300 m/s is not a valid velocity"},
+        std::pair{"1 start soon", "start needs a time of the board, in s; 'soon' is not one"},
+        std::pair{"1 start 5 6", "start takes no further value: leave out '6'"}}) {
     const auto read = parse_trajectory_command(text, channels);
     CHECK(read && !*read);
     STRCMP_EQUAL(why, read->error().text().c_str());

@@ -24,7 +24,7 @@ TEST(RefusalWords, TheyComeBehindTheName) {
                told_answer("1 reset", "refused: wrong_state").c_str());
   STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",
                told_answer({Refusal::out_of_range, 0.025}).c_str());
-  STRCMP_EQUAL("refused: wrong_state: no position is followed, or the motion has ended",
+  STRCMP_EQUAL("refused: wrong_state: it follows no position, or the motion has ended",
                told_answer(Reply(Refusal::wrong_state), Verb::knot).c_str());
   STRCMP_EQUAL(
       "refused: wrong_state: it is accepted while `power` heats steadily; 0, which forgets it, "

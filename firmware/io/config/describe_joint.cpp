@@ -105,7 +105,7 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
 /// The max pull of both muscles, and what they bear.
 std::string greatest_pull(const JointLabel& label, double agonist_N, double antagonist_N) {
   std::ostringstream out;
-  out << "the heat of these measured watts adds at most " << up_to_hundredth(agonist_N) << " N and "
+  out << "the heat of this measured power adds at most " << up_to_hundredth(agonist_N) << " N and "
       << up_to_hundredth(antagonist_N) << " N to the pretension";
   if (label.max_pull_N) {
     out << " of " << label.pretension_N << " N: within max_pull_N = " << *label.max_pull_N;

@@ -85,7 +85,7 @@ PwmAddress WiringReader::pwm(Section section, const std::string& owner) {
   address.number = static_cast<int>(section.required_integer("number", 0, 255));
   address.period_ns = section.integer("period_ns", 1000000, 1000, 100000000);
   if (section.has("bits") && section.has("steps")) {
-    section.wrong("bits", "and steps say the same: give one of them");
+    section.wrong("bits", "and steps set the same value: give only one of them");
   }
   if (section.has("bits")) {
     address.steps = (1 << section.integer("bits", 12, 4, 24)) - 1;

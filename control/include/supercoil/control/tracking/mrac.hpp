@@ -194,7 +194,7 @@ struct MracLaw : UsualLaw {
   static constexpr std::string_view name = "mrac";
   static constexpr bool adapts = true;
   static constexpr std::string_view when_unstable =
-      "take slower filters or a slower reference model";
+      "use slower filters or a slower reference model";
   static constexpr std::array values{
       setting_value<Settings, &Settings::adaptation_scale>("adaptation_scale"),
       element_value<Settings, &Settings::gain, 0>("gain_1"),

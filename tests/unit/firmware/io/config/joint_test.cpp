@@ -184,7 +184,7 @@ TEST(JointConfig, CheckSaysWhatThePairBears) {
   const std::string text =
       describe(read_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
   for (const char* part :
-       {"the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension of 0.1 "
+       {"the heat of this measured power adds at most 0.43 N and 0.35 N to the pretension of 0.1 "
         "N: within max_pull_N = 0.8",
         "joint 1: if something blocks it, channel 1 alone may pull with up to 0.96 N at its "
         "max_W = 4.5, more than max_pull_N = 0.8",
@@ -207,7 +207,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
         "effort",
         "at most with 2.2 W and 1.8 W",
         // By 2.25 W, and 1.8 W for the antagonist, at 0.045 W/K: hotter than is believed.
-        "the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension; "
+        "the heat of this measured power adds at most 0.43 N and 0.35 N to the pretension; "
         "max_pull_N, "
         "the most they bear, is not configured",
         "stiffness   16 N/m at the lever, 0.0036 Nm/rad, however much both pull: linear muscles\n"})

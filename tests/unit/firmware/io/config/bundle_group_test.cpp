@@ -89,8 +89,9 @@ TEST(BundleConfig, WrongOnesAreToldWhatIsWrong) {
                 with_channels("[1]"));
   check_refused("bundle[1].channels = [1, 3]: must be a list of 2 numbers, each 1 to 2; 3 is not",
                 with_channels("[1, 3]"));
-  check_refused("bundle[1].channels = [1, 1.5]: channel 1.5 is none: channels are numbered from 1",
-                with_channels("[1, 1.5]"));
+  check_refused(
+      "bundle[1].channels = [1, 1.5]: channel 1.5 does not exist: channels are numbered from 1",
+      with_channels("[1, 1.5]"));
   check_refused("bundle[1].channels = [1, 1]: channel 1 is already in a bundle",
                 with_channels("[1, 1]"));
   check_refused("bundle[2].channels = [1, 2]: channel 1 is already in a bundle",

@@ -110,7 +110,7 @@ std::string greatest_pull(const JointLabel& label, double agonist_N, double anta
   if (label.max_pull_N) {
     out << " of " << label.pretension_N << " N: within max_pull_N = " << *label.max_pull_N;
   } else {
-    out << "; max_pull_N, the most they bear, is not configured: nothing is refused";
+    out << "; max_pull_N, the max pull they bear, is not configured: nothing is refused";
   }
   return out.str();
 }

@@ -209,7 +209,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
         // By 2.25 W, and 1.8 W for the antagonist, at 0.045 W/K: hotter than is believed.
         "the heat of this measured power adds at most 0.43 N and 0.35 N to the pretension; "
         "max_pull_N, "
-        "the most they bear, is not configured",
+        "the max pull they bear, is not configured",
         "stiffness   16 N/m at the lever, 0.0036 Nm/rad, however much both pull: linear muscles\n"})
     STRCMP_CONTAINS(part, text.c_str());
 }

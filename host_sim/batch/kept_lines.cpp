@@ -43,7 +43,7 @@ Result<bool> read_lines(const std::filesystem::path& path, const std::string& he
   begin.resize(static_cast<std::size_t>(in.gcount()));
   if (begin.size() < head.size() && head.starts_with(begin) && !in.bad()) return !begin.empty();
   if (begin != head) {
-    return failure(path.string() + ":1: is not of this version: it begins \"" +
+    return failure(path.string() + ":1: is of another version or definition: it begins \"" +
                    begin.substr(0, std::min(begin.find('\n'), std::size_t{80})) + "\"; must be \"" +
                    head.substr(0, head.find('\n')) + "\". Choose another --out, or delete it");
   }
@@ -70,7 +70,7 @@ Result<void> add_parts(const std::vector<std::string>& parts, const std::filesys
     if (!torn) return tl::unexpected(torn.error());
     if (*torn) {
       return failure(file.string() +
-                     ": its last line is torn: the run was interrupted; go on with it first");
+                     ": its last line is incomplete: the run was interrupted; resume it first");
     }
   }
   return {};

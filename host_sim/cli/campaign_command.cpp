@@ -112,7 +112,7 @@ int campaign_command(const CampaignOptions& given) {
   if (given.list) return list_studies(given.json);
   if (given.study.empty()) {
     return refuse(given.json, exit_wrong_input,
-                  "campaign: which study? A file, or a name from --list");
+                  "campaign: no study given: name a TOML file or a study from --list");
   }
   auto study = campaign::read_study(given.study, given.runs);
   if (!study) return refuse_problems(given.json, study.error());
@@ -124,8 +124,8 @@ int campaign_command(const CampaignOptions& given) {
   if ((shard.of > 1 || options.slurm > 0) && study->known_to > 0.0) {
     return refuse(options.json, exit_wrong_input,
                   given.study +
-                      ": study.known_to: no part knows when the whole is known well enough; "
-                      "leave it out with --shard and --slurm");
+                      ": study.known_to: one part cannot tell when the whole study is known well "
+                      "enough; remove it for --shard and --slurm");
   }
   const campaign::Draws draws(*study);
   if (const std::string problems = check_medians(*study, draws); !problems.empty())

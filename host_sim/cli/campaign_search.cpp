@@ -77,7 +77,7 @@ int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
   if (const int failed = conclude_tables(tables, *folder, {options.json, options.quiet});
       failed != exit_done)
     return failed;
-  if (interrupted()) return fail(exit_interrupted, "interrupted; what was found is written");
+  if (interrupted()) return fail(exit_interrupted, "interrupted; the results so far are written");
   return exit_done;
 }
 

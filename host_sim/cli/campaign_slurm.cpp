@@ -30,9 +30,9 @@ std::string command(const Jobs& jobs) {
 
 std::string part_script(const Jobs& jobs) {
   return "#!/bin/sh\n"
-         "# One part of the study. Killed (137: out of memory, for one) it goes on, twice; a job "
-         "that\n"
-         "# is queued again goes on too.\n"
+         "# One part of the study. It resumes up to twice after it is killed (137, e.g. out of "
+         "memory),\n"
+         "# and whenever its job is queued again.\n"
          "for attempt in 1 2 3; do\n"
          "  status=0\n"
          "  " +
@@ -45,15 +45,15 @@ std::string part_script(const Jobs& jobs) {
 }
 
 std::string merge_script(const Jobs& jobs) {
-  return "#!/bin/sh\n# The tables of all parts.\nexec " + command(jobs) +
+  return "#!/bin/sh\n# Merges all parts into the tables.\nexec " + command(jobs) +
          " --merge part-*/runs.csv --out .\n";
 }
 
 std::string submit_script(const Jobs& jobs) {
   return "#!/bin/sh\n"
-         "# Submits the parts, and what merges them when all are done. Its arguments are sbatch's "
-         "for\n"
-         "# the parts: sh submit.sh --cpus-per-task=8 --time=2:00:00\n"
+         "# Submits the parts, and the job that merges them when all are done. Arguments go to "
+         "sbatch\n"
+         "# for the parts: sh submit.sh --cpus-per-task=8 --time=2:00:00\n"
          "set -eu\n"
          "cd \"$(dirname \"$0\")\"\n"
          "parts=$(sbatch --parsable --requeue --array=1-" +
@@ -85,7 +85,7 @@ int submit_campaign(const campaign::Study& study, const CampaignOptions& options
   if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error().text());
   const fs::path script = folder->path() / submit_name;
   if (!options.submit) {
-    std::printf("written; to submit it: sh %s\n", script.c_str());
+    std::printf("scripts written; to submit them: sh %s\n", script.c_str());
     return exit_done;
   }
   std::fflush(stdout);
@@ -93,7 +93,7 @@ int submit_campaign(const campaign::Study& study, const CampaignOptions& options
   setenv("SUPERCOIL_SUBMIT", script.c_str(), 1);
   if (std::system(R"(sh "$SUPERCOIL_SUBMIT")") == 0) return exit_done;  // NOLINT(cert-env33-c)
   return fail(exit_failed, script.string() +
-                               ": could not be submitted; on a machine that has sbatch: sh " +
+                               ": could not be submitted; on a machine with sbatch, run: sh " +
                                script.string());
 }
 

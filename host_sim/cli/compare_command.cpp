@@ -31,7 +31,7 @@ Result<std::vector<compare::Run>> missing(const compare::Plan& plan, const Resul
       runs.push_back(run);
     } else if (there->second.definition != of.definition) {
       return failure(file + ": its " + of.controller + " with " + of.disturbance +
-                     " was made by another definition; choose another --out, or delete it");
+                     " was run with another definition; choose another --out, or delete it");
     }
   }
   return runs;

@@ -64,8 +64,8 @@ int list_compared(bool json) {
     }
   };
   print("Controllers:", compare::controllers());
-  print("\nDisturbances (most at 100 s; NAME+SECONDS: so much later):", compare::disturbances());
-  std::puts("\nMeasures, of the true position against each controller's reference model:");
+  print("\nDisturbances (most at 100 s; NAME+SECONDS delays one):", compare::disturbances());
+  std::puts("\nMeasures of the true position against each controller's reference model:");
   for (const compare::Measure& measure : compare::measures) {
     std::printf("  %-18.*s %.*s\n", static_cast<int>(measure.name.size()), measure.name.data(),
                 static_cast<int>(measure.meaning.size()), measure.meaning.data());

@@ -19,7 +19,7 @@ int KeptRuns::begin(const std::string& content) {
 
 int KeptRuns::begin(const std::function<void(std::ostream&)>& content) {
   if (count_.torn) {
-    std::fprintf(stderr, "supercoil-sim: %s: its last line is torn; that run is repeated\n",
+    std::fprintf(stderr, "supercoil-sim: %s: its last line is incomplete; that run is repeated\n",
                  path_.c_str());
   }
   if (!quiet_ && count_.todo < count_.all) {
@@ -51,7 +51,7 @@ int KeptRuns::end() {
   if (ended_ == count_.todo) return exit_done;
   return fail(exit_interrupted, "interrupted; " + std::to_string(count_.before + ended_) +
                                     " runs are kept in " + path_.string() +
-                                    "; the same command goes on from there");
+                                    "; the same command resumes from there");
 }
 
 }  // namespace supercoil::host_sim

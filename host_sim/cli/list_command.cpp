@@ -20,9 +20,9 @@ struct Named {
 };
 
 constexpr std::array reference_models{
-    Named{"design", "what the paper's text asks for: wn = 1 rad/s, < 5 % overshoot, q0 = 0.8"},
-    Named{"eq8", "what the paper prints as Eq. (8): 40 % overshoot"},
-    Named{"wm16", "16/((s+4)(s+5)(s+0.8)): the one that MRAC's proof needs"},
+    Named{"design", "specified in the paper's text: wn = 1 rad/s, < 5 % overshoot, q0 = 0.8"},
+    Named{"eq8", "printed in the paper as Eq. (8): 40 % overshoot"},
+    Named{"wm16", "16/((s+4)(s+5)(s+0.8)): the model that MRAC's proof needs"},
     Named{"poles", "three real poles: poles_rad_per_s = [a, b, c]"}};
 
 struct Section {

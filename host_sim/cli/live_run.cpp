@@ -88,7 +88,9 @@ int live_run(const RunOptions& options, const std::vector<Scenario>& boards, con
     std::fflush(stdout);
   }
   if (pace.slips() > 0) {
-    std::fprintf(stderr, "supercoil-sim: warning: this machine was too slow %" PRId64 " times\n",
+    std::fprintf(stderr,
+                 "supercoil-sim: warning: this machine was too slow for real time %" PRId64
+                 " times\n",
                  pace.slips());
   }
   return nodes->conclude(pace.elapsed_s(), learned);

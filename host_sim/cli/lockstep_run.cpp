@@ -49,8 +49,9 @@ int lockstep_run(const RunOptions& options, const std::vector<Scenario>& boards,
   progress.end();
   if (!complete) {
     return fail(exit_interrupted, "interrupted at " + reached(nodes->first(), scenario) +
-                                      "; nothing of this run is kept but recordings of faults" +
-                                      (options.learned.empty() ? "" : " and what was learned"));
+                                      "; only recordings of faults" +
+                                      (options.learned.empty() ? "" : " and learned sets") +
+                                      " are kept");
   }
   if (can_log) {
     if (const auto finished = can_log->finish(); !finished)

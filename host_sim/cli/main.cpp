@@ -39,8 +39,8 @@ void add_run(CLI::App& app, RunOptions& options) {
       app.add_subcommand("run", "Simulate a scenario; write trace, summary, plot and CAN log");
   run->add_option(
          "SCENARIO", options.scenarios,
-         "A TOML file, or a name from supercoil-sim list; with several, each is a board of "
-         "its own on one CAN bus")
+         "A TOML file, or a name from supercoil-sim list; several scenarios run as separate boards "
+         "on one CAN bus")
       ->required();
   run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
   run->add_option(
@@ -50,16 +50,16 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   CLI::Option* learned =
       run->add_option("--learned", options.learned,
-                      "Folder of what the board has learned: read at its start, and updated");
+                      "Folder of the board's learned sets: read at its start and updated");
   run->add_option("--nodes", options.nodes,
-                  "Boards on one CAN bus, each with a muscle and noise of its own")
+                  "Boards on one CAN bus, each with its own muscle and noise")
       ->check(CLI::Range(1, 8))
       ->capture_default_str()
       ->excludes(learned);
   CLI::Option* board =
       run->add_option(
              "--board", options.boards,
-             "Configure the firmware by this board's file, and drive the scenario's muscle with "
+             "Configure the firmware from this board's file and drive the scenario's muscle with "
              "it; with several scenarios, give it once for each [the scenario's own configuration]")
           ->type_name("FILE")
           ->allow_extra_args(false);
@@ -75,23 +75,22 @@ void add_run(CLI::App& app, RunOptions& options) {
          "Write trace.npy for numpy and pandas instead of trace.csv")
       ->excludes(no_trace);
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
-  run->add_flag("!--no-can", options.can,
-                "Write no can.log of what the board sends on its CAN bus");
-  CLI::Option* real_time =
-      run->add_flag("--real-time", options.real_time,
-                    "Run in real time, without trace, plot and CAN log, until its end or Ctrl-C");
+  run->add_flag("!--no-can", options.can, "Write no can.log of the frames that the board sends");
+  CLI::Option* real_time = run->add_flag(
+      "--real-time", options.real_time,
+      "Run in real time until the scenario ends or Ctrl-C, without trace, plot or CAN log");
   run->add_option_function<std::string>(
          "--can", [&](const std::string& where) { options.socketcand_port = port_of(where); },
-         "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
+         "socketcand:PORT: serve the board's CAN bus on this loopback port; 0 takes a free one")
       ->type_name("BUS")
       ->needs(real_time);
   run->add_flag("--end-with-parent", options.end_with_parent,
-                "End also when the program that started it ends, for whatever reason")
+                "Also end when the parent process ends, for whatever reason")
       ->needs(real_time);
   run->add_flag("--check", options.check,
                 "Only check the scenario, and print what the muscle can do");
   run->add_flag("--json", options.json,
-                "Print JSON instead of text: summary.json, or what --check finds");
+                "Print JSON instead of text: summary.json, or the results of --check");
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit with status 0 even if the muscle never armed or did not follow, or the run "
                 "ended in a fault");
@@ -100,7 +99,7 @@ void add_run(CLI::App& app, RunOptions& options) {
 
 void add_page(CLI::App& app, PageOptions& options) {
   CLI::App* page = app.add_subcommand(
-      "page", "Simulate a board in real time; serve a page that shows its muscle and moves it");
+      "page", "Simulate a board in real time; serve a page that shows and moves its muscle");
   page->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
       ->capture_default_str();
   page->add_option("--port", options.port, "Port of the page, on 127.0.0.1; 0 takes a free one")
@@ -115,7 +114,7 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
 
 void add_reproduce(CLI::App& app, ReproduceOptions& options) {
   CLI::App* reproduce = app.add_subcommand(
-      "reproduce", "Repeat the paper's figures and numbers; print them beside ours");
+      "reproduce", "Reproduce the paper's figures and numbers; print them beside ours");
   reproduce->add_option("--out", options.out,
                         "Folder for the results [supercoil-out/reproduction]");
   reproduce->add_flag("!--no-plots", options.plots, "Write no plots and no report.html");
@@ -148,13 +147,13 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   add_names("--disturbances", options.selection.disturbances,
             "Names, or scenario files, separated by commas; NAME+SECONDS delays its events [all]");
   add_names("--arithmetic", options.selection.arithmetics, "double, float, q8.24 [double]");
-  compare->add_option("--seeds", options.selection.seeds, "Number of seeds, from 1 on [20]");
-  compare->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
+  compare->add_option("--seeds", options.selection.seeds, "Number of seeds, starting at 1 [20]");
+  compare->add_option("--jobs", options.jobs, "Number of parallel runs [one per processor]")
       ->check(CLI::Range(1, 1024));
   compare->add_option("--out", options.out, "Folder for the results [supercoil-out/compare]");
   CLI::Option* shard = compare->add_option_function<std::string>(
       "--shard", [&](const std::string& text) { options.selection.shard = shard_of(text); },
-      "I/N: only the I-th of N parts of all runs");
+      "I/N: run only the I-th of N parts");
   shard->type_name("PART");
   compare
       ->add_option("--merge", options.merge,
@@ -171,15 +170,15 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::App* campaign = app.add_subcommand(
       "campaign", "Run a study over many random muscles; resume where it was interrupted");
   campaign->add_option("STUDY", options.study, "A TOML file, or a name from --list");
-  campaign->add_option("--runs", options.runs, "Number of runs, instead of the study's own")
+  campaign->add_option("--runs", options.runs, "Number of runs; overrides the study's own")
       ->check(CLI::Range(std::int64_t{1}, max_runs));
-  campaign->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
+  campaign->add_option("--jobs", options.jobs, "Number of parallel runs [one per processor]")
       ->check(CLI::Range(1, 1024));
   campaign->add_option("--out", options.out,
                        "Folder for the results [supercoil-out/campaign-NAME]");
   CLI::Option* shard = campaign->add_option_function<std::string>(
       "--shard", [&](const std::string& text) { options.shard = shard_of(text); },
-      "I/N: only the I-th of N parts of all runs");
+      "I/N: run only the I-th of N parts");
   shard->type_name("PART");
   CLI::Option* merge =
       campaign
@@ -200,7 +199,7 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
   constexpr std::int64_t max_search = 1'000'000;
   campaign
       ->add_option("--search", options.search,
-                   "Instead search for each controller's worst run, within this number of runs")
+                   "Search instead for each controller's worst run, in at most this many runs")
       ->check(CLI::Range(std::int64_t{1}, max_search))
       ->excludes(shard)
       ->excludes(slurm)
@@ -212,13 +211,13 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
 }
 
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
-  CLI::App* estimators = app.add_subcommand(
-      "estimators",
-      "Compare estimators on the same data over many seeds, and with the best that is possible");
+  CLI::App* estimators = app.add_subcommand("estimators",
+                                            "Compare estimators with each other and the Cramer-Rao "
+                                            "bound, on the same data over many seeds");
   constexpr std::int64_t max_seeds = 1000000;
-  estimators->add_option("--seeds", options.seeds, "Number of seeds, from 1 on [20]")
+  estimators->add_option("--seeds", options.seeds, "Number of seeds, starting at 1 [20]")
       ->check(CLI::Range(std::int64_t{1}, max_seeds));
-  estimators->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
+  estimators->add_option("--jobs", options.jobs, "Number of parallel runs [one per processor]")
       ->check(CLI::Range(1, 1024));
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");
   estimators->add_flag("!--no-plot", options.plot, "Write no estimators.svg");

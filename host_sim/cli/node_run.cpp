@@ -45,14 +45,14 @@ void NodeRun::warn() const {
     std::fprintf(stderr,
                  "supercoil-sim: %swarning: the controller's power was NaN in %" PRId64
                  " ticks, first at %g s; "
-                 "none was applied then\n",
+                 "no power was applied in those ticks\n",
                  node.c_str(), summary_.not_finite_ticks(), summary_.first_not_finite_s());
   }
   if (!std::isnan(summary_.oscillated_at_s())) {
     std::fprintf(
         stderr,
         "supercoil-sim: %swarning: the control loop oscillated by itself, first seen at %g s with "
-        "a period of %.2g s; docs/control.md says what to do\n",
+        "a period of %.2g s; see docs/control.md\n",
         node.c_str(), summary_.oscillated_at_s(), summary_.oscillation_period_s());
   }
 }

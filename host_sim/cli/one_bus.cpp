@@ -32,9 +32,9 @@ tl::expected<std::vector<Scenario>, Errors> copies(const RunOptions& options,
   const int first = scenario.can.first_node;
   const int most = (can::max_nodes + 1 - first) / scenario.channels();
   if (options.nodes > most) {
-    return wrong(
-        "", "--nodes", std::to_string(options.nodes),
-        "must be 1 to " + std::to_string(most) + ", as the first is node " + std::to_string(first));
+    return wrong("", "--nodes", std::to_string(options.nodes),
+                 "must be 1 to " + std::to_string(most) + ", as the first board is node " +
+                     std::to_string(first));
   }
   std::vector<Scenario> boards;
   for (int i = 0; i < options.nodes; ++i) {
@@ -58,8 +58,8 @@ tl::expected<void, Errors> check_alike(const std::string& file, const Scenario& 
                              Value{"can.bit_rate", board.can.bit_rate, first.can.bit_rate}}) {
     if (value.is == value.must_be) continue;
     return wrong(file, value.key, number_text(value.is, 9),
-                 "must be " + number_text(value.must_be, 9) + ", as " + first.name +
-                     " has it: the boards of a run share a bus, and are at the same tick");
+                 "must be " + number_text(value.must_be, 9) + ", as in " + first.name +
+                     ": the boards of a run share one bus and run in lockstep");
   }
   return {};
 }
@@ -88,13 +88,13 @@ tl::expected<std::vector<Scenario>, Errors> on_one_bus(const RunOptions& options
         continue;
       return wrong(file, "can.first_node", std::to_string(int{board.can.first_node}),
                    "is node " + nodes_text(board) + ", and " + options.boards[before] +
-                       " is node " + nodes_text(other) + ": each node may be there once");
+                       " is node " + nodes_text(other) + ": no two boards may have the same node");
     }
     shift_noise(board, channels);
     channels += board.channels();
     if (board.can.first_node + board.channels() - 1 > can::max_nodes) {
       return wrong(file, "", "",
-                   "would be node " + nodes_text(board) + ", and the last there may be is " +
+                   "would be node " + nodes_text(board) + ", but the highest node is " +
                        std::to_string(int{can::max_nodes}));
     }
   }

@@ -80,7 +80,7 @@ int page_command(const PageOptions& options) {
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
   const std::string page = page_program(own);
   if (page.empty()) {
-    return fail(exit_failed, "the program supercoil, which serves the page, is not beside " +
+    return fail(exit_failed, "the program supercoil, which serves the page, was not found beside " +
                                  own.string() + ": build or install it too");
   }
   const auto board = start_board(own, options);
@@ -96,7 +96,7 @@ int page_command(const PageOptions& options) {
   }
   std::vector<std::string> words{page, "monitor", "socketcand:" + std::to_string(port), "--port",
                                  std::to_string(options.port)};
-  std::puts("Open the address that follows, arm, and move the muscle. Ctrl-C ends it.");
+  std::puts("Open the address below, arm, and move the muscle. Ctrl-C ends it.");
   std::fflush(stdout);
   // Replaces this program, so that the board notices its end, however that comes. The pipe from the
   // board stays open: writing to it must not fail.

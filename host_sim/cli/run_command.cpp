@@ -77,8 +77,9 @@ OrErrors use_own_board(const RunOptions& options, std::size_t place, const Learn
   const auto channels = static_cast<int>(config->settings.channels.size());
   const int channel = place < options.channels.size() ? options.channels[place] : 1;
   if (channel > channels) {
-    return tl::unexpected(wrong_option("--channel", std::to_string(channel),
-                                       board + " has " + std::to_string(channels)));
+    return tl::unexpected(
+        wrong_option("--channel", std::to_string(channel),
+                     "must be 1 to " + std::to_string(channels) + ", the channels of " + board));
   }
   const auto used = use_board(scenario, *config, static_cast<std::size_t>(channel) - 1, learned);
   if (used) return {};
@@ -92,22 +93,23 @@ OrErrors check_together(const RunOptions& options) {
   const std::string of_scenarios = std::to_string(scenarios) + " scenarios";
   if (scenarios > 1 && options.nodes > 1) {
     return tl::unexpected(wrong_option("--nodes", std::to_string(options.nodes),
-                                       "is for one scenario, and there are " + of_scenarios));
+                                       "applies to one scenario, but there are " + of_scenarios));
   }
   if (scenarios > 1 && !options.learned.empty()) {
     return tl::unexpected(wrong_option("--learned", options.learned,
-                                       "is for one board, and there are " + of_scenarios));
+                                       "applies to one board, but there are " + of_scenarios));
   }
   const auto once_for_each = [&](const char* option, std::size_t given) -> OrErrors {
     if (given <= scenarios) return {};
     return tl::unexpected(wrong_option(
         option, "",
-        "is given " + std::to_string(given) + " times: at most once for each SCENARIO"));
+        "is given " + std::to_string(given) + " times: give it at most once for each SCENARIO"));
   };
   if (const std::size_t given = options.boards.size(); given > 0 && given < scenarios) {
     return tl::unexpected(wrong_option("--board", options.boards.back(),
                                        "is given " + std::to_string(given) + " times for " +
-                                           of_scenarios + ": once for each, or not at all"));
+                                           of_scenarios +
+                                           ": give it once for each, or not at all"));
   }
   if (auto board = once_for_each("--board", options.boards.size()); !board) return board;
   return once_for_each("--channel", options.channels.size());
@@ -134,9 +136,10 @@ tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options
 tl::expected<Window, Errors> window_of(const RunOptions& options, const Scenario& scenario) {
   const auto window = read_window(options.window, scenario.duration_s, scenario.step_s());
   if (window) return *window;
-  return tl::unexpected(wrong_option("--window", options.window,
-                                     "must be FROM:TO in seconds, a tick or more within 0 to " +
-                                         number_text(scenario.duration_s, 9)));
+  return tl::unexpected(
+      wrong_option("--window", options.window,
+                   "must be FROM:TO in seconds, at least one tick long and within 0 to " +
+                       number_text(scenario.duration_s, 9)));
 }
 
 /// Checks one of several copies, since all can do the same. JSON of several scenarios is a list.

@@ -54,16 +54,17 @@ void print_divergence(const Summary& summary, const Scenario& scenario) {
   if (const double period_s = summary.limit_cycle_period_s(scenario); !std::isnan(period_s)) {
     std::printf(
         "the loop oscillates with a period of %.2g s: its power went from one limit to the other "
-        "and back, where the reference asked for no more than the muscle can do; lower gains, "
-        "slower adaptation or the muscle identified anew help\n",
+        "and back, where the reference asked for no more than the muscle can do; lower the gains, "
+        "slow the adaptation or identify the muscle again\n",
         period_s);
     return;
   }
   if (!summary.diverged()) return;
   std::printf(
-      "its power was at a limit in %.1f %% of all ticks that followed, for 0.2 s or longer on end, "
+      "its power was at a limit in %.1f %% of all ticks that followed, for 0.2 s or longer at a "
+      "time, "
       "where the reference asked for no more than the muscle can do: the loop oscillates or "
-      "diverges; lower gains, slower adaptation or the muscle identified anew help\n",
+      "diverges; lower the gains, slow the adaptation or identify the muscle again\n",
       100.0 * summary.unasked_limit_ratio());
 }
 
@@ -77,7 +78,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
   std::printf(
       "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
       "for: "
-      "the sensor's noise, or little margin; %s\n",
+      "sensor noise, or a small margin; %s\n",
       noise_W, 100.0 * noise_W / range_W,
       config::noise_remedy(channel.controllers.front(), channel, board).c_str());
 }
@@ -85,7 +86,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
 /// The error that was promised for the run.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
-  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; it showed %.1f um\n",
+  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; the sensor showed %.1f um\n",
               json["promised_rms_m"].get<double>() * 1e6,
               json["promised_by"] == "own" ? "" : " by the recommended controller",
               json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup",
@@ -214,7 +215,7 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   } else if (ended_well) {
     told += "identify or calibrate found nothing: " + nothing_found;
   } else if (fault == Fault::none) {
-    told += "the first motion did not come to its end";
+    told += "the first motion did not finish";
   } else {
     told += "the run ended in " + fault_text(fault);
   }
@@ -229,7 +230,7 @@ std::string draw_into(OutputFolder& folder, const Figure& figure, const std::str
   const auto path = folder.temporary(name);
   if (const auto drawn = draw(figure, path); !drawn) {
     folder.drop(name);
-    std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
+    std::fprintf(stderr, "supercoil-sim: %s was not written: %s\n", name.c_str(),
                  drawn.error().text().c_str());
     return {};
   }

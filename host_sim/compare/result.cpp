@@ -100,13 +100,13 @@ supercoil::Result<void> merge(Results& into, const Results& from, const std::str
   for (const auto& [key, result] : from) {
     const auto [there, is_new] = into.try_emplace(key, result);
     if (!is_new && !there->second.same_as(result)) {
-      return failure(name + ": " + described(key) + " gave something else before");
+      return failure(name + ": " + described(key) + " gave another result before");
     }
     Key first = key;
     first.seed = 0;
     const auto other = into.lower_bound(first);
     if (other->second.definition != result.definition) {
-      return failure(name + ": " + described(key) + " was made by another definition than seed " +
+      return failure(name + ": " + described(key) + " was run with another definition than seed " +
                      std::to_string(other->first.seed));
     }
   }

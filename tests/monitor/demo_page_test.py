@@ -45,7 +45,7 @@ class DemoPage(unittest.TestCase):
             words = [prefix / "bin/supercoil-sim", "page", "--port", "0", "--out", prefix / "out"]
             done = subprocess.run(words, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (1, ""))
-            self.assertIn("the program supercoil, which serves the page, is not beside", done.stderr)
+            self.assertIn("the program supercoil, which serves the page, was not found beside", done.stderr)
             shutil.copy(SUPERCOIL, prefix / "libexec/supercoil-sim")
             page = Program(words, r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
             self.addCleanup(page.stop)

@@ -106,7 +106,7 @@ class Json(ProgramCase):
         (self.path / "wrong.toml").write_text(STUDY.replace("runs = 4", "runs = 0"))
         for key, message, arguments in (
                 ("", "pr is none", ("compare", "--controllers", "pr is none")),
-                ("", "which study", ("campaign",)),
+                ("", "no study given", ("campaign",)),
                 ("study.runs", "must be", ("campaign", "wrong.toml")),
                 ("", "/proc/none: cannot be created", ("estimators", "--out", "/proc/none")),
                 ("", "/proc/none: cannot be created", ("reproduce", "--out", "/proc/none")),

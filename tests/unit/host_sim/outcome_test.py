@@ -127,7 +127,7 @@ class Outcome(ProgramCase):
         shown_m = summary["tracking_shown_rms_m"]
         # The sensor's own noise is 10 um.
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
-        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; it showed {1e6 * shown_m:.1f} um\n", done.stdout)
+        self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; the sensor showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
     def test_an_identify_that_finds_nothing_is_a_failure_with_its_reason(self):
         weak = "simulation.duration_s = 300.0\noperator.action = 'identify'\nplant.force_per_kelvin_N_per_K = 2e-5\n"

@@ -28,11 +28,11 @@ class Errors(ProgramCase):
         self.check_refused("--learned excludes --nodes", "run", scenario, "--out", "out", "--nodes", 2, "--learned", ".")
         board = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
         (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 62", board))
-        self.check_refused("--nodes 8: must be 1 to 2, as the first is node 62", "run", scenario, "--board", "board.toml",
+        self.check_refused("--nodes 8: must be 1 to 2, as the first board is node 62", "run", scenario, "--board", "board.toml",
                            "--out", "out", "--nodes", 8)
         board = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
         (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 60", board))
-        self.check_refused("--nodes 3: must be 1 to 2, as the first is node 60", "run", self.scenario(SHORT + "[joint]\n"), "--board",
+        self.check_refused("--nodes 3: must be 1 to 2, as the first board is node 60", "run", self.scenario(SHORT + "[joint]\n"), "--board",
                            "board.toml", "--out", "out", "--nodes", 3)
 
     def check_refused(self, message, *arguments):
@@ -64,27 +64,27 @@ class Errors(ProgramCase):
 
     def test_scenarios_that_cannot_share_a_bus(self):
         (self.path / "a.toml").write_text(SHORT)
-        for text, told in (("simulation.duration_s = 3.0\n", "b.toml: simulation.duration_s = 3: must be 2, as a has it"),
-                           (SHORT + "simulation.rate_Hz = 500.0\n", "b.toml: simulation.rate_Hz = 500: must be 1000, as a has it")):
+        for text, told in (("simulation.duration_s = 3.0\n", "b.toml: simulation.duration_s = 3: must be 2, as in a: "),
+                           (SHORT + "simulation.rate_Hz = 500.0\n", "b.toml: simulation.rate_Hz = 500: must be 1000, as in a: ")):
             (self.path / "b.toml").write_text(text)
             self.check_refused(told, "run", "a.toml", "b.toml", "--out", "out")
         (self.path / "b.toml").write_text(SHORT)
         both = ("run", "a.toml", "b.toml", "--out", "out")
-        self.check_refused("--nodes 2: is for one scenario, and there are 2 scenarios", *both, "--nodes", 2)
-        self.check_refused("--learned .: is for one board, and there are 2 scenarios", *both, "--learned", ".")
+        self.check_refused("--nodes 2: applies to one scenario, but there are 2 scenarios", *both, "--nodes", 2)
+        self.check_refused("--learned .: applies to one board, but there are 2 scenarios", *both, "--learned", ".")
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
-        self.check_refused("is given 1 times for 2 scenarios: once for each, or not at all", *both, "--board", example)
-        self.check_refused("--board: is given 2 times: at most once for each SCENARIO", "run", "a.toml", "--out", "out", "--board", example,
+        self.check_refused("is given 1 times for 2 scenarios: give it once for each, or not at all", *both, "--board", example)
+        self.check_refused("--board: is given 2 times: give it at most once for each SCENARIO", "run", "a.toml", "--out", "out", "--board", example,
                            "--board", example)
         self.check_refused("can.first_node = 1: is node 1, and ", *both, "--board", example, "--board", example)
-        self.check_refused("would be node 64, and the last there may be is 63", "run", *["a.toml"] * 64, "--out", "out")
+        self.check_refused("would be node 64, but the highest node is 63", "run", *["a.toml"] * 64, "--out", "out")
 
     def test_a_board_and_a_scenario_that_do_not_go_together(self):
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
         for text, options, told in (
                 (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside of the board's supply.min_V to max_V, 10.8 to 13.2"),
                 (SHORT + "[[event]]\nat_s = 1.0\ncontroller.kind = 'pi'\n", [], "event at 1 s changes [controller]"),
-                (SHORT, ["--channel", 3], "has 2")):
+                (SHORT, ["--channel", 3], "--channel 3: must be 1 to 2, the channels of ")):
             done = self.run_program("run", self.scenario(text), "--board", example, *options, "--out", "out")
             self.assertEqual(done.returncode, 2)
             self.assertIn(told, done.stderr)
@@ -200,14 +200,14 @@ class Errors(ProgramCase):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out",
                                 env={"PATH": "/nowhere"})
         self.assertEqual(done.returncode, 0)
-        self.assertIn("plot.svg is not written: gnuplot is not installed", done.stderr)
+        self.assertIn("plot.svg was not written: gnuplot is not installed", done.stderr)
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
                          ["can.log", "summary.json", "trace.csv"])
 
     def test_reproduce_without_gnuplot_still_gives_the_table(self):
         done = self.run_program("reproduce", "--out", "out", env={"PATH": "/nowhere"})
         self.assertEqual(done.returncode, 0)
-        self.assertIn("figure2.svg is not written: gnuplot is not installed", done.stderr)
+        self.assertIn("figure2.svg was not written: gnuplot is not installed", done.stderr)
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
                          ["report.html", "reproduction.csv"])
 
@@ -228,8 +228,8 @@ class Errors(ProgramCase):
             running.send_signal(number)
             errors = running.communicate()[1]
             self.assertEqual(running.returncode, 130)
-            self.assertRegex(errors, r"^supercoil-sim: interrupted at [\d.]+ s of 20000 s; nothing of this run is kept but "
-                                     "recordings of faults\n$")
+            self.assertRegex(errors, r"^supercoil-sim: interrupted at [\d.]+ s of 20000 s; only recordings of "
+                                     "faults are kept\n$")
             self.assertFalse((self.path / "out").exists())
 
     def test_on_a_terminal_a_run_in_real_time_shows_how_far_it_is(self):

@@ -56,7 +56,7 @@ class Results(ProgramCase):
             text = f"simulation.duration_s = {duration_s}\noperator.action = 'first_motion'\ncontroller.kind = 'learned_ff'\n"
             return self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
         cut = run(4.0)
-        self.assertEqual((cut.returncode, "the first motion did not come to its end" in cut.stderr), (1, True), cut.stderr)
+        self.assertEqual((cut.returncode, "the first motion did not finish" in cut.stderr), (1, True), cut.stderr)
         whole = run(60.0)
         self.assertEqual((whole.returncode, whole.stderr), (0, ""))
         self.assertRegex(whole.stdout, r"\nfirst motion: followed within [\d.]+ um rms; the promise of [\d.]+ um is kept\n")
@@ -114,7 +114,7 @@ class Results(ProgramCase):
                 errors = running.communicate()[1]
             self.assertEqual(running.returncode, -9 if end == signal.SIGKILL else 130)
             if end != signal.SIGKILL:
-                self.assertTrue(errors.endswith("; nothing of this run is kept but recordings of faults and what was learned\n"), errors)
+                self.assertTrue(errors.endswith("; only recordings of faults and learned sets are kept\n"), errors)
             self.assertEqual(tomllib.loads((memory / "learned-1.toml").read_text())["version"], 1)
 
     def test_a_run_that_cannot_store_what_was_learned_says_so_and_fails(self):

@@ -72,7 +72,7 @@ class Batch:
                 running.send_signal(number)
                 said = running.communicate()[1]
             if running.returncode == 130:
-                self.assertIn("the same command goes on from there", said)
+                self.assertIn("the same command resumes from there", said)
             self.assertIn("are already in", self.batch("--out", out).stderr)
             self.assertEqual(self.files(out), whole)
 

@@ -118,7 +118,7 @@ class Campaign(Batch, ProgramCase):
         self.campaign("--out", "two", "--jobs", 2, study="known.toml")
         self.assertEqual(self.files("two"), self.files("one"))
         said = self.campaign("--out", "part", "--shard", "1/2", study="known.toml", status=2).stderr
-        self.assertIn("study.known_to: no part knows", said)
+        self.assertIn("study.known_to: one part cannot tell", said)
 
     def test_a_clusters_jobs_give_the_whole(self):
         whole = self.whole()
@@ -126,7 +126,7 @@ class Campaign(Batch, ProgramCase):
         self.path.mkdir()
         (self.path / "brief.toml").write_text(STUDY)
         said = self.campaign("--out", "array", "--slurm", 3, "--no-submit").stdout
-        self.assertIn("to submit it: sh array/submit.sh", said)
+        self.assertIn("to submit them: sh array/submit.sh", said)
         array = self.path / "array"
         for task in "312":
             subprocess.run(["sh", "part.sbatch"], cwd=array, check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": task})
@@ -225,7 +225,7 @@ class Campaign(Batch, ProgramCase):
         self.whole()
         (self.path / "brief.toml").write_text(STUDY.replace("0.0125", "0.0126"))
         said = self.campaign("--out", "whole", status=2).stderr
-        self.assertIn("is not of this version", said)
+        self.assertIn("is of another version or definition", said)
         self.assertIn("Choose another --out, or delete it", said)
 
     def test_what_is_no_scenario_in_the_middle_of_its_draws_is_refused_at_once(self):
@@ -249,7 +249,7 @@ class Campaign(Batch, ProgramCase):
         said = self.campaign("--list", study=None).stdout
         for name in ("follows", "identify", "promise", "temperature", "hottest_C", "steady_rms_m"):
             self.assertIn(name, said)
-        self.assertIn("which study? A file, or a name from --list", self.campaign(study=None, status=2).stderr)
+        self.assertIn("no study given: name a TOML file or a study from --list", self.campaign(study=None, status=2).stderr)
 
 
 if __name__ == "__main__":

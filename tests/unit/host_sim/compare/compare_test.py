@@ -56,7 +56,7 @@ class Compare(Batch, ProgramCase):
         lines = runs.read_text().splitlines(keepends=True)
         runs.write_text("".join(lines[:-1]) + lines[-1][:20])
         said = self.batch("--out", "whole").stderr
-        self.assertIn("its last line is torn; that run is repeated", said)
+        self.assertIn("its last line is incomplete; that run is repeated", said)
         self.assertIn("3 of 4 runs are already in", said)
         self.assertEqual(self.files("whole"), whole)
 
@@ -64,16 +64,16 @@ class Compare(Batch, ProgramCase):
         self.damaged(",double,1,", ",double,x,", "runs.csv:3: is damaged")
 
     def test_another_version_is_refused(self):
-        self.damaged("# supercoil-sim ", "# supercoil-sim 9", "runs.csv:1: is not of this version")
+        self.damaged("# supercoil-sim ", "# supercoil-sim 9", "runs.csv:1: is of another version or definition")
 
     def test_another_definition_is_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))
         said = self.batch("--out", "whole", status=2).stderr
-        self.assertIn("runs.csv: its pi with brief was made by another definition", said)
+        self.assertIn("runs.csv: its pi with brief was run with another definition", said)
         self.batch("--out", "other")
         said = self.merge("merged", "whole/runs.csv", "other/runs.csv", status=2).stderr
-        self.assertIn("gave something else before", said)
+        self.assertIn("gave another result before", said)
         self.assertFalse((self.path / "merged").exists())
 
     def test_what_cannot_be_chosen_is_refused_before_anything_is_written(self):

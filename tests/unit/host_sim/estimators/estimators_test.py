@@ -69,7 +69,7 @@ class Estimators(unittest.TestCase):
             (out / "runs.csv").write_text(kept + "nominal,gradient,7,0.1")  # torn
             done = self.compare("--seeds", 1, "--no-plot", "--out", out)
             self.assertIn(f"{kept.count(chr(10)) - 2} of 25 runs are already in", done.stderr)
-            self.assertIn("its last line is torn", done.stderr)
+            self.assertIn("its last line is incomplete", done.stderr)
             for name in ("estimators.csv", "runs.csv"):
                 self.assertEqual((out / name).read_bytes(), (self.whole / name).read_bytes())
 
@@ -78,7 +78,7 @@ class Estimators(unittest.TestCase):
         runs = self.path / "out/runs.csv"
         whole = runs.read_text()
         for text, told in ((whole.replace("nominal,gradient,1,", "nominal,gradient,x,", 1), "runs.csv:3: is damaged"),
-                           (whole.replace("supercoil-sim ", "supercoil-sim 0.0", 1), "is not of this version")):
+                           (whole.replace("supercoil-sim ", "supercoil-sim 0.0", 1), "is of another version or definition")):
             runs.write_text(text)
             self.assertIn(told, self.compare("--seeds", 1, "--no-plot", "--out", "out", status=2).stderr)
 

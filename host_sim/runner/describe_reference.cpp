@@ -32,10 +32,10 @@ std::string feasible_text(const ReferenceFeasibility& f) {
   std::string line = "asks for no more than the muscle can do";
   if (!f.leads_too_far()) return line;
   if (f.once_identified) {
-    return line + " until it is identified; from then on it " + held_text(f) + ", and not the " +
-           in_mm(f.max_m) + " that this leads to";
+    return line + " until it is identified; from then on it " + held_text(f) + ", not the " +
+           in_mm(f.max_m) + " that the reference leads to";
   }
-  return line + ", as it does not stay where it leads to, at " + in_mm(f.max_m) + ": the muscle " +
+  return line + ", because it does not stay at its maximum, " + in_mm(f.max_m) + ": the muscle " +
          held_text(f);
 }
 
@@ -46,10 +46,10 @@ std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
       return "it would have to be cooled with " + excess;
     case LimitedBy::temperature:
       return "it may be so hot that it gets " + excess +
-             " less power than that (limited_by temperature)";
+             " less power than it needs (limited_by temperature)";
     case LimitedBy::unproven:
-      return "it would get " + excess +
-             " more power than it can prove to answer (limited_by unproven)";
+      return "it would need " + excess +
+             " more power than its proof of response allows (limited_by unproven)";
     default:
       return "it would have to be heated with " + excess + " more than " +
              in_digits(c.power.max_W) + " W";
@@ -58,19 +58,20 @@ std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
 
 /// When it is infeasible, by how much, and what follows.
 std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) {
-  const std::string lasts = f.first_ends
-                                ? " for " + in_digits(f.first_lasts_s) + " s until it has caught up"
-                                : ", and does not catch up";
+  const std::string lasts =
+      f.first_ends ? " for " + in_digits(f.first_lasts_s) + " s until the muscle has caught up"
+                   : ", and the muscle does not catch up";
   return "asks for more than the muscle can do, first at " + in_digits(f.first_s) + " s" + lasts +
          ", when " + cause_text(f, c) + "; it falls behind by up to " + in_mm(f.behind_m) +
-         "; so it is for " + in_digits(100.0 * f.infeasible_ratio) + " % of the time";
+         "; the reference is infeasible for " + in_digits(100.0 * f.infeasible_ratio) +
+         " % of the time";
 }
 
 /// "; it ends in controller_invalid at about 125 s (docs/faults/controller_invalid.md)"
 std::string end_text(const ReferenceFeasibility& f) {
   if (std::isnan(f.invalid_s)) return "";
   return "; it ends in controller_invalid at about " + in_digits(f.invalid_s) +
-         " s, as it lacks power for too long (docs/faults/controller_invalid.md)";
+         " s, because the muscle lacks power for too long (docs/faults/controller_invalid.md)";
 }
 
 /// Shaping does not know of a load that pulls at the muscle, which then gets no more power.
@@ -104,11 +105,11 @@ std::string describe_reference(const Scenario& scenario) {
   if (f->feasible_motion_ratio == 0.0) return line + "; not even its middle can be held";
   line += motion_text(*f);
   if (shaping_would_do(scenario.start, f->limited_by))
-    return line + "; with shape_reference = true the muscle follows it as it can";
+    return line + "; with shape_reference = true the muscle follows it as far as it can";
   if (!scenario.start.controller.shape_reference) return line;
   return line + (std::isnan(f->invalid_s)
-                     ? "; it is shaped, so that the muscle follows it as it can"
-                     : "; shaping knows nothing of plant.load_N");
+                     ? "; it is shaped, so that the muscle follows it as far as it can"
+                     : "; shaping does not account for plant.load_N");
 }
 
 std::string describe_passed(const Scenario& scenario) {
@@ -140,7 +141,9 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
     line += ", after the event at " + number_text(before->at_s, 6) + " s (" + before->changes + ")";
   line += ", mostly limited_by " + std::string(name(found.mostly_by()));
   const Conditions& then = before != nullptr ? before->conditions : scenario.start;
-  return line + (is_of_heat(found.mostly_by()) ? ": a smaller one" : ": a slower or smaller one") +
+  return line +
+         (is_of_heat(found.mostly_by()) ? ": use a smaller reference"
+                                        : ": use a slower or smaller reference") +
          (shaping_would_do(then, found.mostly_by()) ? ", or shape_reference = true" : "");
 }
 
@@ -151,7 +154,7 @@ std::string describe_out_of_range(const Scenario& scenario) {
   };
   const auto text = [&](const Conditions& c) {
     return "goes from " + in_mm(c.reference.lowest()) + " to " + in_mm(c.reference.highest()) +
-           ", and the board takes 0 to " + in_mm(max_m) +
+           ", but the board takes only 0 to " + in_mm(max_m) +
            " (limits.max_travel_m) and refuses all else, which ends in command_timeout";
   };
   if (refused(scenario.start)) return text(scenario.start);
@@ -171,7 +174,7 @@ double rest_m(const Scenario& scenario) {
 
 std::string describe_rest(const Scenario& scenario) {
   if (scenario.start.joint) return {};
-  return "rests at " + in_mm(rest_m(scenario)) + " while it is cold, and the sensor sees " +
+  return "rests at " + in_mm(rest_m(scenario)) + " while it is cold; the sensor reads " +
          in_mm(scenario.start.position_sensor.min_m) + " to " +
          in_mm(scenario.start.position_sensor.range_m);
 }
@@ -183,7 +186,8 @@ std::string describe_unseen_rest(const Scenario& scenario) {
   return "plant.load_N holds the muscle at " + in_mm(rest_m(scenario)) +
          " while it is cold, and the sensor reads no less than " +
          number_text(1e3 * min_m, digits) +
-         " mm: it stands still there and looks frozen (docs/faults/sensor_frozen.md); lower "
+         " mm: its reading stands still there and looks frozen (docs/faults/sensor_frozen.md); "
+         "lower "
          "sensor.position.min_m";
 }
 

@@ -17,7 +17,7 @@ bool asks_for_mode(const Conditions& c) {
 std::string describe_mode(const Snapshot& snapshot) {
   if (snapshot.result == ModeResult::none) return {};
   std::string text = told_result(snapshot.result, snapshot.identify_notes);
-  if (snapshot.result == ModeResult::running) text += "; a longer simulation.duration_s lets it";
+  if (snapshot.result == ModeResult::running) text += "; give it a longer simulation.duration_s";
   return text + " (docs/running.md#commands)";
 }
 

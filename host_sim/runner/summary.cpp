@@ -112,10 +112,10 @@ std::string Summary::never_armed_because(const Scenario& scenario,
   if (armed_) return {};
   if (const Fault fault = ended_in(); fault != Fault::none) return fault_text(fault);
   if (!arms(scenario.start.action))
-    return "[operator] action is none or disarm at the start, and it arms only there";
+    return "[operator] action is none or disarm at the start, and the operator arms only there";
   return simulation.loop().self_test().passed()
              ? "with these [thermal] bounds the muscle may still be hot from before the start"
-             : "the self-test did not end";
+             : "the self-test did not finish";
 }
 
 std::string Summary::did_not_follow_because(const Scenario& scenario) const {
@@ -126,9 +126,10 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
   const double limit_m = unfollowed_m(promise, motion_.size_m());
   if (!(tracking_.rms() > limit_m)) return {};
   std::string text = number_text(1e3 * tracking_.rms(), 3) +
-                     " mm rms from its reference model, of " +
-                     number_text(1e3 * motion_.size_m(), 3) + " mm that this moves";
-  if (promise) text += " and " + number_text(1e3 * promise->parts.error_m(), 3) + " mm promised";
+                     " mm rms from its reference model, for a motion of " +
+                     number_text(1e3 * motion_.size_m(), 3) + " mm";
+  if (promise)
+    text += " and a promise of " + number_text(1e3 * promise->parts.error_m(), 3) + " mm";
   if (oscillated()) return text + ": the loop oscillated";
   if (const double period_s = limit_cycle_period_s(scenario); !std::isnan(period_s))
     return text + ": the loop oscillates with a period of " + number_text(period_s, 2) + " s";
@@ -139,7 +140,7 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
            "asked for no more than the muscle can do";
   }
   return text +
-         ": the controller is too weak, or the muscle is not the one that the board believes";
+         ": the controller is too weak, or the muscle differs from the one that the board assumes";
 }
 
 double Summary::limit_cycle_period_s(const Scenario& scenario) const {

@@ -22,7 +22,7 @@ OrRefused check_supply(const Conditions& c, const BoardSettings& board) {
   const BoardSupervision& s = board.supervision;
   if (c.power.supply_V >= s.min_supply_V && c.power.supply_V <= s.max_supply_V) return {};
   std::ostringstream why;
-  why << "the scenario's power.supply_V = " << c.power.supply_V << " is outside of the board's "
+  why << "the scenario's power.supply_V = " << c.power.supply_V << " is outside the board's "
       << "supply.min_V to max_V, " << s.min_supply_V << " to " << s.max_supply_V;
   return refuse(why);
 }
@@ -34,7 +34,7 @@ OrRefused check_events(const Scenario& scenario) {
     std::ostringstream why;
     why << "the scenario's event at " << event.at_s << " s changes ["
         << (event.new_controller ? "controller" : "estimator")
-        << "], and the board's file has its own; leave that table out";
+        << "], but the board's file has its own; remove that table";
     return refuse(why);
   }
   return {};
@@ -90,7 +90,7 @@ std::string text_of(const control::Lever& lever) {
 
 std::string other_lever(const control::Lever& scenarios, const control::Lever& boards) {
   return "the scenario's joint.lever_m = " + text_of(scenarios) + " is not the board's, " +
-         text_of(boards) + ": positions are arcs at the lever";
+         text_of(boards) + ": positions are arc lengths at the lever";
 }
 
 /// The file's joint that matches the scenario's [joint]; empty: neither has one.
@@ -105,18 +105,18 @@ Result<std::optional<JointSettings>> find_joint(const Conditions& c, const Board
     if (turned == nullptr || (c.joint && c.joint->plant.lever == *turned)) return std::nullopt;
     if (c.joint) return failure(other_lever(c.joint->plant.lever, *turned));
     const char* opposed_by = board.channels[channel].joint.weighs() ? "gravity" : "spring";
-    why << "channel " << channel + 1 << " of the board's file turns a joint by itself: the "
-        << "scenario needs a [joint] that is opposed_by \"" << opposed_by << "\"";
+    why << "channel " << channel + 1 << " of the board's file turns a joint alone: the "
+        << "scenario needs a [joint] with opposed_by = \"" << opposed_by << "\"";
     return failure(why.str());
   }
   if (c.antagonist() == nullptr) {
     why << "channel " << channel + 1 << " of the board's file turns a joint: the scenario needs a "
-        << "[joint] that is opposed_by \"muscle\"";
+        << "[joint] with opposed_by = \"muscle\"";
     return failure(why.str());
   }
   if (found == nullptr) {
-    why << "the scenario has a [joint] of two muscles, and channel " << channel + 1
-        << " of the board's file is in none";
+    why << "the scenario has a [joint] of two muscles, but channel " << channel + 1
+        << " of the board's file is in no [[joint]]";
     return failure(why.str());
   }
   const control::Lever& lever = c.joint->plant.lever;
@@ -139,9 +139,9 @@ Result<std::optional<BundleSettings>> find_bundle(const Conditions& c, const Boa
   if (wanted == there) return found == nullptr ? std::nullopt : std::optional(*found);
   std::ostringstream why;
   why << "channel " << channel + 1 << " of the board's file "
-      << (found == nullptr ? "pulls in no [[bundle]]" : "pulls in a [[bundle]]");
+      << (found == nullptr ? "is in no [[bundle]]" : "is in a [[bundle]]");
   if (found != nullptr) why << " of " << there << " muscles";
-  why << ", and the scenario has " << (wanted == 1 ? "no [bundle]" : "a [bundle]");
+  why << ", but the scenario has " << (wanted == 1 ? "no [bundle]" : "a [bundle]");
   if (wanted > 1) why << " of " << wanted;
   return failure(why.str());
 }

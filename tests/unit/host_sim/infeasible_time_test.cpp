@@ -58,7 +58,7 @@ TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
       "the reference asked for more than the muscle can do, first at 1.5 s for 0.499 s and in 25.0 "
       "% of all ticks that followed it, after the event at 1 s (plant.load_N, power.gain), mostly "
       "limited_by "
-      "temperature: a smaller one",
+      "temperature: use a smaller reference",
       describe_infeasible(found, scenario).c_str());
 }
 

@@ -39,7 +39,7 @@ class Outcome(ProgramCase):
         beyond = SHORT + "reference = {kind = 'sine', offset_m = 0.02, amplitude_m = 0.015}\n"
         board = ("--board", EXAMPLES / "raspberry-pi-pwm-ads1115.toml")
         told = self.run_program("run", self.scenario(beyond), *board, "--check").stdout
-        self.assertIn("\nreference: goes from 5 mm to 35 mm, and the board takes 0 to 25 mm (limits.max_travel_m) and refuses all else, which ends in "
+        self.assertIn("\nreference: goes from 5 mm to 35 mm, but the board takes only 0 to 25 mm (limits.max_travel_m) and refuses all else, which ends in "
                       "command_timeout\n", told)
         self.assertNotIn("reference: the recommended controller promises", told)
         self.assertIn("fault 60 command_timeout", self.run_program("run", "s.toml", *board, *QUIET, "--allow-fault").stdout)
@@ -51,7 +51,7 @@ class Outcome(ProgramCase):
         self.assertGreater(summary["tracking_rms_m"], 10 * summary["promised_rms_m"])
         self.assertEqual(done.returncode, 1)
         self.assertIn("it did not follow: " + summary["did_not_follow_because"], done.stderr)
-        self.assertRegex(summary["did_not_follow_because"], r"mm rms from its reference model, of .* mm that this moves and .* mm promised: the ")
+        self.assertRegex(summary["did_not_follow_because"], r"mm rms from its reference model, for a motion of .* mm and a promise of .* mm: the ")
         done, _ = self.run_of(WEAK, "--allow-fault")
         self.assertEqual(done.returncode, 0)
         self.assertIn("it did not follow: ", done.stdout)
@@ -142,7 +142,7 @@ class Outcome(ProgramCase):
         self.assertEqual(self.run_of(weak, "--allow-fault")[0].returncode, 0)
         done, summary = self.run_of("simulation.duration_s = 5.0\noperator.action = 'identify'\n")
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "running"))
-        self.assertIn("running: it has not ended yet; a longer simulation.duration_s lets it", done.stderr)
+        self.assertIn("running: it has not ended yet; give it a longer simulation.duration_s", done.stderr)
 
     def test_a_fault_is_told_with_what_was_measured(self):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")

@@ -82,7 +82,7 @@ class Errors(ProgramCase):
     def test_a_board_and_a_scenario_that_do_not_go_together(self):
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
         for text, options, told in (
-                (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside of the board's supply.min_V to max_V, 10.8 to 13.2"),
+                (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside the board's supply.min_V to max_V, 10.8 to 13.2"),
                 (SHORT + "[[event]]\nat_s = 1.0\ncontroller.kind = 'pi'\n", [], "event at 1 s changes [controller]"),
                 (SHORT, ["--channel", 3], "--channel 3: must be 1 to 2, the channels of ")):
             done = self.run_program("run", self.scenario(text), "--board", example, *options, "--out", "out")
@@ -97,11 +97,11 @@ class Errors(ProgramCase):
     def test_a_joint_and_a_board_that_do_not_go_together(self):
         pair, alone = (EXAMPLES / f"{name}.toml" for name in ("joint-as5600-ads1115", "raspberry-pi-pwm-ads1115"))
         for text, board, told in (
-                ("", pair, "channel 2 of the board's file turns a joint: the scenario needs a [joint] that is opposed_by \"muscle\""),
+                ("", pair, "channel 2 of the board's file turns a joint: the scenario needs a [joint] with opposed_by = \"muscle\""),
                 ("joint.opposed_by = 'spring'\n", pair, "channel 2 of the board's file turns a joint"),
                 ("[joint]\n[[event]]\nat_s = 1.0\njoint.co_contraction_W = 4.0\n", pair,
                  "an event's joint.co_contraction_W = 4 is more than the board's max_co_contraction_W, 2.2"),
-                ("[joint]\n", alone, "the scenario has a [joint] of two muscles, and channel 2 of the board's file is in none"),
+                ("[joint]\n", alone, "the scenario has a [joint] of two muscles, but channel 2 of the board's file is in no [[joint]]"),
                 ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015"),
                 ("[joint]\nlever_m = [0.012, 0.015]\nlever_range_deg = [-20.0, 20.0]\n", pair,
                  "joint.lever_m = [0.012, 0.015] over -20 to 20 deg is not the board's, 0.015")):
@@ -109,12 +109,12 @@ class Errors(ProgramCase):
         finger = self.path / "finger.toml"
         finger.write_text(alone.read_text() + '\n[[joint]]\nopposed_by = "spring"\nagonist = 1\nlever_m = 0.015\n')
         for text, told in (
-                ("", "channel 1 of the board's file turns a joint by itself: the scenario needs a [joint] that is opposed_by \"spring\""),
+                ("", "channel 1 of the board's file turns a joint alone: the scenario needs a [joint] with opposed_by = \"spring\""),
                 ("[joint]\nopposed_by = 'spring'\nlever_m = 0.02\n", "joint.lever_m = 0.02 is not the board's, 0.015"),
-                ("[joint]\n", "the scenario has a [joint] of two muscles, and channel 1 of the board's file is in none")):
+                ("[joint]\n", "the scenario has a [joint] of two muscles, but channel 1 of the board's file is in no [[joint]]")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
         finger.write_text(finger.read_text().replace('"spring"', '"gravity"') + "weight_Nm = 0.001\nhangs_at_deg = -60\n")
-        self.check_refused("the scenario needs a [joint] that is opposed_by \"gravity\"", "run", self.scenario(SHORT), "--board", finger, "--out", "out")
+        self.check_refused("the scenario needs a [joint] with opposed_by = \"gravity\"", "run", self.scenario(SHORT), "--board", finger, "--out", "out")
 
     def test_a_bundle_and_a_board_that_do_not_go_together(self):
         alone = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
@@ -122,9 +122,9 @@ class Errors(ProgramCase):
         text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
         pair.write_text(text[:text.index("[[joint]]")] + "[[bundle]]\nchannels = [1, 2]\n")
         for text, board, told in (
-                ("", pair, "channel 1 of the board's file pulls in a [[bundle]] of 2 muscles, and the scenario has no [bundle]"),
-                ("bundle.muscles = 3\n", pair, "pulls in a [[bundle]] of 2 muscles, and the scenario has a [bundle] of 3"),
-                ("[bundle]\n", alone, "channel 1 of the board's file pulls in no [[bundle]], and the scenario has a [bundle] of 2")):
+                ("", pair, "channel 1 of the board's file is in a [[bundle]] of 2 muscles, but the scenario has no [bundle]"),
+                ("bundle.muscles = 3\n", pair, "is in a [[bundle]] of 2 muscles, but the scenario has a [bundle] of 3"),
+                ("[bundle]\n", alone, "channel 1 of the board's file is in no [[bundle]], but the scenario has a [bundle] of 2")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--out", "out")
 
     def test_a_window_outside_the_run(self):

@@ -41,7 +41,7 @@ class Results(ProgramCase):
                  "never armed: with these [thermal] bounds the muscle may still be hot"),
                 (SHORT + "operator.action = 'none'\n", False, 0, "never armed: [operator] action is none or disarm"),
                 (SHORT + "operator.action = 'none'\n[[event]]\nat_s = 1.0\noperator.action = 'track'\n", False, 1,
-                 "never armed: [operator] action is none or disarm at the start, and it arms only there")):
+                 "never armed: [operator] action is none or disarm at the start, and the operator arms only there")):
             done = self.run_program("run", self.scenario(text), *options, *["--allow-fault"] * allowed)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(told, done.stderr if status else done.stdout)

@@ -111,8 +111,10 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   printf("found %g, told %g\n", found, f->infeasible_ratio);
   DOUBLES_EQUAL(found, f->infeasible_ratio, 0.05);
   STRCMP_CONTAINS(
-      "and does not catch up, when it may be so hot that it gets up to 0.98 W less power than that "
-      "(limited_by temperature); it falls behind by up to 5.91 mm; so it is for 94.9 % of the "
+      "and the muscle does not catch up, when it may be so hot that it gets up to 0.98 W less "
+      "power than it needs "
+      "(limited_by temperature); it falls behind by up to 5.91 mm; the reference is infeasible for "
+      "94.9 % of the "
       "time; the muscle holds 12.1 mm indefinitely (limited_by temperature)",
       describe_reference(high).c_str());
   STRCMP_CONTAINS("limited_by temperature)", describe_reference(high).c_str());
@@ -124,7 +126,7 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   const auto sine_about = [&](const std::string& offset_m) {
     return read(hot + "[reference]\nkind = 'sine'\namplitude_m = 0.005\noffset_m = " + offset_m);
   };
-  STRCMP_CONTAINS("as it does not stay where it leads to, at 12.3 mm: the muscle holds 12.1 mm",
+  STRCMP_CONTAINS("because it does not stay at its maximum, 12.3 mm: the muscle holds 12.1 mm",
                   describe_reference(sine_about("0.0075")).c_str());
   const auto too_high = reference_feasibility(sine_about("0.009"));
   DOUBLES_EQUAL((f->held_m - 0.009) / 0.005, too_high->feasible_motion_ratio, 1e-3);
@@ -153,7 +155,7 @@ TEST(ReferenceFeasibility, ASetPointBeyondWhatIsHeldIsToldWithItsEnd) {
     const Scenario shaped = step_to(to_m, "true");
     CHECK_TRUE(std::isnan(reference_feasibility(shaped)->invalid_s));
     CHECK_FALSE(reference_feasibility(shaped)->feasible());
-    STRCMP_CONTAINS("; it is shaped, so that the muscle follows it as it can",
+    STRCMP_CONTAINS("; it is shaped, so that the muscle follows it as far as it can",
                     describe_reference(shaped).c_str());
   }
   CHECK_TRUE(std::isnan(reference_feasibility(step_to("0.024", "false"))->invalid_s));
@@ -193,22 +195,24 @@ TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {
       "= 'steps'\nlevels_m = [0.011]\n");
   STRCMP_EQUAL(
       "asks for no more than the muscle can do until it is identified; from then on it holds 6.1 "
-      "mm indefinitely (limited_by unproven), and not the 11 mm that this leads to",
+      "mm indefinitely (limited_by unproven), not the 11 mm that the reference leads to",
       describe_reference(scenario).c_str());
   scenario.known[0].muscle_identified = true;
   CHECK(reference_feasibility(scenario)->limited_by == LimitedBy::unproven);
   const double found = infeasible_ratio_of_run(scenario);
   DOUBLES_EQUAL(found, infeasible_ratio(scenario), 0.05);
   const std::string told = describe_reference(scenario);
-  STRCMP_CONTAINS("more power than it can prove to answer (limited_by unproven)", told.c_str());
+  STRCMP_CONTAINS("more power than its proof of response allows (limited_by unproven)",
+                  told.c_str());
   STRCMP_CONTAINS("; the muscle holds ", told.c_str());
 }
 
 TEST(ReferenceFeasibility, AMuscleThatIsTooWeakCannotEvenHoldTheMiddle) {
   const std::string weak = "force_per_kelvin_N_per_K = 0.0002\n";
   const std::string told = describe_reference(read("[plant]\n" + weak + "[muscle]\n" + weak));
-  STRCMP_CONTAINS("first at 0 s, and does not catch up, when it would have to be heated with up to",
-                  told.c_str());
+  STRCMP_CONTAINS(
+      "first at 0 s, and the muscle does not catch up, when it would have to be heated with up to",
+      told.c_str());
   STRCMP_CONTAINS("not even its middle can be held", told.c_str());
 }
 
@@ -228,7 +232,7 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
   DOUBLES_EQUAL(150.0, short_run->infeasible_ratio / long_run->infeasible_ratio, 1e-3);
   CHECK_TRUE(long_run->first_ends);
   STRCMP_CONTAINS(
-      "first at 0.065 s for 1.36 s until it has caught up, when it would have to be "
+      "first at 0.065 s for 1.36 s until the muscle has caught up, when it would have to be "
       "heated with up to 2.45 W more than 4.5 W; it falls behind by up to 2.89 mm",
       describe_reference(step_for("1500.0", "false")).c_str());
   const InfeasibleTime ran = found_in_run(step_for("100.0", "false"));

@@ -46,7 +46,7 @@ class Told(ProgramCase):
             ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
             self.assertEqual(ratio > 0.0, told, (ratio, done.stdout))
             line = re.findall(r"asked for more than the muscle can do, first at .* s for .* s and in (.*) % of all ticks that followed it, "
-                              r"mostly limited_by \w+: a slower or smaller one(.*)", done.stdout)
+                              r"mostly limited_by \w+: use a slower or smaller reference(.*)", done.stdout)
             advice = ", or shape_reference = true" if shape == "false" else ""
             self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
 
@@ -75,7 +75,7 @@ class Told(ProgramCase):
         self.assertGreater(summary["infeasible_from_s"], 15.0)
         self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s for {summary['infeasible_lasts_s']:.3g} s and in "
                       f"{100 * summary['infeasible_ratio']:.1f} % of all ticks that followed it, after the event at 15 s (plant.load_N), mostly "
-                      "limited_by temperature: a smaller one\n", told)
+                      "limited_by temperature: use a smaller reference\n", told)
 
     def test_a_step_is_told_alike_before_and_after(self):
         # At rest, noise keeps the power at its minimum for a while, which no reference asks for.
@@ -108,7 +108,7 @@ class Told(ProgramCase):
         fast = "simulation.duration_s = 40.0\nreference.angular_frequency_rad_per_s = 2.0\ncontroller.kind = 'learned_ff'\n"
         fast += "reference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n"
         told, _ = self.after(fast + "[[event]]\nat_s = 0.0\ncontroller.shape_reference = true\n")
-        self.assertRegex(told, r"after the event at 0 s \(controller\.shape_reference\), mostly limited_by \w+: a slower or smaller one\n")
+        self.assertRegex(told, r"after the event at 0 s \(controller\.shape_reference\), mostly limited_by \w+: use a slower or smaller reference\n")
 
     def test_a_set_point_beyond_what_is_held_is_told_with_its_end(self):
         step = "simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = 0.03, at_s = 5.0}\nsensor.position.min_m = -0.01\n"

@@ -31,12 +31,12 @@ std::vector<PlantSettings> read_companions(const toml::table& document, Diagnost
   Section root(&document, "", diagnostics);
   Section section = root.section("bundle");
   if (document.contains("joint"))
-    section.wrong("muscles", "cannot be beside a [joint]: a bundle is no part of one");
+    section.wrong("muscles", "cannot be used with a [joint]: a bundle cannot be part of a joint");
   const std::size_t muscles = read_number(section);
   for (std::size_t number = 2; number <= muscles; ++number) {
     Section own = section.section(std::to_string(number));
     for (const char* key : of_the_bundle) {
-      if (own.has(key)) own.wrong(key, "is of the whole bundle: it stands in [plant]");
+      if (own.has(key)) own.wrong(key, "applies to the whole bundle: set it in [plant]");
     }
     Diagnostics found(diagnostics.file());
     companions.push_back(read_plant(laid_over(document, path_of(number), "plant", found)));

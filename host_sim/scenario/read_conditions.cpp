@@ -39,7 +39,8 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   sensor.range_m = section.number("range_m", sensor.range_m, {1e-4, 10.0});
   sensor.count_m = section.number("count_m", sensor.count_m, {0.0, 0.1 * sensor.range_m});
   if (sensor.count_m > 0.0 && section.has("resolution_bits"))
-    section.wrong("count_m", "goes without resolution_bits: both say how large a count is");
+    section.wrong("count_m",
+                  "cannot be combined with resolution_bits: both set the size of a count");
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
   if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
@@ -73,15 +74,15 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
   std::ostringstream message;
   if (power.max_W > full_scale_W) {
-    message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
+    message << "must not exceed the power at a duty of 1: supply_V²/resistance_Ohm = "
             << full_scale_W << " W";
     section.wrong("max_W", message.str());
   } else if (power.pwm_steps > 0) {
     const double step_W = full_scale_W / power.pwm_steps;
     if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) ||
         power.max_W < step_W) {
-      message << "has too few steps: one is " << step_W
-              << " W, and none lies within min_W to max_W";
+      message << "makes the power steps too coarse: one step is " << step_W
+              << " W, and no step lies within min_W to max_W";
       section.wrong("pwm_bits", message.str());
     }
   }
@@ -138,7 +139,7 @@ InjectedFaults read_injected_faults(Section section, const Conditions& c) {
     if (needs == Needs::bundle) return;
     if (!c.joint) return section.wrong(key, "needs a [joint]");
     if (needs == Needs::antagonist && c.antagonist() == nullptr)
-      section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
+      section.wrong(key, "needs [joint] opposed_by = \"muscle\"");
   };
   InjectedFaults injected_faults;
   for (const InjectedFaultName& known : injected_fault_names) {
@@ -185,14 +186,14 @@ void check_reach(Section& section, const Conditions& c) {
         std::min(contracted_m(sensor.range_m), agonist.position_m(c.joint->plant.max_angle_rad));
     if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;
     message << "the reference goes from " << c.reference.lowest() * 1e3 << " to "
-            << c.reference.highest() * 1e3 << " mm, and sensor.position and the joint's end stops "
+            << c.reference.highest() * 1e3 << " mm, but sensor.position and the joint's end stops "
             << "allow " << min_m * 1e3 << " to " << max_m * 1e3 << " mm";
   } else if (c.reference.lowest() < 0.0) {
     message << "the reference goes down to " << c.reference.lowest() * 1e3
-            << " mm, and the muscle only contracts from 0";
+            << " mm, but the muscle only contracts from 0";
   } else if (c.reference.highest() > Conditions::travel_ratio * c.position_sensor.range_m) {
     message << "the reference goes up to " << c.reference.highest() * 1e3
-            << " mm, and sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
+            << " mm, but sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
   } else {
     return;
   }

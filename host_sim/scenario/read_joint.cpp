@@ -48,8 +48,7 @@ void read_weight(Section& section, OpposedBy opposed_by, JointPlantSettings& p) 
   if (opposed_by != OpposedBy::gravity) {
     p.pretension_N = section.number(pretension_key, p.pretension_N, {0.0, 1e3});
     p.weight_Nm = section.number("weight_Nm", 0.0, {-100.0, 100.0});
-    if (section.has(angle_key))
-      section.wrong(angle_key, "needs a joint that is opposed_by \"gravity\"");
+    if (section.has(angle_key)) section.wrong(angle_key, "needs [joint] opposed_by = \"gravity\"");
     section.allow({angle_key});
     return;
   }
@@ -59,7 +58,7 @@ void read_weight(Section& section, OpposedBy opposed_by, JointPlantSettings& p) 
   p.spring_pretensions = false;
   p.pretension_N = p.weight_Nm * std::sin(-p.hangs_at_rad) / p.lever.zero_radius_m();
   if (section.has(pretension_key))
-    section.wrong(pretension_key, "is what weight_Nm, hangs_at_deg and lever_m make it");
+    section.wrong(pretension_key, "follows from weight_Nm, hangs_at_deg and lever_m; remove it");
   section.allow({pretension_key});
 }
 
@@ -90,7 +89,7 @@ void refuse_keys_of_one_muscle(Section section) {
   for (const RenamedInJoint& key : renamed_in_joint) {
     if (!section.has(key.plant)) continue;
     section.wrong(key.plant,
-                  std::string("is of a muscle by itself; of a joint it is joint.") + key.joint);
+                  std::string("is for a single muscle; with a [joint] set joint.") + key.joint);
   }
 }
 
@@ -116,7 +115,7 @@ control::PhysicalParameters along_the_arc(const JointPlantSettings& joint, doubl
 
 void refuse_keys_of_two_muscles(Section& section) {
   for (const char* key : {"antagonist", "antagonist_muscle", "co_contraction_W"}) {
-    if (section.has(key)) section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
+    if (section.has(key)) section.wrong(key, "needs [joint] opposed_by = \"muscle\"");
     section.allow({key});
   }
 }

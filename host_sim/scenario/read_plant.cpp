@@ -22,7 +22,7 @@ PlantEffects read_effects(config::Section& section, PlantEffects effects) {
   if (const auto violation = check(effects)) {
     std::ostringstream message;
     message << "must be " << violation->lowest << " to " << violation->highest
-            << " beside the others";
+            << " with the other values";
     section.wrong(violation->quantity, message.str());
   }
   return effects;

@@ -49,9 +49,9 @@ std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, R
   frequencies = section.numbers("angular_frequencies_rad_per_s", frequencies, frequency_rad_per_s,
                                 1, max_terms);
   if (sizes.size() != frequencies.size()) {
-    section.wrong("angular_frequencies_rad_per_s", "must be as many as " +
-                                                       std::string(amplitudes_key) +
-                                                       " has: " + std::to_string(sizes.size()));
+    section.wrong("angular_frequencies_rad_per_s", "must have as many values as " +
+                                                       std::string(amplitudes_key) + ": " +
+                                                       std::to_string(sizes.size()));
     return fallback;
   }
   std::vector<Sinusoid> terms;

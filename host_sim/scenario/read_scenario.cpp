@@ -113,7 +113,7 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
                         diagnostics);
       if (!event.contains("at_s")) {
         diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
-                        "is missing: when does the event happen?");
+                        "is missing: give the time of the event");
       }
       config::Section section(&event, "event", diagnostics);
       const double at_s = section.number("at_s", 0.0, {0.0, duration_s});
@@ -227,9 +227,10 @@ ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& 
   const bool is_name = path.find('.') == std::string::npos && path.find('/') == std::string::npos;
   std::error_code unknown;
   if (is_name && !std::filesystem::exists(path, unknown)) {
-    diagnostics.add(0, "",
-                    "there is no such file, and no built-in scenario has that name; " +
-                        meant_or_all(path, names_of(builtin_scenarios()), "they are"));
+    diagnostics.add(
+        0, "",
+        "there is no such file, and no built-in scenario has that name; " +
+            meant_or_all(path, names_of(builtin_scenarios()), "the built-in scenarios are"));
     return tl::unexpected(diagnostics.problems());
   }
   const std::string text = config::read_text(path, diagnostics);

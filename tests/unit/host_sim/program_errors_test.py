@@ -164,7 +164,7 @@ class Errors(ProgramCase):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is not a command; the commands are: run, page, reproduce, ", "fly")
         self.check_refused("sin: there is no such file, and no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
-        self.check_refused("no built-in scenario has that name; they are: b, bench, ", "run", "zzz", "--out", "out")
+        self.check_refused("no built-in scenario has that name; the built-in scenarios are: b, bench, ", "run", "zzz", "--out", "out")
 
     def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
         def small_disk():

@@ -75,12 +75,12 @@ TEST(BundleScenario, WrongOnesAreToldWhatIsAllowed) {
   check_bundle_answer("2: bundle.muscles = 9: must be 2 to 8", "[bundle]\nmuscles = 9");
   check_bundle_answer("2: bundle.3: is not a key of [bundle]; its keys are: muscles, 2",
                       "[bundle]\n3.resistance_Ohm = 9.0");
-  check_bundle_answer("2: bundle.2.load_N = 0.1: is of the whole bundle: it stands in [plant]",
+  check_bundle_answer("2: bundle.2.load_N = 0.1: applies to the whole bundle: set it in [plant]",
                       "[bundle]\n2.load_N = 0.1");
   check_bundle_answer("2: bundle.2.force_ratio = 50: must be 0.1 to 20",
                       "[bundle]\n2.force_ratio = 50.0");
   check_bundle_answer(
-      "2: bundle.muscles = 2: cannot be beside a [joint]: a bundle is no part of one",
+      "2: bundle.muscles = 2: cannot be used with a [joint]: a bundle cannot be part of a joint",
       "[bundle]\nmuscles = 2\n[joint]\n");
   check_bundle_answer("2: plant.resistance_Ohm = 0.01: must be 0.1 to 10000",
                       "[plant]\nresistance_Ohm = 0.01\n[bundle]\n");

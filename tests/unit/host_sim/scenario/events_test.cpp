@@ -76,7 +76,7 @@ TEST(Events, WrongKeyIsReportedOnItsOwnLine) {
 }
 
 TEST(Events, WithoutATimeAreRefused) {
-  STRCMP_EQUAL("s.toml:2: event.at_s: is missing: when does the event happen?\n",
+  STRCMP_EQUAL("s.toml:2: event.at_s: is missing: give the time of the event\n",
                problems("\n[[event]]\nplant.stiffness_N_per_m = 12.0\n").c_str());
 }
 

@@ -109,7 +109,7 @@ TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
   check_joint_answer("2: joint.antagonist_muscle.stiffness_N_per_m = -1: must be 0.01 to 1e+06",
                      "[joint]\nantagonist_muscle.stiffness_N_per_m = -1.0");
   check_joint_answer(
-      "2: plant.load_N = 0.1: is of a muscle by itself; of a joint it is joint.load_Nm",
+      "2: plant.load_N = 0.1: is for a single muscle; with a [joint] set joint.load_Nm",
       "[plant]\nload_N = 0.1\n[joint]\n");
   check_joint_answer("1: joint = 3: must be a table: [joint]", "joint = 3");
   check_joint_answer("3: sensor.position.min_m = 0: must be -10 to -0.0001",
@@ -189,7 +189,7 @@ TEST(JointScenario, AMistakeInPlantIsToldOnce) {
 
 TEST(JointScenario, WhatCannotBeReachedIsRefused) {
   check_joint_answer(
-      "2: reference.kind (its default): the reference goes from 0 to 10 mm, and sensor.position "
+      "2: reference.kind (its default): the reference goes from 0 to 10 mm, but sensor.position "
       "and "
       "the joint's end stops allow -7.992 to 7.992 mm",
       "[joint]\n[reference]\noffset_m = 0.005\n");
@@ -275,10 +275,10 @@ TEST(JointScenario, AWeightOpposesOneMuscle) {
 TEST(JointScenario, WhatIsOfAnotherJointIsRefusedBesideAWeight) {
   const std::string gravity = "[joint]\nopposed_by = 'gravity'\n";
   check_joint_answer(
-      "3: joint.pretension_N = 0.3: is what weight_Nm, hangs_at_deg and lever_m make it",
+      "3: joint.pretension_N = 0.3: follows from weight_Nm, hangs_at_deg and lever_m; remove it",
       gravity + "pretension_N = 0.3");
   check_joint_answer("3: joint.weight_Nm = 0: must be 1e-06 to 100", gravity + "weight_Nm = 0.0");
-  check_joint_answer("2: joint.hangs_at_deg = -30: needs a joint that is opposed_by \"gravity\"",
+  check_joint_answer("2: joint.hangs_at_deg = -30: needs [joint] opposed_by = \"gravity\"",
                      "[joint]\nhangs_at_deg = -30.0");
   check_joint_answer("5: event.joint.hangs_at_deg: cannot change during a run",
                      gravity + "[[event]]\nat_s = 1.0\njoint.hangs_at_deg = -30.0");
@@ -295,7 +295,7 @@ TEST(JointScenario, ItsBoardTellsTheLeverOfAJointAgainstASpring) {
 
 TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
   const std::string spring = "[joint]\nopposed_by = 'spring'\n";
-  const std::string needs = ": needs a joint that is opposed_by \"muscle\"";
+  const std::string needs = ": needs [joint] opposed_by = \"muscle\"";
   check_joint_answer(("3: joint.co_contraction_W = 1" + needs).c_str(),
                      spring + "co_contraction_W = 1.0");
   check_joint_answer(("3: joint.antagonist" + needs).c_str(),
@@ -303,7 +303,7 @@ TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
   check_joint_answer(("4: injected_fault.antagonist_torn = true" + needs).c_str(),
                      spring + "[injected_fault]\nantagonist_torn = true");
   check_joint_answer(
-      "4: reference.kind = 'step': the reference goes from -5 to 5 mm, and sensor.position and the "
+      "4: reference.kind = 'step': the reference goes from -5 to 5 mm, but sensor.position and the "
       "joint's "
       "end stops allow 0 to 10.989 mm",
       spring + "[reference]\nkind = 'step'\nfrom_m = -0.005");

@@ -72,11 +72,11 @@ TEST(PlantKeys, WrongOnesAreToldWhatIsAllowed) {
                problems("plant.force_ratio = 50.0").c_str());
   STRCMP_EQUAL("s.toml:1: plant.preset = 'soft': must be one of: paper, real, real_hard, b, c\n",
                problems("plant.preset = 'soft'").c_str());
-  STRCMP_EQUAL("s.toml:3: plant.radiation_ratio = 0.5: must be 0 to 0.4 beside the others\n",
+  STRCMP_EQUAL("s.toml:3: plant.radiation_ratio = 0.5: must be 0 to 0.4 with the other values\n",
                problems("[plant]\nconvection_ratio = 0.6\nradiation_ratio = 0.5").c_str());
   STRCMP_EQUAL(
-      "s.toml:2: sensor.position.count_m = 2e-05: goes without resolution_bits: both say "
-      "how large a count is\n",
+      "s.toml:2: sensor.position.count_m = 2e-05: cannot be combined with resolution_bits: "
+      "both set the size of a count\n",
       problems("[sensor.position]\ncount_m = 20e-6\nresolution_bits = 12").c_str());
 }
 

@@ -139,18 +139,18 @@ TEST(WrongScenario, EveryMistakeIsReportedAtOnce) {
 
 TEST(WrongScenario, ReferenceOutOfReach) {
   check_answer(
-      "s.toml:1: reference.kind = 'sine': the reference goes up to 50 mm, and "
+      "s.toml:1: reference.kind = 'sine': the reference goes up to 50 mm, but "
       "sensor.position.range_m is 40 mm",
       "reference = {kind = 'sine', offset_m = 0.025, amplitude_m = 0.025}");
   check_answer(
-      "s.toml:1: reference.kind = 'sine': the reference goes down to -1 mm, and the muscle only "
+      "s.toml:1: reference.kind = 'sine': the reference goes down to -1 mm, but the muscle only "
       "contracts from 0",
       "reference = {kind = 'sine', offset_m = 0.004, amplitude_m = 0.005}");
 }
 
 TEST(WrongScenario, PowerBeyondTheSupply) {
   check_answer(
-      "s.toml:1: power.max_W = 20: must not exceed what the supply gives at a duty of 1: "
+      "s.toml:1: power.max_W = 20: must not exceed the power at a duty of 1: "
       "supply_V²/resistance_Ohm = 14.4 W",
       "power = {max_W = 20.0, pwm_bits = 12}");
 }
@@ -207,7 +207,7 @@ TEST(WrongScenario, LeastSquaresIsRefusedInFixedPoint) {
 
 TEST(WrongScenario, DefaultThatDoesNotFitIsNamedAsOne) {
   check_answer(
-      "s.toml:1: power.max_W (its default): must not exceed what the supply gives at a duty of 1: "
+      "s.toml:1: power.max_W (its default): must not exceed the power at a duty of 1: "
       "supply_V²/resistance_Ohm = 0.9 W",
       "power = {supply_V = 3.0}");
 }
@@ -219,9 +219,8 @@ TEST(WrongScenario, RunWithoutATick) {
 
 TEST(WrongScenario, PwmWithoutAStepInsideTheLimits) {
   check_answer(
-      "s.toml:1: power.pwm_bits = 1: has too few steps: one is 14.4 W, and none lies within min_W "
-      "to "
-      "max_W",
+      "s.toml:1: power.pwm_bits = 1: makes the power steps too coarse: one step is 14.4 W, and no "
+      "step lies within min_W to max_W",
       "power.pwm_bits = 1");
 }
 
@@ -259,7 +258,9 @@ TEST(WrongScenario, FolderInsteadOfAFile) {
 TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
   const auto scenario = read_scenario("sinus");
   STRCMP_EQUAL(
-      "sinus: there is no such file, and no built-in scenario has that name; they are: b, bench, "
+      "sinus: there is no such file, and no built-in scenario has that name; the built-in "
+      "scenarios "
+      "are: b, bench, "
       "bundle-bench, "
       "bundle, c, disturbances, "
       "first-motion, fixed-point, identify, joint-bench, joint, pwm, real, real_hard, sine, "

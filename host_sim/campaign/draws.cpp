@@ -171,7 +171,7 @@ Result<toml::table> Draws::document(const std::vector<double>& drawn, std::size_
       const auto value = final_value(draw, drawn[i], known);
       if (!value) {
         return failure("draw " + draw.name + ": times or over names " + value.error().text() +
-                       ", which is neither drawn before nor a number of the scenario");
+                       ", which is neither an earlier draw nor a number in the scenario");
       }
       known.add(draw.name, *value);
       right = set_all(document, draw, toml::value<double>(*value));

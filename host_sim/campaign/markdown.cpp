@@ -12,8 +12,8 @@ namespace {
 std::string worst_runs(const Study& study, const Outcomes& outcomes, const ContenderRow& row) {
   if (row.worst.empty()) return {};
   constexpr std::size_t told = 3;
-  std::string text = "\nThe worst with " + row.name + " (" + worst_name(row.name, 1) +
-                     " and following run them again):\n\n";
+  std::string text = "\nThe worst runs of " + row.name + " (repeat them with " +
+                     worst_name(row.name, 1) + " and following):\n\n";
   for (std::size_t i = 0; i < std::min(told, row.worst.size()); ++i) {
     text += std::to_string(i + 1) + ". run " + std::to_string(row.worst[i].run + 1) + ", " +
             missed(study, outcomes.at(row.worst[i])) + "\n";
@@ -32,7 +32,8 @@ std::string cells(const std::vector<std::string>& texts) {
 
 std::string to_markdown(const Study& study, const std::vector<ContenderRow>& table,
                         const Outcomes& outcomes) {
-  std::string text = "# " + study.name + "\n\nShares with their exact 95 % interval.\n\n" +
+  std::string text = "# " + study.name +
+                     "\n\nShares with their exact 95 % confidence intervals.\n\n" +
                      cells({"controller", "runs", "refused", "failed"}) + "|---|---|---|---|\n";
   for (const ContenderRow& row : table) {
     text += cells(
@@ -40,7 +41,7 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
   }
   text += "\n" +
           cells({"controller", "quantity", "goal", "missed", "median", "95 of 100", "worst",
-                 "goes with (rank correlation)"}) +
+                 "correlates with (rank correlation)"}) +
           "|---|---|---|---|---|---|---|---|\n";
   for (const ContenderRow& row : table) {
     for (const GoalRow& goal : row.goals) {
@@ -54,7 +55,7 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
   for (const ContenderRow& row : table) {
     if (row.reason.empty() || row.reason == told) continue;
     told = row.reason;
-    text += "\nRefused, the first: " + row.reason + "\n";
+    text += "\nFirst refusal: " + row.reason + "\n";
   }
   for (const ContenderRow& row : table)
     text += worst_runs(study, outcomes, row);
@@ -62,8 +63,8 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
 }
 
 std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found) {
-  std::string text = "# The worst of " + study.name + "\n\n" +
-                     cells({"controller", "runs", "quantity", "goal", "the worst found"}) +
+  std::string text = "# The worst runs of " + study.name + "\n\n" +
+                     cells({"controller", "runs", "quantity", "goal", "worst found"}) +
                      "|---|---|---|---|---|\n";
   for (const auto& [contender, worst] : found) {
     const std::string& name = study.contenders[contender].name;
@@ -74,7 +75,7 @@ std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& 
     }
     if (!worst.outcome.fault.empty()) text += cells({name, "", "fault", "", worst.outcome.fault});
   }
-  text += "\nsearch-CONTROLLER.toml runs it again.\n";
+  text += "\nsearch-CONTROLLER.toml repeats the run.\n";
   return text;
 }
 

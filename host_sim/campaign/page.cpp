@@ -69,7 +69,7 @@ std::string asked(const Study& study) {
   std::ostringstream scenario;
   scenario << study.scenario;
   std::string html =
-      "<h2>What was asked</h2>\n<div class=\"wide\"><table id=\"asked\">\n<tbody>\n" +
+      "<h2>The study</h2>\n<div class=\"wide\"><table id=\"asked\">\n<tbody>\n" +
       said("made by", origin_of(study)) + said("scenario", study.base) +
       said("controllers", joined(contenders)) + said("runs", std::to_string(study.runs)) +
       said("sampling", std::string(control::name_of(sampling_names, study.sampling)) + ", seed " +
@@ -105,11 +105,11 @@ std::string shares(const std::vector<ContenderRow>& table) {
     line("refused", row.refused);
     line("any", row.failures);
     if (!row.reason.empty() && told.empty())
-      told = "<p>Refused, the first: " + escaped(row.reason) + "</p>\n";
+      told = "<p>First refusal: " + escaped(row.reason) + "</p>\n";
   }
-  return "<h2>How often it failed</h2>\n<p>Refused: of all runs. Any: runs that miss a goal, of "
-         "those "
-         "that were not refused. The interval is that of Clopper and Pearson, 95 %.</p>\n" +
+  return "<h2>How often runs failed</h2>\n<p>Refused: out of all runs. Any: runs that missed a "
+         "goal, "
+         "out of those that were not refused. 95 % confidence intervals (Clopper-Pearson).</p>\n" +
          table_of("shares", {"controller", "what", "runs", "failures", "share", "from", "to"},
                   rows) +
          told;
@@ -128,10 +128,11 @@ std::string goals(const Study& study, const std::vector<ContenderRow>& table) {
                      cell(escaped(deciding(study, one))));
     }
   }
-  return "<h2>Goals</h2>\n" + table_of("goals",
-                                       {"controller", "quantity", "goal", "runs", "missed", "share",
-                                        "from", "to", "median", "95 of 100", "worst", "goes with"},
-                                       rows);
+  return "<h2>Goals</h2>\n" +
+         table_of("goals",
+                  {"controller", "quantity", "goal", "runs", "missed", "share", "from", "to",
+                   "median", "95 of 100", "worst", "correlates with"},
+                  rows);
 }
 
 /// Of every draw that varies, with every goal; bold: more than by chance.
@@ -152,10 +153,10 @@ std::string correlations(const Study& study, const std::vector<ContenderRow>& ta
     }
   }
   if (rows.empty()) return {};
-  return "<h2>What it goes with</h2>\n<p>Rank correlation (Spearman) of each quantity with each "
-         "draw, "
-         "before its factors. Bold: chance alone gives as much to less than 3 draws in "
-         "1000.</p>\n<details><summary>All correlations</summary>\n" +
+  return "<h2>Correlations</h2>\n<p>Rank correlation (Spearman) of each quantity with each "
+         "draw, before its times and over are applied. Bold: by chance alone, fewer than 3 draws "
+         "in "
+         "1000 reach this.</p>\n<details><summary>All correlations</summary>\n" +
          table_of("correlations", {"controller", "quantity", "draw", "correlation"}, rows) +
          "</details>\n";
 }
@@ -177,10 +178,9 @@ std::string worst_runs(const Study& study, const std::vector<ContenderRow>& tabl
     }
   }
   if (rows.empty()) return "<h2>The worst runs</h2>\n<p>No run missed a goal.</p>\n";
-  return "<h2>The worst runs</h2>\n<p>Each command, given in the folder of this page, repeats the "
-         "run "
-         "to the bit.</p>\n" +
-         table_of("worst", {"controller", "run", "missed", "repeated by"}, rows);
+  return "<h2>The worst runs</h2>\n<p>Each command, run in the folder of this page, repeats the "
+         "run bit for bit.</p>\n" +
+         table_of("worst", {"controller", "run", "missed", "command"}, rows);
 }
 
 }  // namespace
@@ -192,9 +192,11 @@ std::string to_html(const Study& study, const std::vector<ContenderRow>& table,
   if (!study.about.empty()) html += "<p>" + escaped(study.about) + "</p>\n";
   html += shares(table) + goals(study, table);
   if (!svg.empty()) {
-    html += R"(<figure class="wide" tabindex="0">)" +
-            embedded_svg(svg, "Each quantity's distribution, and over the draw it follows most") +
-            "</figure>\n";
+    html +=
+        R"(<figure class="wide" tabindex="0">)" +
+        embedded_svg(
+            svg, "Each quantity's distribution, and its dependence on the draw it follows most") +
+        "</figure>\n";
   }
   return html + correlations(study, table) + worst_runs(study, table, outcomes) + asked(study) +
          page_end();

@@ -118,7 +118,7 @@ Panel scatter(const Study& study, const Draws& draws, const std::vector<Contende
               const Outcomes& outcomes, std::size_t goal, std::size_t draw) {
   const std::size_t number = study.goals[goal].quantity;
   Panel panel;
-  panel.title = "what it goes with most: " + study.draws[draw].name;
+  panel.title = "strongest correlation: " + study.draws[draw].name;
   panel.x_label = label_of(study.draws[draw]);
   const Axis axis = axis_of(number);
   panel.y_label = axis.label;

@@ -47,7 +47,7 @@ void read_ends(Section& section, const std::string& key, double lowest, Distribu
   const auto ends = section.numbers(key, {1.0, 2.0}, {lowest, any.highest}, 2, 2);
   into.first = ends[0];
   into.second = ends[1];
-  if (!(ends[0] < ends[1])) section.wrong(key, "the second must be above the first");
+  if (!(ends[0] < ends[1])) section.wrong(key, "the second value must be greater than the first");
 }
 
 void read_normal(Section& section, Distribution& into) {
@@ -61,7 +61,7 @@ void read_normal(Section& section, Distribution& into) {
   constexpr double low = 0.25;
   constexpr double high = 0.75;
   if (into.second > 0.0 && !(into.at(low) < into.at(high)))
-    section.wrong("min", "next to nothing of the distribution is between min and max");
+    section.wrong("min", "almost none of the distribution lies between min and max");
 }
 
 toml::array read_list(Section& section, Distribution& into) {
@@ -73,7 +73,7 @@ toml::array read_list(Section& section, Distribution& into) {
     return one.is_number() || one.is_boolean();
   };
   if (list == nullptr || list->empty() || !std::all_of(list->begin(), list->end(), is_value)) {
-    section.wrong("list", "must be a list of numbers, true, false, or texts without comma");
+    section.wrong("list", "must be a list of numbers, true, false, or texts without a comma");
     return {};
   }
   into.values = list->size();
@@ -91,7 +91,8 @@ void read_distribution(Section& section, Draw& draw) {
   std::string found;
   for (const auto& [name, kind] : kinds) {
     if (!section.has(name)) continue;
-    if (!found.empty()) section.wrong(name, "there is " + found + " already; one of them");
+    if (!found.empty())
+      section.wrong(name, "conflicts with " + found + ": give exactly one distribution");
     found = name;
     draw.distribution.kind = kind;
   }
@@ -115,19 +116,20 @@ Draw read_draw(Section section) {
   Draw draw;
   draw.keys = texts(section, "keys");
   draw.name = section.text("name", draw.keys.empty() ? "" : draw.keys.front());
-  if (draw.name.empty()) section.wrong("keys", "is missing, and so is name: what is drawn?");
+  if (draw.name.empty())
+    section.wrong("keys", "is missing, and so is name: give at least one of them");
   if (draw.name.find_first_of(separators) != std::string::npos)
-    section.wrong("name", "must have no comma, quote, bar or line break");
+    section.wrong("name", "must not contain a comma, quote, bar or line break");
   read_distribution(section, draw);
   draw.times = texts(section, "times");
   draw.over = texts(section, "over");
   if (draw.distribution.kind == Distribution::Kind::list &&
       !(draw.times.empty() && draw.over.empty()))
-    section.wrong("list", "is taken as it is: times and over do not go with it");
+    section.wrong("list", "is used as it is: it cannot be combined with times or over");
   draw.group = section.text("group", "");
   draw.correlation = section.number("correlation", 1.0, {-1.0, 1.0});
   if (draw.group.empty() && section.has("correlation"))
-    section.wrong("correlation", "with what? group is missing");
+    section.wrong("correlation", "needs group: the draws to correlate with");
   section.finish();
   return draw;
 }
@@ -178,7 +180,8 @@ toml::table read_base(Section& study, const std::string& name, const std::filesy
     base = config::parse(std::string(*builtin), none);
   } else if (name.find_first_of("./") == std::string::npos) {
     const auto names = names_of(builtin_scenarios());
-    study.wrong("scenario", "is no built-in scenario; " + meant_or_all(name, names, "they are"));
+    study.wrong("scenario", "is not a built-in scenario; " +
+                                meant_or_all(name, names, "the built-in scenarios are"));
   } else {
     base = read_scenario_file((beside / name).string(), problems);
   }
@@ -217,8 +220,9 @@ void read_head(Section& section, Study& study) {
   study.seed = static_cast<std::uint64_t>(section.integer("seed", 1, 0, 2147483647));
   study.known_to = section.number("known_to", 0.0, {0.0, 0.5});
   if (study.known_to > 0.0 && study.sampling == Sampling::latin_hypercube) {
-    section.wrong("known_to",
-                  "the runs of a Latin hypercube are only good together; take sobol or random");
+    section.wrong(
+        "known_to",
+        "a Latin hypercube is valid only when all its runs are complete; use sobol or random");
   }
 }
 
@@ -227,7 +231,8 @@ void read_window(Section& section, Study& study) {
   const auto window =
       section.numbers("window_s", {duration_s / 2.0, duration_s}, {0.0, duration_s}, 2, 2);
   study.window = {window[0], window[1]};
-  if (!(window[0] < window[1])) section.wrong("window_s", "the second must be above the first");
+  if (!(window[0] < window[1]))
+    section.wrong("window_s", "the second value must be greater than the first");
 }
 
 /// Removes what does not affect a single run: the number of runs, and the goals.
@@ -252,7 +257,7 @@ tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t run
     if (path.find_first_of("./") == std::string::npos) {
       diagnostics.add(0, "",
                       "and no built-in study has that name; " +
-                          meant_or_all(path, names_of(builtin), "they are"));
+                          meant_or_all(path, names_of(builtin), "the built-in studies are"));
     }
     return tl::unexpected(diagnostics.problems());
   }
@@ -269,7 +274,8 @@ tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t run
   study.base = head.text("scenario", "sine");
   study.scenario = read_base(head, study.base, beside, document, of_scenario);
   if (document.contains("scenario") && !document.get("scenario")->is_table())
-    top.wrong("scenario", "must be tables: [scenario.plant] and so on; its name is study.scenario");
+    top.wrong("scenario",
+              "must be tables, such as [scenario.plant]; name the scenario in study.scenario");
   read_window(head, study);
   study.contenders = read_contenders(head, beside);
   head.finish();

@@ -107,10 +107,12 @@ Result<bool> Lines::read(const std::filesystem::path& path, Outcomes& into) cons
       return failure(where + "is damaged: " + why + ": " + std::string(text));
     };
     const auto fields = batch::fields_of(text);
-    if (fields.size() != columns) return damaged("must be " + std::to_string(columns) + " fields");
+    if (fields.size() != columns)
+      return damaged("must have " + std::to_string(columns) + " fields");
     const auto key = read_key(fields, *study_);
     if (!key) return damaged("there is no such run");
-    if (!text.starts_with(begin_of(*key))) return damaged("this run draws something else");
+    if (!text.starts_with(begin_of(*key)))
+      return damaged("the study draws other values for this run");
     Outcome outcome{std::string(fields[before]), std::string(fields[before + 1]), {}};
     for (std::size_t i = 0; i < quantity_count; ++i) {
       if (!batch::read_number(fields[before + 2 + i], outcome.values[i]))
@@ -118,8 +120,7 @@ Result<bool> Lines::read(const std::filesystem::path& path, Outcomes& into) cons
     }
     const auto [there, is_new] = into.try_emplace(*key, outcome);
     if (!is_new && !same(there->second, outcome)) {
-      return failure(where + "run " + std::to_string(key->run + 1) +
-                     " came to something else before");
+      return failure(where + "run " + std::to_string(key->run + 1) + " gave another result before");
     }
     return {};
   };

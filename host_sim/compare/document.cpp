@@ -22,7 +22,7 @@ supercoil::Result<Document> find(const std::string& name, const char* what,
     if (!diagnostics.empty()) return failure(config::to_text(diagnostics.problems()));
     const std::string stem = std::filesystem::path(name).stem().string();
     if (stem.find_first_of(",\"\n|") == std::string::npos) return Document{stem, std::move(text)};
-    return failure(name + ": its name must have no comma, quote, bar or line break\n");
+    return failure(name + ": the file name must not contain a comma, quote, bar or line break\n");
   }
   std::string known;
   for (const BuiltinScenario& entry : entries) {
@@ -43,7 +43,7 @@ supercoil::Result<Document> find_controller(const std::string& name) {
   for (const auto& [key, node] : config::parse(document->text, diagnostics)) {
     if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
     diagnostics.add(static_cast<int>(key.source().begin.line), std::string(key.str()),
-                    "a controller's file has only [controller], [estimator] and "
+                    "a controller's file may have only [controller], [estimator] and "
                     "[reference_model]; this belongs in a file for --disturbances");
   }
   if (diagnostics.empty()) return document;
@@ -72,7 +72,8 @@ supercoil::Result<Document> find_disturbance(const std::string& name) {
   const auto read = std::from_chars(name.data() + plus + 1, end, later_s);
   constexpr double latest_s = 1e5;
   if (read.ec != std::errc{} || read.ptr != end || !(later_s >= 0.0 && later_s <= latest_s)) {
-    return failure("--disturbances " + name + ": after + must come seconds, from 0 to 100000\n");
+    return failure("--disturbances " + name +
+                   ": after + must come a time in seconds, 0 to 100000\n");
   }
   auto document = find_disturbance_now(name.substr(0, plus));
   if (document) {
@@ -95,7 +96,7 @@ Documents find_all(const std::vector<std::string>& names, Find find_one) {
     const bool twice = std::any_of(documents.begin(), documents.end(), [&](const Document& other) {
       return other.name == document->name;
     });
-    if (twice) problems += name + ": " + document->name + " is there twice\n";
+    if (twice) problems += name + ": " + document->name + " is given twice\n";
     documents.push_back(std::move(*document));
   }
   if (!problems.empty()) return failure(problems);

@@ -86,8 +86,9 @@ supercoil::Result<ReadResults> read_results(const std::filesystem::path& path) {
       [&](std::string_view line, const std::string& where) -> supercoil::Result<void> {
         auto one = read_line(line);
         if (!one) {
-          return failure(where + "is damaged: must be " + std::to_string(columns) +
-                         " fields, seed and measures numbers: " + std::string(line));
+          return failure(
+              where + "is damaged: must have " + std::to_string(columns) +
+              " fields, with numbers for the seed and the measures: " + std::string(line));
         }
         return merge(read.results, {std::move(*one)}, where);
       });

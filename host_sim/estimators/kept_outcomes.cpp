@@ -98,7 +98,7 @@ Result<ReadOutcomes> read_outcomes(const std::filesystem::path& path) {
       path, head(), [&](std::string_view line, const std::string& where) -> Result<void> {
         auto one = read_line(line);
         if (!one) {
-          return failure(where + "is damaged: must be a trial, an estimator, and " +
+          return failure(where + "is damaged: must have a trial, an estimator and " +
                          std::to_string(columns() - 2) + " numbers");
         }
         read.outcomes.insert(std::move(*one));

@@ -74,7 +74,7 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
   std::ostringstream message;
   if (power.max_W > full_scale_W) {
-    message << "must not exceed the power at a duty of 1: supply_V²/resistance_Ohm = "
+    message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
             << full_scale_W << " W";
     section.wrong("max_W", message.str());
   } else if (power.pwm_steps > 0) {

@@ -219,7 +219,7 @@ class Campaign(Batch, ProgramCase):
         self.damaged("\n2,pi,", "\n2,mrac,", "runs.csv:5: is damaged: there is no such run")
 
     def test_a_line_that_draws_something_else_is_damaged(self):
-        self.damaged("\n2,pi,", "\n2,pi,1", "runs.csv:5: is damaged: this run draws something else")
+        self.damaged("\n2,pi,", "\n2,pi,1", "runs.csv:5: is damaged: the study draws other values for this run")
 
     def test_results_of_another_study_are_refused(self):
         self.whole()

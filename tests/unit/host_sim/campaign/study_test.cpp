@@ -71,7 +71,7 @@ TEST(Study, SaysWhatIsWrongWithItAndWhere) {
   check_problem("study.runs = 0: must be 1 to 1000000", "[study]\nruns = 0");
   check_problem("study.sampling = 'dice': must be one of: sobol, latin_hypercube, random",
                 "[study]\nsampling = 'dice'");
-  check_problem("study.scenario = 'sin': is no built-in scenario; did you mean sine?",
+  check_problem("study.scenario = 'sin': is not a built-in scenario; did you mean sine?",
                 "[study]\nscenario = 'sin'");
   check_problem("study.controllers = 'mrc': --controllers mrc: must be a .toml file or one of: pi",
                 "[study]\ncontrollers = 'mrc'");
@@ -80,25 +80,27 @@ TEST(Study, SaysWhatIsWrongWithItAndWhere) {
   check_problem("study.toml:1: scenario = 5: must be tables: [scenario.plant]", "scenario = 5");
   check_problem("none-such.toml: there is no such file", "[study]\nscenario = './none-such.toml'");
   check_problem("study.window_s", "[study]\nwindow_s = [50.0, 20.0]");
-  check_problem("the runs of a Latin hypercube are only good together",
+  check_problem("a Latin hypercube is valid only when all its runs are complete",
                 "[study]\nsampling = 'latin_hypercube'\nknown_to = 0.01");
 }
 
 TEST(Study, SaysWhatIsWrongWithADraw) {
   check_problem("draw[1].constant: is missing", draw(""));
-  check_problem("log_uniform = [1, 2]: there is uniform already; one of them",
+  check_problem("log_uniform = [1, 2]: conflicts with uniform: give exactly one distribution",
                 draw("uniform = [1.0, 2.0]\nlog_uniform = [1.0, 2.0]"));
-  check_problem("draw[1].uniform = [2, 1]: the second must be above the first",
+  check_problem("draw[1].uniform = [2, 1]: the second value must be greater than the first",
                 draw("uniform = [2.0, 1.0]"));
   check_problem("draw[1].log_uniform", draw("log_uniform = [0.0, 1.0]"));
   check_problem("the standard deviation must be above 0", draw("normal = [1.0, 0.0]"));
-  check_problem("min = 50: next to nothing of the distribution is between min and max",
+  check_problem("min = 50: almost none of the distribution lies between min and max",
                 draw("normal = [0.0, 1.0]\nmin = 50.0\nmax = 51.0"));
-  check_problem("must be a list of numbers, true, false, or texts without comma",
+  check_problem("must be a list of numbers, true, false, or texts without a comma",
                 draw("list = ['a,b']"));
-  check_problem("times and over do not go with it", draw("list = [1.0]\ntimes = 'x'"));
-  check_problem("with what? group is missing", draw("uniform = [1.0, 2.0]\ncorrelation = 0.5"));
-  check_problem("is missing, and so is name: what is drawn?", "[[draw]]\nuniform = [1.0, 2.0]");
+  check_problem("it cannot be combined with times or over", draw("list = [1.0]\ntimes = 'x'"));
+  check_problem("needs group: the draws to correlate with",
+                draw("uniform = [1.0, 2.0]\ncorrelation = 0.5"));
+  check_problem("is missing, and so is name: give at least one of them",
+                "[[draw]]\nuniform = [1.0, 2.0]");
   check_problem("plant.stiffness_N_per_m is drawn twice",
                 draw("uniform = [1.0, 2.0]") + draw("uniform = [1.0, 2.0]"));
 }
@@ -155,7 +157,7 @@ TEST(Study, ADrawOfWhatIsNotThereIsRefused) {
   const Study study = study_of("[study]\n" + draw("constant = 1.0\ntimes = 'plant.colour'"));
   const auto scenario = Draws(study).scenario(Draws(study).medians(), 0, 0);
   CHECK(!scenario);
-  STRCMP_CONTAINS("times or over names plant.colour, which is neither drawn before nor a number",
+  STRCMP_CONTAINS("times or over names plant.colour, which is neither an earlier draw nor a number",
                   supercoil::config::to_text(scenario.error()).c_str());
 }
 

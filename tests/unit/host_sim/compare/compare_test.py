@@ -79,7 +79,7 @@ class Compare(Batch, ProgramCase):
     def test_what_cannot_be_chosen_is_refused_before_anything_is_written(self):
         for arguments, message in [
                 (["--controllers", "pid"], "--controllers pid: must be a .toml file or one of: pi, pi-tuned, "),
-                (["--disturbances", "stiffness+x"], "--disturbances stiffness+x: after + must come seconds"),
+                (["--disturbances", "stiffness+x"], "--disturbances stiffness+x: after + must come a time in seconds"),
                 (["--disturbances", "none.toml"], "none.toml: there is no such file"),
                 (["--arithmetic", "half"], "--arithmetic half: must be one of: double, float, q8.24"),
                 (["--seeds", "0"], "--seeds 0: must be 1 to 100000"),

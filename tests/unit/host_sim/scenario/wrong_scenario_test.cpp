@@ -150,7 +150,7 @@ TEST(WrongScenario, ReferenceOutOfReach) {
 
 TEST(WrongScenario, PowerBeyondTheSupply) {
   check_answer(
-      "s.toml:1: power.max_W = 20: must not exceed the power at a duty of 1: "
+      "s.toml:1: power.max_W = 20: must not exceed what the supply gives at a duty of 1: "
       "supply_V²/resistance_Ohm = 14.4 W",
       "power = {max_W = 20.0, pwm_bits = 12}");
 }
@@ -207,7 +207,7 @@ TEST(WrongScenario, LeastSquaresIsRefusedInFixedPoint) {
 
 TEST(WrongScenario, DefaultThatDoesNotFitIsNamedAsOne) {
   check_answer(
-      "s.toml:1: power.max_W (its default): must not exceed the power at a duty of 1: "
+      "s.toml:1: power.max_W (its default): must not exceed what the supply gives at a duty of 1: "
       "supply_V²/resistance_Ohm = 0.9 W",
       "power = {supply_V = 3.0}");
 }

@@ -42,7 +42,7 @@ double median_interval(const Recording& r) {
 Checked check_values(const Recording& r) {
   for (std::size_t i = 0; i < r.size(); ++i) {
     if (std::isinf(r.time_s[i]) || std::isinf(r.position_m[i]) || !std::isfinite(r.power_W[i]))
-      return refuse(r.line[i], "has a value that is infinite");
+      return refuse(r.line[i], "has an infinite value");
     if (r.power_W[i] < 0.0)
       return refuse(r.line[i], "power is ", r.power_W[i], " W: a muscle is heated, never cooled");
   }
@@ -52,12 +52,12 @@ Checked check_values(const Recording& r) {
 Checked check_times(Recording& r, Gaps gaps) {
   for (std::size_t i = 1; i < r.size(); ++i) {
     if (r.time_s[i] == r.time_s[i - 1]) {
-      return refuse(r.line[i], "the time ", r.time_s[i], " s is there twice, first in line ",
+      return refuse(r.line[i], "the time ", r.time_s[i], " s occurs twice, first in line ",
                     r.line[i - 1]);
     }
     if (r.time_s[i] < r.time_s[i - 1]) {
       return refuse(r.line[i], "the time goes back, from ", r.time_s[i - 1], " to ", r.time_s[i],
-                    " s: rows must be in the order of time, and of one recording");
+                    " s: rows must be in order of time and come from one recording");
     }
   }
   const double usual_s = median_interval(r);
@@ -81,12 +81,12 @@ Checked check_times(Recording& r, Gaps gaps) {
   if (gaps == Gaps::refuse && max_s > refused_intervals * usual_s && max_s > refused_gap_s) {
     return refuse(r.line[longest], "rows are missing: ", max_s, " s since the row before, ",
                   usual_s,
-                  " s elsewhere. What the power was is not known: use a part without the gap "
-                  "(--from, --to), or say --bridge-gaps if power stayed as it was");
+                  " s elsewhere. The power in the gap is not known: use a part without the gap "
+                  "(--from, --to), or give --bridge-gaps if the power did not change");
   }
   r.warnings.push_back(problem(r.line[longest], "rows are missing in ", count,
-                               " places, here for the longest time: ", max_s,
-                               " s; power is taken as held"));
+                               " places, the longest gap being here: ", max_s,
+                               " s; power is taken as unchanged"));
   return {};
 }
 
@@ -109,17 +109,17 @@ Checked check_position(Recording& r) {
   }
   if (missing > 0) {
     r.warnings.push_back(problem(r.line[first_missing], "position is missing in ", missing, " of ",
-                                 r.size(), " rows, first here; they are left out"));
+                                 r.size(), " rows, first here; these rows are left out"));
   }
   const double stroke_m = r.position_m[highest] - r.position_m[lowest];
   if (stroke_m > 1.0) {
     return refuse(r.line[highest], "position moves by ", stroke_m,
-                  " m, up to here: is it in another unit (--position-unit)?");
+                  " m, with its highest value here: is it in another unit (--position-unit)?");
   }
   if (stroke_m == 0.0) return refuse(r.line[0], "position never changes");
   if (stroke_m < 2e-6) {
     return refuse(r.line[highest], "position moves by ", stroke_m,
-                  " m, up to here: is it in another unit (--position-unit)?");
+                  " m, with its highest value here: is it in another unit (--position-unit)?");
   }
   return {};
 }
@@ -129,12 +129,13 @@ Checked check_power(const Recording& r) {
   const auto highest = std::max_element(r.power_W.begin(), r.power_W.end());
   const std::size_t line = r.line[static_cast<std::size_t>(highest - r.power_W.begin())];
   if (*highest - *lowest <= 1e-3 * *highest) {
-    return refuse(line, "power never changes from ", *highest,
-                  " W: what it moves cannot be found; is it the right column (--power-column)?");
+    return refuse(
+        line, "power never changes from ", *highest,
+        " W: its effect cannot be identified; is this the right column (--power-column)?");
   }
   if (*highest > 1000.0 || *highest < 1e-3) {
-    return refuse(line, "power is up to ", *highest,
-                  " W, here: is it in another unit (--power-unit)?");
+    return refuse(line, "power reaches ", *highest,
+                  " W here: is it in another unit (--power-unit)?");
   }
   return {};
 }

@@ -160,21 +160,21 @@ std::string muscle_rejection(const Comparison& c) {
   if (best_m > well_explained * c.sizes.stroke_m && transformed_m < much_better * best_m) {
     std::snprintf(
         text.data(), text.size(),
-        "nearly all of its stroke lies within a narrow range of heat, and below and above "
-        "that heat hardly moves it: a material that transforms, such as shape-memory "
+        "nearly all of its stroke lies within a narrow range of heat, and heat below or above "
+        "that range hardly moves it: a material that transforms, such as shape-memory "
         "wire, or an end stop. Such a model is off by %.2f %% of the stroke (rms), the "
-        "best of a super-coiled polymer muscle by %.2f %%",
+        "best model of a super-coiled polymer muscle by %.2f %%",
         100.0 * transformed_m / c.sizes.stroke_m, 100.0 * best_m / c.sizes.stroke_m);
     return text.data();
   }
   const Judged& best = c.best();
   if (best.unseen_rms_m > unexplained * c.sizes.stroke_m) {
-    std::snprintf(text.data(), text.size(),
-                  "no model predicts what it was not fitted to: the best is off by %.0f %% of the "
-                  "stroke (rms) there, and by %.1f %% where it was fitted. Power may not be what "
-                  "moves it, or something changed between the parts",
-                  100.0 * best.unseen_rms_m / c.sizes.stroke_m,
-                  100.0 * best.fitted_rms_m / c.sizes.stroke_m);
+    std::snprintf(
+        text.data(), text.size(),
+        "no model predicts the part that it was not fitted to: the best is off by %.0f %% of "
+        "the stroke (rms) there, and by %.1f %% where it was fitted. Something other than "
+        "power may move it, or something changed between the parts",
+        100.0 * best.unseen_rms_m / c.sizes.stroke_m, 100.0 * best.fitted_rms_m / c.sizes.stroke_m);
   }
   return text.data();
 }

@@ -66,10 +66,11 @@ tl::expected<Found, Problem> find_column(const Fields& names, std::size_t line,
   const auto index = index_of(names, wanted, column.name);
   if (!index) {
     return tl::unexpected(Problem{
-        line, (column.name.empty() ? std::string("has no column that is known as ") + wanted.name +
-                                         "; name it with " + option + "-column"
-                                   : option + "-column " + column.name + ": there is none") +
-                  "; the columns are " + list_of(names)});
+        line,
+        (column.name.empty() ? std::string("has no column recognised as ") + wanted.name +
+                                   "; name it with " + option + "-column"
+                             : option + "-column " + column.name + ": there is no such column") +
+            "; the columns are " + list_of(names)});
   }
   std::string unit = column.unit;
   if (unit.empty()) unit = split_name(wanted.quantity, names[*index]).unit;
@@ -125,7 +126,7 @@ class CsvReader {
       if (first_channel_.empty()) first_channel_ = fields[*channel_at_];
       if (fields[*channel_at_] != first_channel_) {
         return tl::unexpected(
-            Problem{lines_.number(), "is of another channel: say which by --channel"});
+            Problem{lines_.number(), "belongs to another channel: say which by --channel"});
       }
     } else if (channel_at_ && fields[*channel_at_] != std::to_string(columns_.channel)) {
       return {};

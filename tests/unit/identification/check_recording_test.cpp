@@ -52,7 +52,7 @@ TEST(CheckRecording, RefusesTimesThatGoBackOrRepeat) {
   r.time_s[50] = 0.3;
   check_refused(r, 52, "the time goes back, from 0.49 to 0.3 s");
   r.time_s[50] = r.time_s[49];
-  check_refused(r, 52, "is there twice, first in line 51");
+  check_refused(r, 52, "occurs twice, first in line 51");
 }
 
 TEST(CheckRecording, RefusesAGapUnlessItIsBridged) {
@@ -78,7 +78,8 @@ TEST(CheckRecording, RefusesWrongUnits) {
   Recording r = good_recording();
   for (double& position : r.position_m)
     position *= 1e3;
-  check_refused(r, 201, "position moves by 1.99 m, up to here: is it in another unit");
+  check_refused(r, 201,
+                "position moves by 1.99 m, with its highest value here: is it in another unit");
   r = good_recording();
   for (double& position : r.position_m)
     position *= 1e-4;
@@ -90,7 +91,7 @@ TEST(CheckRecording, RefusesWrongUnits) {
   r = good_recording();
   for (double& power : r.power_W)
     power *= 1e3;
-  check_refused(r, 102, "power is up to 2000 W, here: is it in another unit (--power-unit)?");
+  check_refused(r, 102, "power reaches 2000 W here: is it in another unit (--power-unit)?");
 }
 
 TEST(CheckRecording, RefusesWhatTellsNothing) {

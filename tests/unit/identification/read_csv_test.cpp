@@ -92,12 +92,13 @@ TEST(ReadCsv, NamesTheLineOfABadRow) {
 }
 
 TEST(ReadCsv, SaysWhichColumnIsMissingAndWhatThereIs) {
-  check_problem(refused("time_s,position_m,heated\n0,1,1\n"), 1,
-                "known as power; name it with --power-column; the columns are time_s, position_m, "
-                "heated");
+  check_problem(
+      refused("time_s,position_m,heated\n0,1,1\n"), 1,
+      "recognised as power; name it with --power-column; the columns are time_s, position_m, "
+      "heated");
   const Columns columns{{}, {"lenght", "", 1.0}, {}};
   check_problem(refused("time_s,position_m,power_W\n0,1,1\n", columns), 1,
-                "--position-column lenght: there is none");
+                "--position-column lenght: there is no such column");
   const Columns feet{{}, {"", "ft", 1.0}, {}};
   check_problem(refused("time_s,position_m,power_W\n0,1,1\n", feet), 0,
                 "--position-unit ft: must be one of m, cm, mm, um");

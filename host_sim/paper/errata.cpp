@@ -166,7 +166,7 @@ void add_damping_identity(Part& part) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   part.rows.push_back({"errata.eq17", "not clipped", "largest relative |uf − θᵀφ − r0|", "", "0",
                        shown(damping_identity_error({-infinity, infinity})),
-                       "Eq. (17) is right: only the discretisation is left"});
+                       "Eq. (17) is right: only the discretisation error remains"});
   part.rows.push_back({"errata.eq16", "clipped", "largest relative |uf − θᵀφ − r0|", "", "0",
                        shown(damping_identity_error({0.0, 4.5})),
                        "the r0 equation holds only while the power is not clipped"});
@@ -189,7 +189,7 @@ void add_signals(Part& part) {
       {"errata.power.range", "least", "P(t) of Eq. (18)", "W", "0", shown(lowest), ""});
   part.rows.push_back({"errata.power.range", "greatest", "P(t) of Eq. (18)", "W", "4.5",
                        shown(highest), "the text: 4.5 W peak to peak"});
-  part.rows.push_back({"errata.power.range", "above 4.5 W", "part of the time", "%", "0",
+  part.rows.push_back({"errata.power.range", "above 4.5 W", "fraction of the time", "%", "0",
                        shown(100.0 * above / samples), ""});
 
   PhysicalParameters unit;
@@ -202,7 +202,7 @@ void add_signals(Part& part) {
     const auto& d = model.denominator;
     const Complex answer = model.gain / (((s + d[2]) * s + d[1]) * s + d[0]);
     part.rows.push_back({"errata.reference.negative_power", name,
-                         "least power that following the sine needs", "W", ">= 0",
+                         "minimum power needed to follow the sine", "W", ">= 0",
                          shown(1.01 * f.b0 / f.b3 - std::abs(inverse_plant * answer)),
                          "with Eq. (19) active the model cannot be followed"});
   }
@@ -213,7 +213,7 @@ void add_scale(Part& part) {
   const auto f = control::transfer_function_from(p);
   const auto pole = roots(f.b2, f.b1, f.b0);
   const double full_W = 4.5;
-  part.rows.push_back({"errata.scale.dc_gain", "true units", "position a watt holds", "mm/W", "",
+  part.rows.push_back({"errata.scale.dc_gain", "true units", "position held per watt", "mm/W", "",
                        shown(p.dc_gain_m_per_W() * 1e3), "a model of 1 m/W cannot be followed"});
   part.rows.push_back({"errata.scale.position", "true units", "position at 4.5 W", "mm", "",
                        shown(p.dc_gain_m_per_W() * full_W * 1e3), ""});

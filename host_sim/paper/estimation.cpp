@@ -79,10 +79,9 @@ Part repeat_estimation() {
   part.title = "Estimation (Section 5.1, Figure 2)";
   part.introduction =
       "The gradient estimator learns four combinations of the muscle's parameters from its power "
-      "and its position. The paper says that they converge within 69 s; three of four are "
-      "within 5 % then; the first, which is the thermal mass, needs 2 s more, and the second "
-      "leaves "
-      "once more until 89 s.";
+      "and its position. The paper says that they converge within 69 s. By then three of the four "
+      "are within 5 %; the first, the thermal mass, needs 2 s more, and the second leaves this "
+      "band once more until 89 s.";
   const Convergence c = converge();
   for (int i = 0; i < 4; ++i) {
     const std::string id = "fig2.theta" + std::to_string(i + 1);
@@ -94,7 +93,7 @@ Part repeat_estimation() {
   }
   part.rows.push_back({"fig2.theta1.error_at_200s", "printed", "error at 200 s", "%", "",
                        shown(c.error_at_end[0] * 100.0),
-                       "ψ is the hard one: at 1 rad/s it is "
+                       "ψ is the hardest to learn: at 1 rad/s it contributes "
                        "1.7 of 322 of the signal"});
   part.figures.push_back({"figure2", "Figure 2: parameter estimation",
                           "The paper's gains, input and start. Dashed: the true values.",

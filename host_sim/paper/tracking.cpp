@@ -83,7 +83,7 @@ void add_pi(Part& part, Signal signal, LoopCurves* curves) {
   part.rows.push_back(
       row("fig3", signal, "pi", "unsaturated", sine ? "0.0192" : "5.8e-4", shown(o.before.mean()),
           sine ? "30-80 s"
-               : "45-80 s; no window gives the paper's: the error passes 5.8e-4 at " +
+               : "45-80 s; no window gives the paper's value: the error passes 5.8e-4 at " +
                      shown(o.reaches_paper_s) + " s"));
   const bool diverges = o.max_by_130s > 10.0;
   part.rows.push_back(row("fig4", signal, "pi", "unsaturated", "unstable",
@@ -114,9 +114,9 @@ struct Reading {
 
 constexpr std::array<Reading, 6> readings{{
     {"eq8.saturated", "eq8", 1.0, true, 0.0, "Eq. (8) as printed"},
-    {"design.saturated", "design", 1.0, true, 0.0, "the model that the text asks for"},
+    {"design.saturated", "design", 1.0, true, 0.0, "the model specified in the text"},
     {"wm16.saturated", "wm16", 1.0, true, 0.0, "the model that Eq. (12) needs"},
-    {"wm16.saturated.c0", "wm16", 1.0, true, 1.0, "the same from c0(0) = 1"},
+    {"wm16.saturated.c0", "wm16", 1.0, true, 1.0, "the same, starting from c0(0) = 1"},
     {"eq8.x200", "eq8", 200.0, false, 0.0, "gains x 200, no saturation"},
     {"wm16.x200", "wm16", 200.0, false, 0.0, "gains x 200, no saturation"},
 }};
@@ -143,7 +143,8 @@ Part repeat_tracking() {
   part.introduction =
       "Three controllers follow a sine and a step; at 80 s the muscle's stiffness falls from 16 to "
       "12 N/m. The paper's plant has the numerator 1/(ψm̂) = 68.587, so its metres are true metres "
-      "divided by γ = 0.0086. For the MRAC the paper does not say enough: six readings are shown. "
+      "divided by γ = 0.0086. The paper does not specify its MRAC completely, so six readings are "
+      "shown. "
       "With Eq. (8) and the power limits of Eq. (19) together no controller can reach its 0.0028.";
   TrackingCurves curves;
   for (const Signal signal : {Signal::sine, Signal::step}) {

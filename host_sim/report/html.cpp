@@ -11,9 +11,9 @@ constexpr const char* introduction = R"(<h1>The paper, repeated</h1>
 when it is heated &ndash; by two equations: heating, &psi;&nbsp;d&phi;/dt = &minus;&eta;&phi; + P, and
 motion, m&#770;&nbsp;d&sup2;x/dt&sup2; = &minus;&rho;x &minus; &mu;&nbsp;dx/dt + &gamma;&phi;. It learns
 the parameters while the muscle moves, and makes it follow a position by model reference adaptive
-control. Below, every figure of its Section&nbsp;5 stands beside what its equations give when they are
-run. Where the text allows several readings, each is a row of its own. Nothing on this page is copied
-from a table of ours: the program that wrote it computed it just before.</p>
+control. Below, every figure of its Section&nbsp;5 is shown beside the result of running its
+equations. Where the text allows several readings, each is a row of its own. Nothing on this page is copied
+from a table: the program computed every value while writing the page.</p>
 )";
 
 std::string table(const paper::Part& part) {

@@ -12,8 +12,8 @@ when it is heated &ndash; by two equations: heating, &psi;&nbsp;d&phi;/dt = &min
 motion, m&#770;&nbsp;d&sup2;x/dt&sup2; = &minus;&rho;x &minus; &mu;&nbsp;dx/dt + &gamma;&phi;. It learns
 the parameters while the muscle moves, and makes it follow a position by model reference adaptive
 control. Below, every figure of its Section&nbsp;5 is shown beside the result of running its
-equations. Where the text allows several readings, each is a row of its own. Nothing on this page is copied
-from a table: the program computed every value while writing the page.</p>
+equations. Where the text allows several readings, each is a row of its own. Nothing on this page is
+copied from a table: the program computed every value while writing the page.</p>
 )";
 
 std::string table(const paper::Part& part) {

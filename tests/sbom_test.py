@@ -152,7 +152,7 @@ class Sbom(unittest.TestCase):
     def test_a_dependency_that_is_not_listed_is_an_error(self):
         done = self.package("libc6", "libfoo1")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertIn("libfoo1, which is needed, has 0 entries", done.stderr)
+        self.assertIn("libfoo1, a dependency, has 0 entries", done.stderr)
 
 
 if __name__ == "__main__":

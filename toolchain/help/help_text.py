@@ -44,5 +44,5 @@ def parts_of(name):
     """The parts of an option or a positional as it stands in the help."""
     parts = NAME.fullmatch(name)
     if not parts:
-        raise SystemExit(f"cannot read this of the help: {name}")
+        raise SystemExit(f"cannot parse this entry of the help: {name}")
     return parts

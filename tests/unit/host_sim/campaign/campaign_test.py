@@ -192,7 +192,7 @@ class Campaign(Batch, ProgramCase):
                               env={"PATH": str(tools)}, capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("sbatch", done.stderr)
-        self.assertIn("on a machine that has sbatch: sh array/submit.sh", done.stderr)
+        self.assertIn("on a machine with sbatch, run: sh array/submit.sh", done.stderr)
 
     def test_parts_that_lack_runs_are_told(self):
         self.campaign("--out", "part1", "--shard", "1/3")

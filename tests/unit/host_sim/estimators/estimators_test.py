@@ -64,7 +64,7 @@ class Estimators(unittest.TestCase):
                 told = running.communicate(timeout=60)[1]
             self.assertEqual(running.returncode, status, told)
             if number == signal.SIGINT:
-                self.assertRegex(told, r"interrupted; \d+ runs are kept in .*runs.csv; the same command goes on")
+                self.assertRegex(told, r"interrupted; \d+ runs are kept in .*runs.csv; the same command resumes")
             kept = (out / "runs.csv").read_text()
             (out / "runs.csv").write_text(kept + "nominal,gradient,7,0.1")  # torn
             done = self.compare("--seeds", 1, "--no-plot", "--out", out)

@@ -126,7 +126,7 @@ class CsvReader {
       if (first_channel_.empty()) first_channel_ = fields[*channel_at_];
       if (fields[*channel_at_] != first_channel_) {
         return tl::unexpected(
-            Problem{lines_.number(), "belongs to another channel: say which by --channel"});
+            Problem{lines_.number(), "belongs to another channel: choose one with --channel"});
       }
     } else if (channel_at_ && fields[*channel_at_] != std::to_string(columns_.channel)) {
       return {};

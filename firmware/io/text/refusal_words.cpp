@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "commands were lost: try again",
     "more commands than the board accepts at once: try again",
     "the lease is free but was not granted: try again",
-    "the board speaks another version of the protocol: use the matching supercoil",
+    "the board speaks another version of the protocol: use the matching version of supercoil",
     "unstable on the muscle that is known, or values that contradict each other; nothing changed",
     "the muscle cannot do it: it needs more power than there is, or faster cooling"};
 
@@ -40,7 +40,7 @@ constexpr std::string_view of_comparison =
 constexpr std::array of_verbs{
     OfVerb{Verb::arm, Refusal::wrong_state, "it is already armed, or has a fault: reset it first"},
     OfVerb{Verb::reset, Refusal::wrong_state, "it has no fault"},
-    OfVerb{Verb::renew, Refusal::wrong_state, "no command to heat is in force"},
+    OfVerb{Verb::renew, Refusal::wrong_state, "no command that heats is active"},
     OfVerb{Verb::rest, Refusal::wrong_state, "it is already resting, or is off"},
     OfVerb{Verb::store, Refusal::not_ready, "the estimate is not trusted yet"},
     OfVerb{Verb::store, Refusal::busy, "the previous tuning is still being stored: try again"},
@@ -50,7 +50,7 @@ constexpr std::array of_verbs{
     OfVerb{Verb::compare_rise, Refusal::wrong_state, of_comparison},
     OfVerb{Verb::knot, Refusal::wrong_state, "it follows no position, or the motion has ended"},
     OfVerb{Verb::start, Refusal::wrong_state, "no motion is loaded"},
-    OfVerb{Verb::start, Refusal::not_ready, "its set point is not at the start of the motion"},
+    OfVerb{Verb::start, Refusal::not_ready, "its set point differs from the start of the motion"},
     OfVerb{Verb::start, Refusal::out_of_range, "the start time has passed"},
     OfVerb{
         Verb::scale, Refusal::unsuitable,

@@ -109,7 +109,7 @@ TEST(ReadCsv, SaysWhichColumnIsMissingAndWhatThereIs) {
 TEST(ReadCsv, WantsOneChannelOfSeveral) {
   const std::string text =
       "time_s,channel,position_m,applied_W\n0,1,0.1,1\n0,2,0.5,2\n1,1,0.2,1\n1,2,0.6,2\n";
-  check_problem(refused(text), 3, "another channel: say which by --channel");
+  check_problem(refused(text), 3, "another channel: choose one with --channel");
   const Recording second = read_well(text, {{}, {}, {}, 2});
   UNSIGNED_LONGS_EQUAL(2, second.size());
   DOUBLES_EQUAL(0.6, second.position_m[1], 0.0);

@@ -127,7 +127,7 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
   if (std::isfinite(version) && version != telemetry::protocol_version) {
     text += "  it speaks version " + std::to_string(std::lround(version)) +
             " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
-            ": numbers may be wrong; use the matching supercoil\n";
+            ": numbers may be wrong; use the matching version of supercoil\n";
   }
   text += program_text(node);
   if (value(node, "Status", "proof_off") == 1.0) {

@@ -49,7 +49,7 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
   const double load = telemetry::bus_load(*can, config.settings.channels);
   sink({"CAN load", Severity::ok,
         in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
-            " kbit/s at worst, without commands; at most " + in_percent(can->max_load),
+            " kbit/s at worst, without commands; the limit is " + in_percent(can->max_load),
         ""});
 }
 

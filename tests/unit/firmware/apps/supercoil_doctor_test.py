@@ -110,7 +110,7 @@ class Doctor(unittest.TestCase):
             file.write('[can]\ninterface = "no-can6"\nbit_rate = 500000\n')
         found = self.findings()
         self.assertEqual(found["CAN no-can6"]["severity"], "problem")
-        self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, without commands; at most 50.0 %$")
+        self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, without commands; the limit is 50.0 %$")
 
     def test_a_can_interface_only_when_it_is_asked_for(self):
         self.assertNotIn("CAN", " ".join(self.findings()))

@@ -85,7 +85,7 @@ export class StateCard {
     this.foreign.hidden = !row || row.protocol_version === this.version;
     if (!this.foreign.hidden) {
       show(this.foreign, `It speaks version ${row.protocol_version} of the protocol, this page ${this.version}: ` +
-        "numbers may be wrong. Use the matching supercoil.");
+        "numbers may be wrong. Use the matching version of supercoil.");
     }
     const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
     this.progress.hidden = !shows;

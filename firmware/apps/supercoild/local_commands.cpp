@@ -135,8 +135,7 @@ void LocalCommands::accept_one() {
 bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
                                 const NewestRows& rows) {
   std::array<char, max_line> line{};
-  const ssize_t size =
-      ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT | MSG_TRUNC);
+  const ssize_t size = ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT | MSG_TRUNC);
   if (size <= 0) return size < 0 && (errno == EAGAIN || errno == EINTR);
   const auto length = static_cast<std::size_t>(size);
   if (length > line.size()) {

@@ -77,7 +77,8 @@ TEST(Study, SaysWhatIsWrongWithItAndWhere) {
                 "[study]\ncontrollers = 'mrc'");
   check_problem("goals.tracking_rms_um = 5: is not a key of [goals]; did you mean tracking_rms_m?",
                 "[goals]\ntracking_rms_um = 5");
-  check_problem("study.toml:1: scenario = 5: must be tables, such as [scenario.plant]", "scenario = 5");
+  check_problem("study.toml:1: scenario = 5: must be tables, such as [scenario.plant]",
+                "scenario = 5");
   check_problem("none-such.toml: there is no such file", "[study]\nscenario = './none-such.toml'");
   check_problem("study.window_s", "[study]\nwindow_s = [50.0, 20.0]");
   check_problem("a Latin hypercube is valid only when all its runs are complete",

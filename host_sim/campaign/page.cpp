@@ -153,9 +153,8 @@ std::string correlations(const Study& study, const std::vector<ContenderRow>& ta
     }
   }
   if (rows.empty()) return {};
-  return "<h2>Correlations</h2>\n<p>Rank correlation (Spearman) of each quantity with each "
-         "draw, before its times and over are applied. Bold: by chance alone, fewer than 3 draws "
-         "in "
+  return "<h2>Correlations</h2>\n<p>Rank correlation (Spearman) of each quantity with each draw, "
+         "before its times and over are applied. Bold: by chance alone, fewer than 3 draws in "
          "1000 reach this.</p>\n<details><summary>All correlations</summary>\n" +
          table_of("correlations", {"controller", "quantity", "draw", "correlation"}, rows) +
          "</details>\n";

@@ -62,8 +62,7 @@ void print_divergence(const Summary& summary, const Scenario& scenario) {
   if (!summary.diverged()) return;
   std::printf(
       "its power was at a limit in %.1f %% of all ticks that followed, for 0.2 s or longer at a "
-      "time, "
-      "where the reference asked for no more than the muscle can do: the loop oscillates or "
+      "time, where the reference asked for no more than the muscle can do: the loop oscillates or "
       "diverges; lower the gains, slow the adaptation or identify the muscle again\n",
       100.0 * summary.unasked_limit_ratio());
 }
@@ -77,8 +76,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
   const ChannelSettings& channel = board.channels.front();
   std::printf(
       "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
-      "for: "
-      "sensor noise, or a small margin; %s\n",
+      "for: sensor noise, or a small margin; %s\n",
       noise_W, 100.0 * noise_W / range_W,
       config::noise_remedy(channel.controllers.front(), channel, board).c_str());
 }

@@ -73,9 +73,8 @@ std::string table_of(const Measure& measure, const Outcomes& outcomes, const All
 /// Reported standard deviations over actual errors, all seeds together.
 std::string honesty_table(const Outcomes& outcomes) {
   std::string text =
-      "\n### Reported standard deviations over actual errors\n\nrms over the last 40 s "
-      "before "
-      "the change. Below 1: overconfident.\n\n"
+      "\n### Reported standard deviations over actual errors\n\nrms over the last 40 s before the "
+      "change. Below 1: overconfident.\n\n"
       "| trial | | θ1 | θ2 | θ3 | θ4 |\n|---|---|---|---|---|---|\n";
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
     for (std::size_t contender = 0; contender < contenders.size(); ++contender) {

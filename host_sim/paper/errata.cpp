@@ -247,8 +247,7 @@ Part compute_errata() {
   part.title = "Errata";
   part.introduction =
       "What the paper prints, and what its own equations and parameters give. docs/paper.md has "
-      "the "
-      "derivations.";
+      "the derivations.";
   add_coefficients(part);
   add_models(part);
   add_premises(part);

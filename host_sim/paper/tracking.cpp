@@ -141,11 +141,11 @@ Part repeat_tracking() {
   Part part;
   part.title = "Tracking (Section 5.2, Figures 3 and 4)";
   part.introduction =
-      "Three controllers follow a sine and a step; at 80 s the muscle's stiffness falls from 16 to "
-      "12 N/m. The paper's plant has the numerator 1/(ψm̂) = 68.587, so its metres are true metres "
-      "divided by γ = 0.0086. The paper does not specify its MRAC completely, so six readings are "
-      "shown. "
-      "With Eq. (8) and the power limits of Eq. (19) together no controller can reach its 0.0028.";
+      "Three controllers follow a sine and a step; at 80 s the muscle's stiffness falls from 16 "
+      "to 12 N/m. The paper's plant has the numerator 1/(ψm̂) = 68.587, so its metres are true "
+      "metres divided by γ = 0.0086. The paper does not specify its MRAC completely, so six "
+      "readings are shown. With Eq. (8) and the power limits of Eq. (19) together no controller "
+      "can reach its 0.0028.";
   TrackingCurves curves;
   for (const Signal signal : {Signal::sine, Signal::step}) {
     SignalCurves& of = signal == Signal::sine ? curves.sine : curves.step;

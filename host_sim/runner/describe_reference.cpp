@@ -187,8 +187,7 @@ std::string describe_unseen_rest(const Scenario& scenario) {
          " while it is cold, and the sensor reads no less than " +
          number_text(1e3 * min_m, digits) +
          " mm: its reading stands still there and looks frozen (docs/faults/sensor_frozen.md); "
-         "lower "
-         "sensor.position.min_m";
+         "lower sensor.position.min_m";
 }
 
 }  // namespace supercoil::host_sim

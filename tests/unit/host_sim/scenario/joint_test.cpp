@@ -190,8 +190,7 @@ TEST(JointScenario, AMistakeInPlantIsToldOnce) {
 TEST(JointScenario, WhatCannotBeReachedIsRefused) {
   check_joint_answer(
       "2: reference.kind (its default): the reference goes from 0 to 10 mm, but sensor.position "
-      "and "
-      "the joint's end stops allow -7.992 to 7.992 mm",
+      "and the joint's end stops allow -7.992 to 7.992 mm",
       "[joint]\n[reference]\noffset_m = 0.005\n");
 }
 
@@ -303,9 +302,8 @@ TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
   check_joint_answer(("4: injected_fault.antagonist_torn = true" + needs).c_str(),
                      spring + "[injected_fault]\nantagonist_torn = true");
   check_joint_answer(
-      "4: reference.kind = 'step': the reference goes from -5 to 5 mm, but sensor.position and the "
-      "joint's "
-      "end stops allow 0 to 10.989 mm",
+      "4: reference.kind = 'step': the reference goes from -5 to 5 mm, but sensor.position and "
+      "the joint's end stops allow 0 to 10.989 mm",
       spring + "[reference]\nkind = 'step'\nfrom_m = -0.005");
   check_joint_answer("3: joint.spring_Nm_per_rad = 0: must be 1e-06 to 1000",
                      spring + "spring_Nm_per_rad = 0.0");

@@ -33,8 +33,7 @@ TEST(WrongScenario, UnknownTableNamesTheNearestOne) {
 
 TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
   check_answer(
-      "s.toml:2: sensor.position.colour = 'red': is not a key of [sensor.position]; its keys "
-      "are: "
+      "s.toml:2: sensor.position.colour = 'red': is not a key of [sensor.position]; its keys are: "
       "noise_rms_m, resolution_bits, range_m, count_m, rate_Hz, min_m",
       "[sensor.position]\ncolour = \"red\"");
 }
@@ -119,8 +118,7 @@ TEST(WrongScenario, ListOfTheWrongLength) {
 
 TEST(WrongScenario, ListWithAWrongElement) {
   check_answer(
-      "s.toml:1: estimator.gain = [1, 2, 3, 'x']: must be a list of 4 numbers, each 1e-06 "
-      "to "
+      "s.toml:1: estimator.gain = [1, 2, 3, 'x']: must be a list of 4 numbers, each 1e-06 to "
       "1e+12; 'x' is not",
       "estimator.gain = [1.0, 2.0, 3.0, 'x']");
 }
@@ -160,19 +158,16 @@ TEST(WrongScenario, OpenLoopAndPositionDoNotMix) {
                "controller.kind = 'power'");
   check_answer(
       "s.toml:1: reference.kind = 'power': needs [controller] kind = \"power\": a controller "
-      "follows "
-      "a position",
+      "follows a position",
       "reference.kind = 'power'");
 }
 
 TEST(WrongScenario, MracSaysWhichPremiseFails) {
   check_answer(
       "s.toml:2: controller.kind = 'mrac': premise fails: Wm(s)(s+p0)(s+p1) is not strictly "
-      "positive "
-      "real (accept_failed_premises = true runs it anyway)\n"
+      "positive real (accept_failed_premises = true runs it anyway)\n"
       "s.toml:2: controller.kind = 'mrac': premise fails: Eq. (12) needs Wm = "
-      "k/((s+p0)(s+p1)(s+q0)) "
-      "(accept_failed_premises = true runs it anyway)",
+      "k/((s+p0)(s+p1)(s+q0)) (accept_failed_premises = true runs it anyway)",
       "reference_model.kind = 'eq8'\ncontroller.kind = 'mrac'");
   STRCMP_EQUAL("in order", problems("reference_model.kind = 'eq8'\n"
                                     "controller = {kind = 'mrac', accept_failed_premises = true}")

@@ -153,9 +153,9 @@ TEST(JointInDegrees, OfALeverThatDependsOnTheAngleAReadingIsAtTheLeverOfZero) {
 
 TEST(JointInDegrees, WhatTheSensorCannotReadIsToldInDegrees) {
   check_only_problem(
-      "59: channel[2].limits.max_travel_m (its default): is 0.00523599 from its joint's range_deg, "
-      "and "
-      "must be within what the sensor can read: its agonist's position.min_deg = -10",
+      "59: channel[2].limits.max_travel_m (its default): is 0.00523599 from its joint's "
+      "range_deg, and must be within what the sensor can read: its agonist's position.min_deg = "
+      "-10",
       replaced(in_deg, "min_deg = -90", "min_deg = -10"));
   STRCMP_CONTAINS("channel[1].position.min_deg = -400: must be -360 to 360",
                   problems_of(replaced(in_deg, "min_deg = -90", "min_deg = -400")).c_str());

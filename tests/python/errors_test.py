@@ -31,7 +31,7 @@ class Errors(unittest.TestCase):
     def test_a_fault_says_what_was_measured_and_what_to_do(self):
         text = str(faults.OverTemperature(3, 161.0, 160.0))
         self.assertTrue(text.startswith("node 3: over_temperature (measured 161, limit 160): "), text)
-        self.assertIn("otherwise let it cool", text.lower())
+        self.assertIn("otherwise let the muscle cool", text.lower())
         self.assertTrue(str(faults.OverTemperature(3)).startswith("node 3: over_temperature: "))
 
     def test_every_refusal_has_one(self):

@@ -56,7 +56,7 @@ class Doctor(unittest.TestCase):
             self.assertIn("gpioinfo", found[what]["remedy"])
         for what in ("channel 1, pwm", "channel 4, pwm", "supply", "channel 1, position", "channel 4, current"):
             self.assertEqual(found[what]["severity"], "problem")
-            self.assertRegex(found[what]["found"], "(in|into) /sys/")
+            self.assertRegex(found[what]["found"], "(in|list) /sys/")
         self.assertEqual(found["watchdog"]["severity"], "problem")
         self.assertIn("/dev/no-such-watchdog: No such file or directory; in /sys/class/watchdog",
                       found["watchdog"]["found"])

@@ -138,7 +138,7 @@ TEST(LocalCommands, AreRefusedWhereTheirEndWouldBeLost) {
   // Cut after 200 bytes it would ask for 4.5 W instead of 4.5 mW.
   STRCMP_EQUAL("wrong: longer than 200 bytes",
                answer_to(one, "1 power 4.5" + std::string(189, '0') + "e-3").c_str());
-  STRCMP_CONTAINS("channel 1", answer_to(one, "state").c_str());
+  STRCMP_CONTAINS("1 disarmed", answer_to(one, "state").c_str());
 }
 
 /// Only a set of values that cannot be used has a reason.
@@ -182,8 +182,8 @@ TEST(LocalCommands, WhyAControllerDoesNotSuitIsSaid) {
         std::pair{"prepare 1 0 volume 1", "refused: out_of_range"},
         std::pair{"prepare 1 0 kind pi", "wrong: 'pi' is not a number"},
         std::pair{"prepare 1 0 all mine", "wrong: 'mine' is not a set of values"},
-        std::pair{"prepare 9 0 kind 1", "wrong: '9' is no channel"},
-        std::pair{"tuning 1 x kind in_use", "wrong: 'x' is no controller"},
+        std::pair{"prepare 9 0 kind 1", "wrong: '9' is not a channel"},
+        std::pair{"tuning 1 x kind in_use", "wrong: 'x' is not a controller"},
         std::pair{"tuning 1 0 kind", "wrong: '' is not a set of values"},
         std::pair{"tuning 1 0 volume in_use", "nan"}})
     STRCMP_EQUAL(answer, answer_to(one, line).c_str());

@@ -111,7 +111,7 @@ TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
   const ChannelSupervision s;
   check_says("sensor_out_of_range", "below −%g mm", -1e3 * s.min_position_m);
   check_says("sensor_out_of_range", "above %g mm", 1e3 * s.max_position_m);
-  check_says("sensor_out_of_range", "for %g ms without a gap", 1e3 * s.out_of_range_s);
+  check_says("sensor_out_of_range", "for %g ms without interruption", 1e3 * s.out_of_range_s);
   check_says("sensor_frozen", "`position.noise_rms_m` = %g µm", 1e6 * s.position_noise_rms_m);
   check_says("sensor_frozen", "for %g s", s.frozen_s);
   check_says("sensor_jump", "than %g m/s times", s.max_speed_m_per_s);
@@ -122,7 +122,7 @@ TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
   check_says("heater_short", "duty × supply / %g Ω", s.min_resistance_Ohm);
   check_says("heater_short", "for %g ms", 1e3 * s.short_s);
   check_says("heater_stuck_on", "is above %g mA", 1e3 * s.off_current_A);
-  check_says("heater_stuck_on", "for %g ms without a gap", 1e3 * s.stuck_on_s);
+  check_says("heater_stuck_on", "for %g ms without interruption", 1e3 * s.stuck_on_s);
   check_says("heater_not_responding", "window of %g s", s.responding_window_s);
   check_says("heater_not_responding", "less than %g of", s.responding_ratio);
   check_says("heater_not_responding", "at least %g mm", 1e3 * s.responding_min_m);
@@ -137,7 +137,7 @@ TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
   check_says("command_timeout", "for more than %g s", s.command_timeout_s);
   LONGS_EQUAL(10, s.damaged_in_a_row);  // "the tenth tick in a row"
   LONGS_EQUAL(10, s.refused_in_a_row);
-  check_says("controller_invalid", "for %g s without a gap", s.saturated_s);
+  check_says("controller_invalid", "for %g s without interruption", s.saturated_s);
   CHECK(s.proof_of_response);
 }
 
@@ -147,18 +147,18 @@ TEST(Documented, ThresholdsOfABoardAreTheDefaults) {
   check_says("under_voltage", "for %g ms", 1e3 * s.supply_s);
   check_says("over_voltage", "more than %g V", s.max_supply_V);
   check_says("tick_late", "%g ms", 1e3 * s.late_s);
-  check_says("tick_late", "%g ticks", s.late_in_a_row);
+  check_says("tick_late", "%g consecutive ticks", s.late_in_a_row);
   check_says("overrun", "when %g periods", s.overruns_in_a_row);
   check_says("emergency_stop", "the pump's decay, %g ms", 1e3 * s.charge_pump_decay_s);
   check_says("telemetry_dead", "%g s", s.telemetry_timeout_s);
   check_says("bus_off", "`can_bus_off_ms` is %g: at once", 1e3 * s.bus_off_s);
-  check_says("bus_error_passive", "for %g s without a gap", s.bus_error_passive_s);
+  check_says("bus_error_passive", "for %g s without interruption", s.bus_error_passive_s);
 }
 
 TEST(Documented, LimitsOfPowerAndTemperatureAreTheDefaults) {
   const LimiterSettings s;
   check_says("over_temperature", "from %g °C on, the power is derated", s.derate_from_C);
-  check_says("over_temperature", "none at %g °C", s.derate_to_C);
+  check_says("over_temperature", "to zero at %g °C", s.derate_to_C);
   check_says("command_timeout", "full power (%g W)", s.max_W);
   DOUBLES_EQUAL(0.0, s.min_W, 0.0);
 }

@@ -314,7 +314,7 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   const Promise promise = promise_error(channel.controllers[0].learned_ff, channel, board, motion);
   check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
-  check_says(describe_promises(board, 0)[0], "no promise");
+  check_says(describe_promises(board, 0)[0], "no error is promised");
 }
 
 TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {

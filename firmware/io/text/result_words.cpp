@@ -13,13 +13,12 @@ const std::array<std::string_view, mode_result_names.size()> result_words{
     "the muscle did not cool within two minutes",
     "the position changed by more than 0.1 mm while its zero was taken",
     "the muscle did not move as the fit predicted, even in shorter strokes: play, a changing load "
-    "or "
-    "a slipping sensor",
+    "or a slipping sensor",
     "θ3 or θ4, which controllers need, is not known well enough, or θ2 is hardly known: the sensor "
     "is too noisy for this motion",
-    "what was found is out of range or, by identify, far from what the configuration says",
+    "the result is out of range or, for identify, far from the configured muscle",
     "used from now on, but not stored: earlier results still wait for the disk",
-    "the muscle moved by less than 1 % of its travel with all the power that it may have",
+    "the muscle moved by less than 1 % of its travel at the maximum power",
     "the muscle moved the wrong way when it was heated: the sensor's sign is wrong or, in a joint, "
     "the two heaters are swapped"};
 

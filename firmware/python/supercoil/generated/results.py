@@ -13,9 +13,9 @@ MEANINGS = {
     Result.moved: "the position changed by more than 0.1 mm while its zero was taken",
     Result.poor_fit: "the muscle did not move as the fit predicted, even in shorter strokes: play, a changing load or a slipping sensor",
     Result.uncertain: "θ3 or θ4, which controllers need, is not known well enough, or θ2 is hardly known: the sensor is too noisy for this motion",
-    Result.implausible: "what was found is out of range or, by identify, far from what the configuration says",
+    Result.implausible: "the result is out of range or, for identify, far from the configured muscle",
     Result.not_stored: "used from now on, but not stored: earlier results still wait for the disk",
-    Result.too_little_motion: "the muscle moved by less than 1 % of its travel with all the power that it may have",
+    Result.too_little_motion: "the muscle moved by less than 1 % of its travel at the maximum power",
     Result.moved_backwards: "the muscle moved the wrong way when it was heated: the sensor's sign is wrong or, in a joint, the two heaters are swapped",
 }
 

@@ -84,6 +84,6 @@ TEST(Terminal, HowIdentifyEndedIsToldOnceWithItsMeaning) {
   heard.add({estimate.frame()});
   STRCMP_CONTAINS(
       ", last identification or calibration: too_little_motion: the muscle moved by less than 1 % "
-      "of its travel with all the power that it may have; theta1_kept\n",
+      "of its travel at the maximum power; theta1_kept\n",
       told().c_str());
 }

@@ -1,4 +1,4 @@
-"""An experiment: a muscle goes through a table of set points; what it did becomes a table and a figure.
+"""An experiment: moves a muscle through a table of set points, and makes a table and a figure of the results.
 
 python experiment.py can0 set_points.csv results.csv figure.svg
 

@@ -1,4 +1,4 @@
-"""First motion: arms a muscle, moves it to 5 mm, holds it there, and lets it go.
+"""First motion: arms a muscle, moves it to 5 mm, holds it there, and lets it rest.
 
 python first_motion.py can0
 python first_motion.py socketcand:29536 2.5     # millimetres

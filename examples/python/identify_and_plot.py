@@ -1,4 +1,4 @@
-"""Calibrates a cold muscle, identifies it, shows what was learned, and draws what happened. It takes a minute or two.
+"""Calibrates a cold muscle, identifies it, prints the results, and plots the recording. Takes a minute or two.
 
 python identify_and_plot.py can0 identification.svg
 """

@@ -12,7 +12,7 @@ import time
 import can
 import cantools
 
-can.log.setLevel("ERROR")  # it warns of each frame that TCP brings in two parts
+can.log.setLevel("ERROR")  # it warns about every frame that TCP splits
 HERE = pathlib.Path(__file__).resolve()
 # Beside this file in the package; `supercoil dbc` prints it too.
 DBC = next(file for file in (HERE.with_name("supercoil.dbc"), HERE.parents[2] / "firmware/io/can/supercoil.dbc")
@@ -33,7 +33,7 @@ def crc(frame_id, data):
 
 
 def command(opcode, value=0.0):
-    """Sends a command; its answer. What else the board says until then is kept in `signals`."""
+    """Sends a command and returns its answer. Keeps what the board sends until then in `signals`."""
     global counter
     counter = (counter + 1) % 16
     data = COMMAND.encode({"crc": 0, "counter": counter, "opcode": opcode, "session": session, "value": value})
@@ -42,7 +42,7 @@ def command(opcode, value=0.0):
     end = time.monotonic() + 1.0
     while time.monotonic() < end and (frame := bus.recv(1.0)):
         if frame.arbitration_id not in OURS:
-            continue  # another node's, of before the kernel had the filters
+            continue  # from another node, received before the kernel had the filters
         heard = PROTOCOL.decode_message(frame.arbitration_id, frame.data)
         signals.update({name: round(x, 7) if isinstance(x, float) else x for name, x in heard.items()})
         if "refusal" in heard and (heard["session"], heard["counter"]) == (session, counter):
@@ -51,7 +51,7 @@ def command(opcode, value=0.0):
 
 
 def claim():
-    """The session under which to command; the board wants its own random number repeated first."""
+    """The session under which to command. The board first wants its own random number repeated."""
     return command("lease", command("lease")["granted"])["granted"]
 
 
@@ -62,7 +62,7 @@ if __name__ == "__main__":
         command("arm")
         time.sleep(0.2)  # a probe measures the heater
         for i in range(200):
-            command("position", 0.005)  # expires after 250 ms unless it comes again
+            command("position", 0.005)  # expires after 250 ms unless repeated
             if i % 20 == 19:
                 print(f"{signals['position_m']} m, {signals['hottest_C']} °C at most", flush=True)
             time.sleep(0.05)

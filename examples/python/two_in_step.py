@@ -1,4 +1,4 @@
-"""Two muscles go to and fro, half a period apart. The boards have the way ahead of time and start together.
+"""Moves two muscles to and fro, half a period apart. The boards receive the motion in advance and start together.
 
 python two_in_step.py can0,1 can0,2
 python two_in_step.py socketcand:29536,1 socketcand:29536,2 1     # periods, of supercoil-sim ... --nodes 2
@@ -32,7 +32,7 @@ async def main(first, second, periods=2):
 
 
 def place(text):
-    """can0,2 -> the address and the node."""
+    """Splits can0,2 into address and node."""
     address, _, node = text.rpartition(",")
     return address, int(node)
 

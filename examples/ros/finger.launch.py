@@ -1,6 +1,6 @@
 """ros2 launch ./finger.launch.py address:=can0 node:=1
 
-Starts the bridge, robot_state_publisher and ros2_control with a trajectory controller, for finger.urdf. Does not arm the muscle."""
+Starts the bridge, robot_state_publisher and ros2_control with a trajectory controller, for finger.urdf. It does not arm."""
 
 from pathlib import Path
 

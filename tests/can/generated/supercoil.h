@@ -1059,7 +1059,7 @@ extern "C" {
 /**
  * Signals in message Sync.
  *
- * The master's clock, for all boards of the bus; the identifier is always this one. Each board takes the time at which the frame came, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough.
+ * The master's clock, for all boards on the bus; the identifier is always that of node 1. Each board notes when the frame arrived, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1074,7 +1074,7 @@ struct supercoil_sync_t {
     uint8_t crc;
 
     /**
-     * One more with each Sync, 0 after 255. Play refers to a Sync by this number.
+     * Incremented with each Sync, 0 after 255. Play refers to a Sync by this number.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1083,7 +1083,7 @@ struct supercoil_sync_t {
     uint8_t sync;
 
     /**
-     * Time at which the frame was handed to the bus, by a clock of the master that is never set.
+     * Time at which the master handed the frame to the bus, by a clock that is never set.
      *
      * Range: 0..281474976710655 (0..281474976.71065 s)
      * Scale: 1e-06
@@ -1095,13 +1095,13 @@ struct supercoil_sync_t {
 /**
  * Signals in message Emergency.
  *
- * Sent at once when the channel's fault changes: when a fault latches, and with none when it was reset.
+ * Sent immediately when the channel's fault changes: when a fault latches and, with fault none, when it is reset.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_emergency_t {
     /**
-     * First cause. Its number, name and page are those of docs/faults.
+     * First cause. Numbers, names and pages are those of docs/faults.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -1119,7 +1119,7 @@ struct supercoil_emergency_t {
     uint8_t state;
 
     /**
-     * The board's monotonic clock at the tick that latched it, to compare with logs of the board.
+     * The board's monotonic clock at the tick that latched the fault, for comparison with the board's logs.
      *
      * Range: 0..281474976710655 (0..281474976.71065 s)
      * Scale: 1e-06
@@ -1137,7 +1137,7 @@ struct supercoil_emergency_t {
  */
 struct supercoil_first_cause_t {
     /**
-     * In the detector's own unit (docs/faults). NaN: no number was measured.
+     * What the detector measured, in its own unit (docs/faults). NaN: no value was measured.
      *
      * Range: -
      * Scale: 1
@@ -1146,7 +1146,7 @@ struct supercoil_first_cause_t {
     float measured;
 
     /**
-     * In the same unit; what was measured lies beyond it.
+     * The detector's limit, in the same unit; the measured value lies beyond it.
      *
      * Range: -
      * Scale: 1
@@ -1158,7 +1158,7 @@ struct supercoil_first_cause_t {
 /**
  * Signals in message Knot.
  *
- * The next knot of a trajectory: the position at which the muscle is to be, with this velocity. Between knots position, velocity and acceleration are continuous. Accepted while the muscle follows a position, and forgotten with any command other than a knot, Play and renew. Renews the command to heat.
+ * The next knot of a trajectory: a position that the muscle is to reach, and its velocity there. Position, velocity and acceleration are continuous between knots. Accepted while the muscle follows a position; any command other than a knot, Play and renew discards it. Renews the command to heat.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1173,7 +1173,7 @@ struct supercoil_knot_t {
     uint8_t crc;
 
     /**
-     * Counts together with that of Command.
+     * The counter is shared with Command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1182,7 +1182,7 @@ struct supercoil_knot_t {
     uint8_t counter;
 
     /**
-     * Time since the knot before. 0: the first knot of another trajectory, at the position that is commanded now and with velocity 0.
+     * Time since the previous knot. 0: the first knot of a new trajectory, at the currently commanded position and with velocity 0.
      *
      * Range: 0..4094 (0..4.094 s)
      * Scale: 0.001
@@ -1200,7 +1200,7 @@ struct supercoil_knot_t {
     int32_t position_m;
 
     /**
-     * 0 at the last knot. A trajectory that ends with another velocity has run dry: the muscle is held there for 1 s, and then rests.
+     * 0 at the last knot. A trajectory that ends with another velocity has run dry: the board holds the muscle there for 1 s, then lets it rest.
      *
      * Range: -32767..32767 (-0.32767..0.32767 m/s)
      * Scale: 1e-05
@@ -1227,7 +1227,7 @@ struct supercoil_play_t {
     uint8_t crc;
 
     /**
-     * Counts together with that of Command.
+     * The counter is shared with Command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1236,7 +1236,7 @@ struct supercoil_play_t {
     uint8_t counter;
 
     /**
-     * From when after_s counts. at_once: from the arrival of this frame. at_sync: from the arrival of the Sync with this number: one of the last 2 s if the start is then still ahead, else the next one. never: starts nothing, only asks for Trajectory.
+     * The time from which after_s counts. at_once: the arrival of this frame. at_sync: the arrival of the Sync with the number in sync: one of the last 2 s if the start is then still ahead, otherwise the next one. never: starts nothing, only asks for Trajectory.
      *
      * Range: 0..2 (0..2 -)
      * Scale: 1
@@ -1245,7 +1245,7 @@ struct supercoil_play_t {
     uint8_t when;
 
     /**
-     * The session of the lease, as it was granted.
+     * The session of the granted lease.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1254,7 +1254,7 @@ struct supercoil_play_t {
     uint16_t session;
 
     /**
-     * Number of the Sync for at_sync. Boards that are given the same number and time start in the same tick.
+     * For at_sync: number of the Sync. Boards that are given the same number and time start in the same tick.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1275,7 +1275,7 @@ struct supercoil_play_t {
 /**
  * Signals in message Trajectory.
  *
- * The answer to a Knot and to Play; also sent whenever the state of the playback changes.
+ * The answer to Knot and to Play; also sent whenever the state of the playback changes.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1317,7 +1317,7 @@ struct supercoil_trajectory_t {
     uint8_t session_low;
 
     /**
-     * none: it was accepted. Otherwise the reason. infeasible: the way to this knot needs more power than there is, or faster cooling; queue_full: there is no room; wrong_state: the muscle follows no position, there is no first knot, or playback has ended already; not_ready: the position that is commanded now is not that of the first knot; out_of_range: the position, or a start in the past.
+     * none: the frame was accepted. Otherwise the reason for the refusal. infeasible: the motion to this knot needs more power than is available, or faster cooling; queue_full: there is no room; wrong_state: the muscle is not following a position, there is no first knot, or playback has already ended; not_ready: the currently commanded position is not that of the first knot; out_of_range: the position, or a start in the past.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1326,7 +1326,7 @@ struct supercoil_trajectory_t {
     uint8_t refusal;
 
     /**
-     * State of the trajectory. waiting: for its start. ended: held at its last knot. dry: the next knot is missing.
+     * State of the trajectory. waiting: for its start. ended: the board holds the last knot. dry: the next knot is missing.
      *
      * Range: 0..5 (0..5 -)
      * Scale: 1
@@ -1335,7 +1335,7 @@ struct supercoil_trajectory_t {
     uint8_t playback;
 
     /**
-     * How many more knots have room.
+     * How many more knots there is room for.
      *
      * Range: 0..63 (0..63 -)
      * Scale: 1
@@ -1362,7 +1362,7 @@ struct supercoil_trajectory_t {
  */
 struct supercoil_tuning_read_t {
     /**
-     * Place in the configuration: of a controller from 0, of an estimator from 8. Boards older than supercoil 0.2.0 have no estimators here.
+     * Place in the configuration: controllers begin at 0, estimators at 8. Boards older than supercoil 0.2.0 have no estimators here.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1
@@ -1371,7 +1371,7 @@ struct supercoil_tuning_read_t {
     uint8_t place;
 
     /**
-     * Which set of values: those that tune will use, those in use, those of the board's file, or those that the next start will use.
+     * Which set of values. prepared: those that tune will apply. in_use: those in use. configured: those of the board's file. stored: those that the next start will use.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -1380,7 +1380,7 @@ struct supercoil_tuning_read_t {
     uint8_t set;
 
     /**
-     * Which one.
+     * Which tunable.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -1392,7 +1392,7 @@ struct supercoil_tuning_read_t {
 /**
  * Signals in message Command.
  *
- * One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Somebody who repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed.
+ * One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Anyone who replays 16 recorded frames of a session in order is obeyed while that lease lasts, but no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not restore it. A command to heat expires unless it is renewed.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1407,7 +1407,7 @@ struct supercoil_command_t {
     uint8_t crc;
 
     /**
-     * One more with each command of a session, 0 after 15. Up to 3 in between may be lost. An old frame passes as the next one if 12 to 15 commands of its session came after it, modulo 16; every other repetition is refused (wrong_counter).
+     * Incremented with each command of a session, 0 after 15. Up to 3 commands in between may be lost. An old frame passes as the next one if 12 to 15 commands of its session came after it, modulo 16; every other repetition is refused (wrong_counter).
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1416,7 +1416,7 @@ struct supercoil_command_t {
     uint8_t counter;
 
     /**
-     * What to do. lease claims, keeps and gives back the right to command. disarm with value 0 is obeyed from every sender, with any session and counter.
+     * The command. lease claims, keeps or releases the right to command. disarm with value 0 is obeyed from every sender, with any session and counter.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1425,7 +1425,7 @@ struct supercoil_command_t {
     uint8_t opcode;
 
     /**
-     * The session of the lease, as it was granted. In a claim: any number by which the sender recognises the answer.
+     * The session of the granted lease. In a claim: any number by which the sender will recognise the answer.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1434,7 +1434,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number from claim_again takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to a place as in TuningRead: what is there gets its prepared values, at once; a running controller takes them over without a jump, an estimator restarts. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
+     * lease: 0 claims the lease, or keeps it if the frame carries its session; the number from claim_again takes the lease; -1 releases it. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 stores the trusted estimates for the next start, 0 clears the stored muscle, 2 stores the tuning in use and which controller and estimator are chosen, 3 clears both. controller with 1000 added to a place as in TuningRead: the controller or estimator at that place gets its prepared values at once; a running controller takes them over without a jump, an estimator restarts. compare: a meter's reading, V at the supply's terminals as it is, A in the channel's line as a negative value, or 1000 plus how many K warmer than the air a thermometer shows the muscle; 0 clears the comparison, 1000 the thermometer reading. All other commands: 0; any other value is refused with out_of_range, except for disarm.
      *
      * Range: -
      * Scale: 1
@@ -1446,7 +1446,7 @@ struct supercoil_command_t {
 /**
  * Signals in message Acknowledge.
  *
- * The answer to a command, also to one that is refused. A damaged command is not answered, because its sender is not known. Protected in the same way as Command.
+ * The answer to a command, even if it is refused. A damaged command is not answered, because its sender is unknown. Protected in the same way as Command.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1461,7 +1461,7 @@ struct supercoil_acknowledge_t {
     uint8_t crc;
 
     /**
-     * Of the command.
+     * Counter of the command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1470,7 +1470,7 @@ struct supercoil_acknowledge_t {
     uint8_t counter;
 
     /**
-     * Of the command.
+     * Opcode of the command.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1479,7 +1479,7 @@ struct supercoil_acknowledge_t {
     uint8_t opcode;
 
     /**
-     * Of the command.
+     * Session of the command.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1488,7 +1488,7 @@ struct supercoil_acknowledge_t {
     uint16_t session;
 
     /**
-     * none: the command was obeyed. Otherwise the reason for the refusal. out_of_range: RefusedValue has the value. claim_again: claim again with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; only disarm is the same in all versions.
+     * none: the command was obeyed. Otherwise the reason for the refusal. out_of_range: RefusedValue has the value. claim_again: claim again, with the number in granted as value. protocol_mismatch: the frame belongs to another version of this protocol; only disarm is the same in all versions.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1497,7 +1497,7 @@ struct supercoil_acknowledge_t {
     uint8_t refusal;
 
     /**
-     * Answering a claim that was granted: the session from now on. With claim_again: a random number that is good for one claim within the lease time. Otherwise 0.
+     * In the answer to a granted claim: the session from now on. With claim_again: a random number that is valid for one claim within the lease time. Otherwise 0.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1509,7 +1509,7 @@ struct supercoil_acknowledge_t {
 /**
  * Signals in message Measurement.
  *
- * What is measured of the muscle.
+ * The measured position and resistance of the muscle.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1533,7 +1533,7 @@ struct supercoil_measurement_t {
     uint32_t resistance_ohm;
 
     /**
-     * Time since the resistance could last be measured.
+     * Time since the resistance was last measured.
      *
      * Range: 0..65534 (0..655.34 s)
      * Scale: 0.01
@@ -1569,7 +1569,7 @@ struct supercoil_tracking_t {
     int32_t model_m;
 
     /**
-     * Position minus model, both of the same tick. A larger error is sent as the end of the range.
+     * position_m minus model_m, both of the same tick. A larger error is sent as the end of the range.
      *
      * Range: -32767..32767 (-0.03277..0.03277 m)
      * Scale: 1e-06
@@ -1605,7 +1605,7 @@ struct supercoil_power_t {
     int32_t applied_w;
 
     /**
-     * The limit that reduced the power, or for which the reference was shaped. Not a fault.
+     * The limit that reduced the power, or because of which the reference was shaped. Not a fault.
      *
      * Range: 0..7 (0..7 -)
      * Scale: 1
@@ -1614,7 +1614,7 @@ struct supercoil_power_t {
     uint8_t limited_by;
 
     /**
-     * 1: the applied power differs from the demanded power, for whatever reason.
+     * 1: the applied power differs from the demanded power, for any reason.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -1626,13 +1626,13 @@ struct supercoil_power_t {
 /**
  * Signals in message Heater.
  *
- * The electrical side.
+ * Supply voltage, current and duty of the heater.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_heater_t {
     /**
-     * The board's supply; 0: not measured.
+     * The board's supply voltage; 0: not measured.
      *
      * Range: 0..65534 (0..65.534 V)
      * Scale: 0.001
@@ -1641,7 +1641,7 @@ struct supercoil_heater_t {
     uint16_t supply_v;
 
     /**
-     * Current through the muscle, as sensed.
+     * Measured current through the muscle.
      *
      * Range: -8388607..8388607 (-83.88607..83.88607 A)
      * Scale: 1e-05
@@ -1677,7 +1677,7 @@ struct supercoil_temperature_t {
     int16_t coldest_c;
 
     /**
-     * Upper bound; the protection acts on this one.
+     * Upper bound, on which the protection acts.
      *
      * Range: -32767..32767 (-327.67..327.67 degC)
      * Scale: 0.01
@@ -1689,13 +1689,13 @@ struct supercoil_temperature_t {
 /**
  * Signals in message Estimate.
  *
- * What the board has learned about the muscle: one parameter in each frame, with its trust. A round is the first 8 parameters, 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares) a round is all 14, 1.4 s.
+ * What the board has learned about the muscle: one parameter in each frame, and whether the estimates are trusted. A round has the first 8 parameters and takes 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares), a round has all 14 and takes 1.4 s.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_estimate_t {
     /**
-     * Which parameter this frame carries; they come in turn. bias and the deviations are at most 13 ticks old, and are left out while the estimator provides none.
+     * Which parameter this frame carries, in turn. bias and the deviations are at most 8 ticks old, and are left out while the estimator does not provide them.
      *
      * Range: 0..13 (0..13 -)
      * Scale: 1
@@ -1713,7 +1713,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * Notes of the last identify, as bits. No reason for a refusal: 1: theta1 was not known well enough and keeps the value that it had before; 2: theta2 is known to within 10 to 50 % only (if it is known less well, a reason). Reasons for a refusal: 4: theta3 is uncertain; 8: theta4 is uncertain; 16: the model does not explain the motion (with found: it explains shorter strokes, not full ones); 32: implausible; 64: the muscle hardly moved.
+     * Notes of the last identify, as bits. Not reasons for a refusal: 1: theta1 was not known well enough and keeps its previous value; 2: theta2 is known only to within 10 to 50 % (if it is known less well, this is a reason). Reasons for a refusal: 4: theta3 is uncertain; 8: theta4 is uncertain; 16: the model does not explain the motion (with found: it explains shorter strokes, but not full ones); 32: implausible; 64: the muscle hardly moved.
      *
      * Range: 0..127 (0..127 -)
      * Scale: 1
@@ -1722,7 +1722,7 @@ struct supercoil_estimate_t {
     uint8_t identify_notes;
 
     /**
-     * Relative bound of the error of theta1 to theta4 together: 0.1 is 10 %. A larger one is sent as the end of the range.
+     * Relative error bound of theta1 to theta4 together: 0.1 is 10 %. A larger bound is sent as the end of the range.
      *
      * Range: 0..65534 (0..6.5534 -)
      * Scale: 0.0001
@@ -1731,7 +1731,7 @@ struct supercoil_estimate_t {
     uint16_t error_bound;
 
     /**
-     * First of theta, the coefficients of the muscle's model: psi/gamma. NaN: no number.
+     * Coefficient theta1 of the muscle's linear model: psi/gamma. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1740,7 +1740,7 @@ struct supercoil_estimate_t {
     float theta1;
 
     /**
-     * Second of theta, the coefficients of the muscle's model: (m eta + mu psi)/gamma. NaN: no number.
+     * Coefficient theta2 of the muscle's linear model: (m eta + mu psi)/gamma. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1749,7 +1749,7 @@ struct supercoil_estimate_t {
     float theta2;
 
     /**
-     * Third of theta, the coefficients of the muscle's model: (psi rho + mu eta)/gamma. NaN: no number.
+     * Coefficient theta3 of the muscle's linear model: (psi rho + mu eta)/gamma. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1758,7 +1758,7 @@ struct supercoil_estimate_t {
     float theta3;
 
     /**
-     * Fourth of theta, the coefficients of the muscle's model: eta rho/gamma. NaN: no number.
+     * Coefficient theta4 of the muscle's linear model: eta rho/gamma. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1767,7 +1767,7 @@ struct supercoil_estimate_t {
     float theta4;
 
     /**
-     * Thermal mass psi, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
+     * Thermal mass psi, from theta with the configured mass and force per kelvin. NaN: no physical muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1776,7 +1776,7 @@ struct supercoil_estimate_t {
     float thermal_mass_j_per_k;
 
     /**
-     * Heat transfer eta to the air, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
+     * Heat transfer eta to the air, from theta with the configured mass and force per kelvin. NaN: no physical muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1785,7 +1785,7 @@ struct supercoil_estimate_t {
     float heat_transfer_w_per_k;
 
     /**
-     * Stiffness rho, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
+     * Stiffness rho, from theta with the configured mass and force per kelvin. NaN: no physical muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1794,7 +1794,7 @@ struct supercoil_estimate_t {
     float stiffness_n_per_m;
 
     /**
-     * Damping mu, from theta with the configured mass and force per kelvin. NaN: no muscle has this theta.
+     * Damping mu, from theta with the configured mass and force per kelvin. NaN: no physical muscle has this theta.
      *
      * Range: -
      * Scale: 1
@@ -1803,7 +1803,7 @@ struct supercoil_estimate_t {
     float damping_ns_per_m;
 
     /**
-     * Constant power that is estimated together with theta, such as from a load or a wrong zero. NaN: none is known.
+     * Constant power that is estimated together with theta, caused for example by a load or a wrong zero. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1812,7 +1812,7 @@ struct supercoil_estimate_t {
     float bias_w;
 
     /**
-     * Standard deviation of theta1. NaN: none is known.
+     * Standard deviation of theta1. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1821,7 +1821,7 @@ struct supercoil_estimate_t {
     float theta1_deviation;
 
     /**
-     * Standard deviation of theta2. NaN: none is known.
+     * Standard deviation of theta2. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1830,7 +1830,7 @@ struct supercoil_estimate_t {
     float theta2_deviation;
 
     /**
-     * Standard deviation of theta3. NaN: none is known.
+     * Standard deviation of theta3. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1839,7 +1839,7 @@ struct supercoil_estimate_t {
     float theta3_deviation;
 
     /**
-     * Standard deviation of theta4. NaN: none is known.
+     * Standard deviation of theta4. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1848,7 +1848,7 @@ struct supercoil_estimate_t {
     float theta4_deviation;
 
     /**
-     * Standard deviation of bias_W. NaN: none is known.
+     * Standard deviation of bias_W. NaN: not available.
      *
      * Range: -
      * Scale: 1
@@ -1860,13 +1860,13 @@ struct supercoil_estimate_t {
 /**
  * Signals in message Margin.
  *
- * How near a detector is to tripping; the detectors come in turn.
+ * How close a detector is to tripping; one detector in each frame, in turn.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_margin_t {
     /**
-     * The detector's fault; none: nothing yet.
+     * The detector's fault; none: no detector yet.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -1875,7 +1875,7 @@ struct supercoil_margin_t {
     uint8_t fault;
 
     /**
-     * Used share of the detector's limit: 1 or more is beyond it. A larger one is sent as the end of the range.
+     * Fraction of the detector's limit that is used: 1 or more is beyond the limit. A larger value is sent as the end of the range.
      *
      * Range: 0..65534 (0..65.534 -)
      * Scale: 0.001
@@ -1884,7 +1884,7 @@ struct supercoil_margin_t {
     uint16_t used;
 
     /**
-     * In the detector's own unit (docs/faults). NaN: no number was measured.
+     * What the detector measured, in its own unit (docs/faults). NaN: no value was measured.
      *
      * Range: -
      * Scale: 1
@@ -1896,13 +1896,13 @@ struct supercoil_margin_t {
 /**
  * Signals in message Limit.
  *
- * The limit of a detector; the detectors come in turn.
+ * The limit of a detector; one detector in each frame, in turn.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_limit_t {
     /**
-     * The detector's fault; none: nothing yet.
+     * The detector's fault; none: no detector yet.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -1929,7 +1929,7 @@ struct supercoil_limit_t {
  */
 struct supercoil_timing_t {
     /**
-     * Maximum lateness of a tick since the Timing before. Not available: there was no tick.
+     * Maximum lateness of a tick since the previous Timing. Not available: there was no tick.
      *
      * Range: 0..1048574 (0..0.10486 s)
      * Scale: 1e-07
@@ -1938,7 +1938,7 @@ struct supercoil_timing_t {
     uint32_t late_s;
 
     /**
-     * Maximum duration of a tick since the Timing before. Not available: there was no tick.
+     * Maximum duration of a tick since the previous Timing. Not available: there was no tick.
      *
      * Range: 0..1048574 (0..0.10486 s)
      * Scale: 1e-07
@@ -1956,7 +1956,7 @@ struct supercoil_timing_t {
     uint16_t overruns;
 
     /**
-     * Frames that the bus did not take and that were replaced by newer ones, since boot, modulo 4096.
+     * Frames that the bus did not accept and that newer ones replaced, since boot, modulo 4096.
      *
      * Range: 0..4095 (0..4095 -)
      * Scale: 1
@@ -1974,7 +1974,7 @@ struct supercoil_timing_t {
  */
 struct supercoil_gain_t {
     /**
-     * Which gain this frame carries; none: the controller has none.
+     * Which gain this frame carries; none: the controller has no gains.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1995,7 +1995,7 @@ struct supercoil_gain_t {
 /**
  * Signals in message RefusedValue.
  *
- * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it.
+ * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2028,7 +2028,7 @@ struct supercoil_refused_value_t {
  */
 struct supercoil_muscle_t {
     /**
-     * Which one.
+     * Which quantity.
      *
      * Range: 0..43 (0..43 -)
      * Scale: 1
@@ -2037,7 +2037,7 @@ struct supercoil_muscle_t {
     uint8_t quantity;
 
     /**
-     * The value that is in use, in the unit of the quantity's name: configured, or found by identify and calibrate. Deviations (standard, relative), unexplained_ratio and identified_s are stored with what identify found. identified_s: when, in seconds since 1970 (a float, so to two minutes); NaN: since the board started, or not known. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. The last seven are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
+     * The value in use, in the unit of the quantity's name: configured, or found by identify and calibrate. Deviations (standard, relative), unexplained_ratio and identified_s are stored with the results of identify. identified_s: when the muscle was identified, in seconds since 1970 (a float, so to within two minutes); NaN: identified since the board started, or not known. configured: from the board's file, whatever was found since. joint_lever_m: position_m divided by it is the angle of the joint in rad; it is negative for the muscle that turns the joint back. joint_other_node_offset: the other muscle's node minus this one. If the lever depends on the angle, joint_lever_m is the lever at angle 0, and joint_lever_1_m and the following are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, with straight lines between them and constant beyond: position_m is then their integral from angle 0, with the sign of joint_lever_m, and the quotient does not apply. bundle_leader_node_offset: the node that leads this node's bundle, minus this one. min_set_point_m, max_set_point_m: limits of a commanded position. The last seven quantities are the limits of power and temperature and the bounds of [thermal]. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2049,7 +2049,7 @@ struct supercoil_muscle_t {
 /**
  * Signals in message Setting.
  *
- * The answer to SettingWrite and SettingRead: the value from now on, also if the write was refused. Protected in the same way as Command.
+ * The answer to SettingWrite and SettingRead: the value that now applies, even if the write was refused. Protected in the same way as Command.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2073,7 +2073,7 @@ struct supercoil_setting_t {
     uint8_t counter;
 
     /**
-     * Which one.
+     * Which setting.
      *
      * Range: 0..14 (0..14 -)
      * Scale: 1
@@ -2082,7 +2082,7 @@ struct supercoil_setting_t {
     uint8_t setting;
 
     /**
-     * none: it was written, or read. Otherwise the reason for the refusal.
+     * none: the setting was written or read. Otherwise the reason for the refusal.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2127,7 +2127,7 @@ struct supercoil_setting_write_t {
     uint8_t crc;
 
     /**
-     * One more with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
+     * Incremented with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2136,7 +2136,7 @@ struct supercoil_setting_write_t {
     uint8_t counter;
 
     /**
-     * Which one.
+     * Which setting.
      *
      * Range: 0..14 (0..14 -)
      * Scale: 1
@@ -2145,7 +2145,7 @@ struct supercoil_setting_write_t {
     uint8_t setting;
 
     /**
-     * Of the lease.
+     * Session of the lease.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -2172,7 +2172,7 @@ struct supercoil_setting_write_t {
  */
 struct supercoil_setting_read_t {
     /**
-     * Which one.
+     * Which setting.
      *
      * Range: 0..14 (0..14 -)
      * Scale: 1
@@ -2190,7 +2190,7 @@ struct supercoil_setting_read_t {
  */
 struct supercoil_muscle_read_t {
     /**
-     * Which one.
+     * Which quantity.
      *
      * Range: 0..43 (0..43 -)
      * Scale: 1
@@ -2244,7 +2244,7 @@ struct supercoil_tuning_t {
     uint8_t tunable;
 
     /**
-     * none: it was written, or read. Otherwise the reason for the refusal.
+     * none: the value was written or read. Otherwise the reason for the refusal.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2262,7 +2262,7 @@ struct supercoil_tuning_t {
     uint8_t set;
 
     /**
-     * The value from now on, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (equal ones for a model that has none), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating, adapt_bandwidth: 0 or 1. NaN: there is no such place or parameter, or this kind does not have it.
+     * The set's current value, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (equal ones if the previous model has none), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating, adapt_bandwidth: 0 or 1. NaN: there is no such place or parameter, or this kind does not have it.
      *
      * Range: -
      * Scale: 1
@@ -2280,7 +2280,7 @@ struct supercoil_tuning_t {
  */
 struct supercoil_status_t {
     /**
-     * disarmed and fault: off. armed: off, ready. active: heats. Off does not mean cold: hottest_C has the upper bound.
+     * disarmed and fault: off. armed: off, but ready. active: heating. Off does not mean cold: hottest_C is the upper bound.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1
@@ -2298,7 +2298,7 @@ struct supercoil_status_t {
     uint8_t mode;
 
     /**
-     * First cause of the state fault.
+     * First cause, in state fault.
      *
      * Range: 0..82 (0..82 -)
      * Scale: 1
@@ -2316,7 +2316,7 @@ struct supercoil_status_t {
     uint8_t limited_by;
 
     /**
-     * 1: a short pulse measures the resistance.
+     * 1: a probe (a short pulse) is measuring the resistance.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2370,7 +2370,7 @@ struct supercoil_status_t {
     uint8_t progress;
 
     /**
-     * One more with each Status of this node: a gap means a lost frame.
+     * Incremented with each Status of this node: a gap means a lost frame.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2379,7 +2379,7 @@ struct supercoil_status_t {
     uint8_t counter;
 
     /**
-     * Version of this protocol. If it is another number, use the DBC that the board's own supercoil dbc prints.
+     * Version of this protocol. If it differs from this DBC's, use the DBC that the board's own supercoil dbc prints.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2388,7 +2388,7 @@ struct supercoil_status_t {
     uint8_t protocol_version;
 
     /**
-     * How the last identify or calibrate ended. found: used from then on and stored; not_stored: used, but not stored; every other result changes nothing.
+     * How the last identify or calibrate ended. found: the result is used from then on and stored; not_stored: it is used, but not stored; every other result changes nothing.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1
@@ -2397,7 +2397,7 @@ struct supercoil_status_t {
     uint8_t result;
 
     /**
-     * 1: proof_of_response is false, or does not apply (to the two muscles of a joint, and to a muscle that follows in a bundle): an identified muscle that no longer reaches its sensor may overheat unseen. Also 0 from boards that do not report it.
+     * 1: proof_of_response is false, or does not apply (to the two muscles of a joint, and to a muscle that follows in a bundle): an identified muscle whose motion no longer reaches its sensor may overheat undetected. Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2406,7 +2406,7 @@ struct supercoil_status_t {
     uint8_t proof_off;
 
     /**
-     * 1: the loop of the controller that follows has oscillated by itself, and the controller has lowered its feedback since then (except mrac and mrac_ls, and with slow_when_oscillating false). Also 0 from boards that do not report it.
+     * 1: the running controller's loop has oscillated by itself, and the controller has lowered its feedback since then (except mrac and mrac_ls, and with slow_when_oscillating false). Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2415,7 +2415,7 @@ struct supercoil_status_t {
     uint8_t oscillated;
 
     /**
-     * 1: in the last identify that found the muscle, less than half of a small motion arrived at the sensor. Friction takes the rest, and the power may be held to what is proven. Also 0 from boards that do not report it.
+     * 1: in the last identify that found the muscle, less than half of a small motion reached the sensor. Friction takes up the rest, and the power may be limited to what is proven. Also 0 from boards that do not report it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2424,7 +2424,7 @@ struct supercoil_status_t {
     uint8_t friction;
 
     /**
-     * 1: by the models of both muscles and the configured pretension, this muscle of a joint does not pull at the present angle. It is not measured. Also 0 where no pretension is configured.
+     * 1: according to the models of both muscles and the configured pretension, this muscle of a joint does not pull at the present angle. This is not measured. Also 0 if no pretension is configured.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2436,13 +2436,13 @@ struct supercoil_status_t {
 /**
  * Signals in message Boot.
  *
- * The program that the board runs, within a second of its start and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it.
+ * The version of the program that the board runs, sent within a second of its start and once a second. It is the version that --version prints, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_boot_t {
     /**
-     * 0 of 0.2.1.
+     * Major version: the 0 of 0.2.1.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2451,7 +2451,7 @@ struct supercoil_boot_t {
     uint8_t version_major;
 
     /**
-     * 2 of 0.2.1.
+     * Minor version: the 2 of 0.2.1.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2460,7 +2460,7 @@ struct supercoil_boot_t {
     uint8_t version_minor;
 
     /**
-     * 1 of 0.2.1.
+     * Patch version: the 1 of 0.2.1.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2469,7 +2469,7 @@ struct supercoil_boot_t {
     uint8_t version_patch;
 
     /**
-     * The first seven hexadecimal digits of the commit's hash: 0x2780EBF of 0.2.0+git20261122.150233.2780ebf. 0: a release.
+     * The first seven hexadecimal digits of the commit's hash: 0x2780EBF for 0.2.0+git20261122.150233.2780ebf. 0: a release.
      *
      * Range: 0..268435455 (0..268435455 -)
      * Scale: 1
@@ -2481,7 +2481,7 @@ struct supercoil_boot_t {
 /**
  * Signals in message Joint.
  *
- * The joint and both of its heaters, in parts that come in turn: from the agonist's node or, where a spring or gravity pulls one muscle back, from that muscle's node. Such a joint has the first four parts only. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both.
+ * The joint and both of its heaters, one part in each frame, in turn. Sent by the agonist's node or, where a spring or gravity pulls one muscle back, by that muscle's node; such a joint has only the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2514,7 +2514,7 @@ struct supercoil_joint_t {
     uint8_t agonist_slack;
 
     /**
-     * As limited in Power of its node. 0: no second muscle.
+     * As limited in Power of its node. Also 0 if there is no second muscle.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2523,7 +2523,7 @@ struct supercoil_joint_t {
     uint8_t antagonist_limited;
 
     /**
-     * As slack in Status of its node. 0: no second muscle.
+     * As slack in Status of its node. Also 0 if there is no second muscle.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1
@@ -2550,7 +2550,7 @@ struct supercoil_joint_t {
     int32_t reference_deg;
 
     /**
-     * Demanded from both muscles by the controller, before any limit, in watts of the agonist; below 0 it turns the joint back. Available in mode position only.
+     * Effort that the controller demands from both muscles, before any limit, in watts of the agonist; a negative effort turns the joint back. Available in mode position only.
      *
      * Range: -131071..131071 (-131.071..131.071 W)
      * Scale: 0.001
@@ -2613,7 +2613,7 @@ struct supercoil_joint_t {
     int16_t antagonist_hottest_c;
 
     /**
-     * As resistance_Ohm in Measurement of its node, more coarsely.
+     * As resistance_Ohm in Measurement of its node, with a coarser resolution.
      *
      * Range: 0..524286 (0..5242.86 Ohm)
      * Scale: 0.01
@@ -2622,7 +2622,7 @@ struct supercoil_joint_t {
     uint32_t agonist_resistance_ohm;
 
     /**
-     * As resistance_Ohm in Measurement of its node, more coarsely.
+     * As resistance_Ohm in Measurement of its node, with a coarser resolution.
      *
      * Range: 0..524286 (0..5242.86 Ohm)
      * Scale: 0.01
@@ -2640,7 +2640,7 @@ struct supercoil_joint_t {
     uint32_t co_contraction_w;
 
     /**
-     * Angle minus that of the reference model, both of the same tick. A larger error is sent as the end of the range. Available in mode position only.
+     * angle_deg minus the angle of the reference model, both of the same tick. A larger error is sent as the end of the range. Available in mode position only.
      *
      * Range: -32767..32767 (-16.3835..16.3835 deg)
      * Scale: 0.0005
@@ -2667,7 +2667,7 @@ struct supercoil_tuning_write_t {
     uint8_t crc;
 
     /**
-     * One more with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
+     * Incremented with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2685,7 +2685,7 @@ struct supercoil_tuning_write_t {
     uint8_t place;
 
     /**
-     * Which one. all: replaces the whole prepared set.
+     * Which tunable. all: replaces the whole prepared set.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -2703,7 +2703,7 @@ struct supercoil_tuning_write_t {
     uint8_t session_low;
 
     /**
-     * As in Tuning. all: the number of the set that is copied.
+     * As in Tuning. With all: the number of the set to copy.
      *
      * Range: -
      * Scale: 1

@@ -9,7 +9,7 @@ from supercoil.layout import Layout, Raw, Signal
 
 
 class Sync(NamedTuple):
-    """The master's clock, for all boards of the bus; the identifier is always this one. Each board takes the time at which the frame came, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough."""
+    """The master's clock, for all boards on the bus; the identifier is always that of node 1. Each board notes when the frame arrived, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -18,7 +18,7 @@ class Sync(NamedTuple):
 
 
 class Emergency(NamedTuple):
-    """Sent at once when the channel's fault changes: when a fault latches, and with none when it was reset."""
+    """Sent immediately when the channel's fault changes: when a fault latches and, with fault none, when it is reset."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -35,7 +35,7 @@ class FirstCause(NamedTuple):
 
 
 class Knot(NamedTuple):
-    """The next knot of a trajectory: the position at which the muscle is to be, with this velocity. Between knots position, velocity and acceleration are continuous. Accepted while the muscle follows a position, and forgotten with any command other than a knot, Play and renew. Renews the command to heat."""
+    """The next knot of a trajectory: a position that the muscle is to reach, and its velocity there. Position, velocity and acceleration are continuous between knots. Accepted while the muscle follows a position; any command other than a knot, Play and renew discards it. Renews the command to heat."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -58,7 +58,7 @@ class Play(NamedTuple):
 
 
 class Trajectory(NamedTuple):
-    """The answer to a Knot and to Play; also sent whenever the state of the playback changes."""
+    """The answer to Knot and to Play; also sent whenever the state of the playback changes."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -81,7 +81,7 @@ class TuningRead(NamedTuple):
 
 
 class Command(NamedTuple):
-    """One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Somebody who repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed."""
+    """One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Anyone who replays 16 recorded frames of a session in order is obeyed while that lease lasts, but no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not restore it. A command to heat expires unless it is renewed."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -92,7 +92,7 @@ class Command(NamedTuple):
 
 
 class Acknowledge(NamedTuple):
-    """The answer to a command, also to one that is refused. A damaged command is not answered, because its sender is not known. Protected in the same way as Command."""
+    """The answer to a command, even if it is refused. A damaged command is not answered, because its sender is unknown. Protected in the same way as Command."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -104,7 +104,7 @@ class Acknowledge(NamedTuple):
 
 
 class Measurement(NamedTuple):
-    """What is measured of the muscle."""
+    """The measured position and resistance of the muscle."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     position_m: float
@@ -132,7 +132,7 @@ class Power(NamedTuple):
 
 
 class Heater(NamedTuple):
-    """The electrical side."""
+    """Supply voltage, current and duty of the heater."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     supply_V: float
@@ -149,7 +149,7 @@ class Temperature(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """What the board has learned about the muscle: one parameter in each frame, with its trust. A round is the first 8 parameters, 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares) a round is all 14, 1.4 s."""
+    """What the board has learned about the muscle: one parameter in each frame, and whether the estimates are trusted. A round has the first 8 parameters and takes 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares), a round has all 14 and takes 1.4 s."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     parameter: names.Parameter
@@ -173,7 +173,7 @@ class Estimate(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """How near a detector is to tripping; the detectors come in turn."""
+    """How close a detector is to tripping; one detector in each frame, in turn."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -182,7 +182,7 @@ class Margin(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """The limit of a detector; the detectors come in turn."""
+    """The limit of a detector; one detector in each frame, in turn."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     fault: names.Fault
@@ -208,7 +208,7 @@ class Gain(NamedTuple):
 
 
 class RefusedValue(NamedTuple):
-    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
+    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     value: float
@@ -224,7 +224,7 @@ class Muscle(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """The answer to SettingWrite and SettingRead: the value from now on, also if the write was refused. Protected in the same way as Command."""
+    """The answer to SettingWrite and SettingRead: the value that now applies, even if the write was refused. Protected in the same way as Command."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -297,7 +297,7 @@ class Status(NamedTuple):
 
 
 class Boot(NamedTuple):
-    """The program that the board runs, within a second of its start and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it."""
+    """The version of the program that the board runs, sent within a second of its start and once a second. It is the version that --version prints, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     version_major: int
@@ -307,7 +307,7 @@ class Boot(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """The joint and both of its heaters, in parts that come in turn: from the agonist's node or, where a spring or gravity pulls one muscle back, from that muscle's node. Such a joint has the first four parts only. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both."""
+    """The joint and both of its heaters, one part in each frame, in turn. Sent by the agonist's node or, where a spring or gravity pulls one muscle back, by that muscle's node; such a joint has only the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     part: names.Part

@@ -9,7 +9,7 @@ from protocol_session import SESSION, session
 INTRODUCTION = """\
 # CAN protocol
 
-Generated from `firmware/io/can/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
+Generated from `firmware/io/can/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) explains how to use it.
 
 Version {version}. Classical CAN with 11-bit identifiers, at the bit rate of the bus (usually 500 kbit/s). An identifier is base + node,
 node 1 to 63; each channel of a board is a node. The DBC describes node 1.
@@ -19,10 +19,10 @@ comes first. *Raw* is the type of the bits: i is signed (two's complement), u is
 raw × scale. *n/a* is the raw value for "not available"; for a float it is NaN. A value outside its range is sent as the nearest end of
 the range.
 
-A board ignores frames with other identifiers, with 29-bit identifiers, of CAN FD, and remote frames. A protected message
-([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of the wrong length is damaged, like one with a wrong
-checksum: it is neither obeyed nor answered, and counts towards the fault command_damaged. Any other message of the wrong length is ignored.
-[A session](#a-session) shows how all of this works together.
+A board ignores remote frames, CAN FD frames, and frames with 29-bit or other identifiers. A protected message
+([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of the wrong length counts as damaged, like one with
+a wrong checksum: it is neither obeyed nor answered, and counts towards the fault command_damaged. Any other message of the wrong length is
+ignored. [A session](#a-session) shows how all of this works together.
 
 | identifier | message | from | every | bytes |
 |---|---|---|---|---|

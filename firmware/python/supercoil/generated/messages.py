@@ -1,6 +1,6 @@
 # Generated from firmware/io/can/supercoil.dbc by toolchain/generate-can. Do not edit.
 
-"""Every message as a type, and how it is laid out in its frame. A value that is not available is NaN."""
+"""Every message as a type, and its layout in a frame. A value that is not available is NaN."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from supercoil.layout import Layout, Raw, Signal
 class Sync(NamedTuple):
     """The master's clock, for all boards on the bus; the identifier is always that of node 1. Each board notes when the frame arrived, to the microsecond if its kernel provides that, and follows this clock while it plays a trajectory. No board answers. Once a second is often enough."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     sync: int
     master_time_s: float
@@ -20,7 +20,7 @@ class Sync(NamedTuple):
 class Emergency(NamedTuple):
     """Sent immediately when the channel's fault changes: when a fault latches and, with fault none, when it is reset."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     fault: names.Fault
     state: names.State
     board_time_s: float
@@ -29,7 +29,7 @@ class Emergency(NamedTuple):
 class FirstCause(NamedTuple):
     """Sent right after an Emergency that reports a fault: the margin of the detector that tripped, at that time."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     measured: float
     limit: float
 
@@ -37,7 +37,7 @@ class FirstCause(NamedTuple):
 class Knot(NamedTuple):
     """The next knot of a trajectory: a position that the muscle is to reach, and its velocity there. Position, velocity and acceleration are continuous between knots. Accepted while the muscle follows a position; any command other than a knot, Play and renew discards it. Renews the command to heat."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     after_s: float
@@ -48,7 +48,7 @@ class Knot(NamedTuple):
 class Play(NamedTuple):
     """Starts the trajectory; its time is 0 at its first knot. Renews the lease, but not the command to heat."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     when: names.When
@@ -60,7 +60,7 @@ class Play(NamedTuple):
 class Trajectory(NamedTuple):
     """The answer to Knot and to Play; also sent whenever the state of the playback changes."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     answers: names.Answers
@@ -74,7 +74,7 @@ class Trajectory(NamedTuple):
 class TuningRead(NamedTuple):
     """Asks for one value of a controller of this node. Needs no lease: reading changes nothing."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     place: int
     set: names.Set
     tunable: names.Tunable
@@ -83,7 +83,7 @@ class TuningRead(NamedTuple):
 class Command(NamedTuple):
     """One command to this node's channel. AUTOSAR E2E Profile 2; each of its 16 data ids is the low byte of the frame's identifier. Damage, loss and the repetition of a single frame are detected. Anyone who replays 16 recorded frames of a session in order is obeyed while that lease lasts, but no longer: the session ends with the lease or when the board starts, and a recorded lease frame does not restore it. A command to heat expires unless it is renewed."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     opcode: names.Opcode
@@ -94,7 +94,7 @@ class Command(NamedTuple):
 class Acknowledge(NamedTuple):
     """The answer to a command, even if it is refused. A damaged command is not answered, because its sender is unknown. Protected in the same way as Command."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     opcode: names.Opcode
@@ -106,7 +106,7 @@ class Acknowledge(NamedTuple):
 class Measurement(NamedTuple):
     """The measured position and resistance of the muscle."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     position_m: float
     resistance_Ohm: float
     resistance_age_s: float
@@ -115,7 +115,7 @@ class Measurement(NamedTuple):
 class Tracking(NamedTuple):
     """How well the muscle follows its reference. Available in mode position only."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     reference_m: float
     model_m: float
     error_m: float
@@ -124,7 +124,7 @@ class Tracking(NamedTuple):
 class Power(NamedTuple):
     """The power that the controller demands, and the power that the muscle gets."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     demanded_W: float
     applied_W: float
     limited_by: names.LimitedBy
@@ -134,7 +134,7 @@ class Power(NamedTuple):
 class Heater(NamedTuple):
     """Supply voltage, current and duty of the heater."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     supply_V: float
     current_A: float
     duty: float
@@ -143,7 +143,7 @@ class Heater(NamedTuple):
 class Temperature(NamedTuple):
     """Bounds of the muscle's temperature, which is estimated and never measured."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     coldest_C: float
     hottest_C: float
 
@@ -151,7 +151,7 @@ class Temperature(NamedTuple):
 class Estimate(NamedTuple):
     """What the board has learned about the muscle: one parameter in each frame, and whether the estimates are trusted. A round has the first 8 parameters and takes 0.8 s at the usual rate; while the estimator provides standard deviations (least_squares), a round has all 14 and takes 1.4 s."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     parameter: names.Parameter
     trusted: bool
     identify_notes: int
@@ -175,7 +175,7 @@ class Estimate(NamedTuple):
 class Margin(NamedTuple):
     """How close a detector is to tripping; one detector in each frame, in turn."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     fault: names.Fault
     used: float
     measured: float
@@ -184,7 +184,7 @@ class Margin(NamedTuple):
 class Limit(NamedTuple):
     """The limit of a detector; one detector in each frame, in turn."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     fault: names.Fault
     limit: float
 
@@ -192,7 +192,7 @@ class Limit(NamedTuple):
 class Timing(NamedTuple):
     """Timing of the whole board, sent by its first node only."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     late_s: float
     execution_s: float
     overruns: int
@@ -202,7 +202,7 @@ class Timing(NamedTuple):
 class Gain(NamedTuple):
     """Gains of the active controller, in turn. An adaptive controller changes them."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     gain: names.Gain
     value: float
 
@@ -210,7 +210,7 @@ class Gain(NamedTuple):
 class RefusedValue(NamedTuple):
     """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     value: float
     nearest: float
 
@@ -218,7 +218,7 @@ class RefusedValue(NamedTuple):
 class Muscle(NamedTuple):
     """The answer to MuscleRead. Boards older than supercoil 0.2.0 do not answer."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     quantity: names.Quantity
     value: float
 
@@ -226,7 +226,7 @@ class Muscle(NamedTuple):
 class Setting(NamedTuple):
     """The answer to SettingWrite and SettingRead: the value that now applies, even if the write was refused. Protected in the same way as Command."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     setting: names.Setting
@@ -238,7 +238,7 @@ class Setting(NamedTuple):
 class SettingWrite(NamedTuple):
     """Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     setting: names.Setting
@@ -249,21 +249,21 @@ class SettingWrite(NamedTuple):
 class SettingRead(NamedTuple):
     """Asks for one setting of this node. Needs no lease: reading changes nothing."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     setting: names.Setting
 
 
 class MuscleRead(NamedTuple):
     """Asks for one quantity of this node's muscle. Needs no lease: reading changes nothing."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     quantity: names.Quantity
 
 
 class Tuning(NamedTuple):
     """The answer to TuningRead and TuningWrite. Protected in the same way as Command. Boards older than supercoil 0.2.0 do not answer."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     place: int
@@ -276,7 +276,7 @@ class Tuning(NamedTuple):
 class Status(NamedTuple):
     """Heartbeat of the channel. It stops when the control loop stops."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     state: names.State
     mode: names.Mode
     fault: names.Fault
@@ -299,7 +299,7 @@ class Status(NamedTuple):
 class Boot(NamedTuple):
     """The version of the program that the board runs, sent within a second of its start and once a second. It is the version that --version prints, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not send it."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     version_major: int
     version_minor: int
     version_patch: int
@@ -309,7 +309,7 @@ class Boot(NamedTuple):
 class Joint(NamedTuple):
     """The joint and both of its heaters, one part in each frame, in turn. Sent by the agonist's node or, where a spring or gravity pulls one muscle back, by that muscle's node; such a joint has only the first four parts. Other nodes do not send it, and neither do boards older than supercoil 0.2.0 and the first builds of 0.2.0. Faults of the joint are in Emergency and Status of the same node: a fault of either muscle is reported for both."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     part: names.Part
     agonist_limited: bool
     agonist_slack: bool
@@ -333,7 +333,7 @@ class Joint(NamedTuple):
 class TuningWrite(NamedTuple):
     """Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
 
-    time_s: float  # on the bus, by the clock of whoever received it
+    time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
     counter: int
     place: int

@@ -1,6 +1,6 @@
 # Generated from firmware/io/can/supercoil.dbc by toolchain/generate-can. Do not edit.
 
-"""What the protocol has names for."""
+"""Names of the values of signals."""
 
 from supercoil.named import Named
 

@@ -1,6 +1,6 @@
 # Generated from docs/running.md and firmware/core/modes/result.hpp by toolchain/generate-can. Do not edit.
 
-"""How identify and calibrate end."""
+"""The results of identify and calibrate."""
 
 from supercoil.generated.names import Result
 
@@ -19,5 +19,5 @@ MEANINGS = {
     Result.moved_backwards: "the muscle moved the wrong way when it was heated: the sensor's sign is wrong or, in a joint, the two heaters are swapped",
 }
 
-# Bits of what identify has to say, from the least on.
+# Bits of identify's notes, from the least significant.
 NOTES = ("theta1_kept", "theta2_uncertain", "theta3_uncertain", "theta4_uncertain", "poor_fit", "implausible", "too_little_motion", "friction")

@@ -1,6 +1,6 @@
 # Generated from docs/tuning.md by toolchain/generate-can. Do not edit.
 
-"""What the values of controllers and estimators may be."""
+"""Units, choices and ranges of the values of controllers and estimators."""
 
 from supercoil.generated.names import Tunable
 
@@ -49,7 +49,7 @@ CONTROLLER_UNITS = {
     Tunable.adapt_bandwidth: "",
 }
 
-# A value is sent as its place among them.
+# A choice is sent as its index.
 CONTROLLER_CHOICES = {
     Tunable.kind: ("power", "pi", "pd_ff", "mrac", "mrac_ls", "adaptive_ff", "learned_ff"),
     Tunable.learn: ("false", "true"),
@@ -77,12 +77,12 @@ ESTIMATOR_UNITS = {
     Tunable.trusted_error: "",
 }
 
-# A value is sent as its place among them.
+# A choice is sent as its index.
 ESTIMATOR_CHOICES = {
     Tunable.kind: ("none", "gradient", "least_squares"),
 }
 
-# Lowest and highest.
+# Minimum and maximum.
 RANGES = {
     Tunable.proportional_W_per_m: (0.0, 10000000.0),
     Tunable.integral_W_per_m_s: (0.0, 10000000.0),

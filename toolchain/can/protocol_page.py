@@ -20,7 +20,7 @@ raw × scale. *n/a* is the raw value for "not available"; for a float it is NaN.
 the range.
 
 A board ignores remote frames, CAN FD frames, and frames with 29-bit or other identifiers. A protected message
-([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of the wrong length counts as damaged, like one with
+([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite), [Knot](#knot), [Play](#play)) of the wrong length counts as damaged, like one with
 a wrong checksum: it is neither obeyed nor answered, and counts towards the fault command_damaged. Any other message of the wrong length is
 ignored. [A session](#a-session) shows how all of this works together.
 

@@ -71,7 +71,7 @@ def describe(database):
         yield (f'inline constexpr MessageInfo {constant(message)}{{"{message.name}", {message.frame_id - 1:#05x}, '
                f"{message.length}, {message.cycle_time or 0}, signals_of_{message.name}}};")
     yield "}  // namespace message\n"
-    yield "/// In the order of identifiers."
+    yield "/// In the order of the DBC."
     yield f"inline constexpr std::array<MessageInfo, {len(database.messages)}> all_messages{{{{"
     for message in database.messages:
         yield f"    message::{constant(message)},"

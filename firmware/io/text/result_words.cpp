@@ -23,7 +23,7 @@ const std::array<std::string_view, mode_result_names.size()> result_words{
     "the two heaters are swapped"};
 
 const std::array<std::string_view, identify_note_names.size()> note_words{
-    "θ1 was not known well enough and keeps the value that it had before",
+    "θ1 was not known well enough: the believed one is kept, in proportion to θ3",
     "θ2 is uncertain",
     "θ3 is uncertain",
     "θ4 is uncertain",

@@ -1119,7 +1119,7 @@ struct supercoil_emergency_t {
     uint8_t state;
 
     /**
-     * The board's monotonic clock at the tick that latched the fault, for comparison with the board's logs.
+     * The board's monotonic clock at the tick that latched or reset the fault, for comparison with the board's logs.
      *
      * Range: 0..281474976710655 (0..281474976.71065 s)
      * Scale: 1e-06
@@ -1356,7 +1356,7 @@ struct supercoil_trajectory_t {
 /**
  * Signals in message TuningRead.
  *
- * Asks for one value of a controller of this node. Needs no lease: reading changes nothing.
+ * Asks for one value of a controller or estimator of this node. Needs no lease: reading changes nothing.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1713,7 +1713,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * Notes of the last identify, as bits. Not reasons for a refusal: 1: theta1 was not known well enough and keeps its previous value; 2: theta2 is known only to within 10 to 50 % (if it is known less well, this is a reason). Reasons for a refusal: 4: theta3 is uncertain; 8: theta4 is uncertain; 16: the model does not explain the motion (with found: it explains shorter strokes, but not full ones); 32: implausible; 64: the muscle hardly moved.
+     * Notes of the last identify, as bits. Not reasons for a refusal: 1: theta1 was not known well enough, and the believed one is kept in proportion to theta3; 2: theta2 is known only to within 10 to 50 % (if it is known less well, this is a reason). Reasons for a refusal: 4: theta3 is uncertain; 8: theta4 is uncertain; 16: the model does not explain the motion (with found: it explains shorter strokes, but not full ones); 32: implausible; 64: the muscle hardly moved.
      *
      * Range: 0..127 (0..127 -)
      * Scale: 1
@@ -1956,7 +1956,7 @@ struct supercoil_timing_t {
     uint16_t overruns;
 
     /**
-     * Frames that the bus did not accept and that newer ones replaced, since boot, modulo 4096.
+     * Frames that the bus did not accept and that newer ones replaced or a lost bus discarded, since boot, modulo 4096.
      *
      * Range: 0..4095 (0..4095 -)
      * Scale: 1
@@ -1995,13 +1995,13 @@ struct supercoil_gain_t {
 /**
  * Signals in message RefusedValue.
  *
- * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it.
+ * Sent right after an Acknowledge, a Setting or a Tuning that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_refused_value_t {
     /**
-     * The value in the Command or SettingWrite that was refused.
+     * The value in the Command, SettingWrite or TuningWrite that was refused.
      *
      * Range: -
      * Scale: 1
@@ -2112,7 +2112,7 @@ struct supercoil_setting_t {
 /**
  * Signals in message SettingWrite.
  *
- * Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite.
+ * Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last protected message.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2127,7 +2127,7 @@ struct supercoil_setting_write_t {
     uint8_t crc;
 
     /**
-     * Incremented with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
+     * Incremented with each protected message of a session, 0 after 15.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -2652,7 +2652,7 @@ struct supercoil_joint_t {
 /**
  * Signals in message TuningWrite.
  *
- * Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite.
+ * Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last protected message.
  *
  * All signal values are as on the CAN bus.
  */
@@ -2667,7 +2667,7 @@ struct supercoil_tuning_write_t {
     uint8_t crc;
 
     /**
-     * Incremented with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
+     * Incremented with each protected message of a session, 0 after 15.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1

@@ -590,7 +590,7 @@ inline constexpr MessageInfo joint{"Joint", 0x780, 8, 20, signals_of_Joint};
 inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite};
 }  // namespace message
 
-/// In the order of identifiers.
+/// In the order of the DBC.
 inline constexpr std::array<MessageInfo, 30> all_messages{{
     message::sync,
     message::emergency,

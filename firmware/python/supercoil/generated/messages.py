@@ -72,7 +72,7 @@ class Trajectory(NamedTuple):
 
 
 class TuningRead(NamedTuple):
-    """Asks for one value of a controller of this node. Needs no lease: reading changes nothing."""
+    """Asks for one value of a controller or estimator of this node. Needs no lease: reading changes nothing."""
 
     time_s: float  # when it was on the bus, by the receiver's clock
     place: int
@@ -208,7 +208,7 @@ class Gain(NamedTuple):
 
 
 class RefusedValue(NamedTuple):
-    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
+    """Sent right after an Acknowledge, a Setting or a Tuning that refuses a value as out_of_range: the refused value, and the nearest one that would have been obeyed. Boards of protocol version 3 and older, and the first boards of version 4, do not send it."""
 
     time_s: float  # when it was on the bus, by the receiver's clock
     value: float
@@ -236,7 +236,7 @@ class Setting(NamedTuple):
 
 
 class SettingWrite(NamedTuple):
-    """Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
+    """Changes one setting of this node until the board restarts. Needs the lease, and is protected in the same way as Command. The counter continues from the last protected message."""
 
     time_s: float  # when it was on the bus, by the receiver's clock
     crc: int
@@ -331,7 +331,7 @@ class Joint(NamedTuple):
 
 
 class TuningWrite(NamedTuple):
-    """Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last Command, SettingWrite or TuningWrite."""
+    """Prepares one value of a controller or estimator of this node. Nothing changes until the command controller is given with 1000 added to the place. Needs the lease, and is protected in the same way as Command. The counter continues from the last protected message."""
 
     time_s: float  # when it was on the bus, by the receiver's clock
     crc: int

@@ -123,9 +123,9 @@ class SetupOfABoard(SetupCase):
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
             told = [program.stdout.readline() for _ in range(5)]
             self.assertTrue(told[0].startswith("scale: takes"))
-            self.assertIn(f"left; supercoil setup scale --config {self.board} --can {bus} does it", told[1])
+            self.assertIn(f"skipped; supercoil setup scale --config {self.board} --can {bus} does it", told[1])
             self.assertTrue(told[2].startswith("limits: finds"))
-            self.assertIn(f"left; supercoil setup limits --config {self.board} --can {bus} does it", told[3])
+            self.assertIn(f"skipped; supercoil setup limits --config {self.board} --can {bus} does it", told[3])
             self.assertTrue(told[4].startswith("identify: heats"))
             time.sleep(0.5)
             program.send_signal(signal.SIGINT)
@@ -286,7 +286,7 @@ class SetupOfABoard(SetupCase):
             return self.setup_program(*script, *bus, stdin=subprocess.DEVNULL)
 
         told = self.patiently(unattended, RESTART).stdout
-        self.assertIn(f"left; supercoil setup scale --config {self.board} {' '.join(bus)} does it", told)
+        self.assertIn(f"skipped; supercoil setup scale --config {self.board} {' '.join(bus)} does it", told)
         self.assertIn("lets go where the script says", told)
         limit = float(re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)[1])
         self.assertTrue(3.4 < limit < 4.5, limit)

@@ -114,7 +114,7 @@ class Turning(Bridged):
         self.addCleanup(both.kill)
         states = self.peer.reader("rt/both_states", "sensor_msgs/msg/JointState")
         self.wait(lambda: ["knee"] in [list(state.name) for state in states.take()])
-        told = self.wait(lambda: (status := self.told("back")) and "node 1 back" in status.message and status)
+        told = self.wait(lambda: (status := self.told("back")) and "joint of node 1" in status.message and status)
         self.assertEqual(told.level, OK)
         commands = self.peer.writer("rt/both/joint_commands", "sensor_msgs/msg/JointState")
         told = self.diagnosis_of("back", "command node 1", lambda: self.command({"back": 0.001}, commands))

@@ -118,7 +118,7 @@ class Local(unittest.TestCase):
         with self.muscle() as muscle, self.assertRaises(supercoil.OutcomeError) as raised:
             muscle.identify()
         self.assertRegex(str(raised.exception),
-                         r"identify ended: too_little_motion: the muscle moved by less than .* maximum power; theta1_kept$")
+                         r"identify ended: too_little_motion: the muscle moved by less .* maximum power; theta1_kept$")
         self.assertEqual(raised.exception.notes, ("theta1_kept", "too_little_motion"))
 
     def test_what_is_learned_and_known_is_told(self):

@@ -50,8 +50,7 @@ TEST(ResultWords, EveryNoteHasSome) {
 
 TEST(ResultWords, TheyComeBehindTheNameAndNothingTwice) {
   const std::string still =
-      "too_little_motion: the muscle moved by less than 1 % of its travel with all the power that "
-      "it may have";
+      "too_little_motion: the muscle moved by less than 1 % of its travel at the maximum power";
   STRCMP_EQUAL(still.c_str(), told_result("too_little_motion", "too_little_motion").c_str());
   STRCMP_EQUAL((still + "; theta1_kept, friction").c_str(),
                told_result("too_little_motion", "theta1_kept,too_little_motion,friction").c_str());

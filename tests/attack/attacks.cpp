@@ -96,7 +96,7 @@ void add_measured_air(std::vector<Attack>& attacks) {
   }
 }
 
-/// Repeats on an identified muscle what the firmware does not withstand, or does not know.
+/// Repeats on an identified muscle each attack to which the firmware is blind.
 void add_identified(std::vector<Attack>& attacks) {
   const std::vector<Attack> others = attacks;
   for (Attack a : others) {

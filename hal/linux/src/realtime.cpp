@@ -3,7 +3,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <system_error>
 
 #include <fcntl.h>
@@ -31,27 +30,6 @@ std::string limit_text(__rlimit_resource resource) {
   return limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur);
 }
 
-/// Bytes of the calling thread's stack that are certainly below this call.
-std::size_t stack_left() {
-  pthread_attr_t attributes{};
-  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
-  void* lowest = nullptr;
-  std::size_t bytes = 0;
-  ::pthread_attr_getstack(&attributes, &lowest, &bytes);
-  ::pthread_attr_destroy(&attributes);
-  const char here = 0;
-  return static_cast<std::size_t>(&here - static_cast<const char*>(lowest));
-}
-
-/// Writes into its own frame and those below. One big array could be optimised away.
-[[gnu::noinline]] char touch(std::size_t bytes) {
-  constexpr std::size_t frame = 2048;  // less than a page, so that none is skipped
-  std::array<volatile char, frame> mine;
-  mine.front() = static_cast<char>(bytes);
-  mine.back() = bytes > frame ? touch(bytes - frame) : '\0';
-  return static_cast<char>(mine.front() + mine.back());
-}
-
 }  // namespace
 
 SetupStep lock_memory() {
@@ -60,18 +38,6 @@ SetupStep lock_memory() {
                                        : message(errno) + "; the limit of locked memory is " +
                                              limit_text(RLIMIT_MEMLOCK) + " bytes";
   return outcome("memory locked", reason, "run as root, or LimitMEMLOCK=infinity in the service");
-}
-
-SetupStep prefault_stack(std::size_t bytes) {
-  constexpr std::size_t for_others = std::size_t{16} * 1024;
-  const std::string step = std::to_string(bytes / 1024) + " KiB of stack in memory";
-  const std::size_t left = stack_left();
-  if (left < bytes + for_others) {
-    return outcome(step, "the stack has only " + std::to_string(left / 1024) + " KiB left",
-                   "give the thread a larger stack");
-  }
-  static_cast<void>(touch(bytes));
-  return outcome(step, "", "");
 }
 
 SetupStep set_fifo_priority(pthread_t thread, int priority) {

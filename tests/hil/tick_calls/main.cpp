@@ -78,9 +78,8 @@ int main(int count, char** arguments) {
     return fail(started.error().text());
   }
   hal_linux::CpuLatencyRequest cpus;
-  for (const auto& step :
-       {hal_linux::lock_memory(), hal_linux::prefault_stack(std::size_t{128} * 1024),
-        hal_linux::set_fifo_priority(::pthread_self(), priority), cpus.hold()})
+  for (const auto& step : {hal_linux::lock_memory(),
+                           hal_linux::set_fifo_priority(::pthread_self(), priority), cpus.hold()})
     if (!step.worked) std::printf("not %s: %s\n", step.step.c_str(), step.reason.c_str());
 
   const board::Devices devices = (*board)->devices();

@@ -48,27 +48,6 @@ TEST(Realtime, LocksMemoryOrSaysWhyNot) {
                lock_memory().remedy.c_str());
 }
 
-TEST(Realtime, PrefaultsAsMuchStackAsThereIs) {
-  check_worked(prefault_stack(std::size_t{256} * 1024));
-  check_worked(prefault_stack(0));
-  check_failed(prefault_stack(std::size_t{1} << 40), "the stack has only ");
-}
-
-TEST(Realtime, PrefaultsTheStackOfAThread) {
-  constexpr std::size_t stack = std::size_t{128} * 1024;
-  SetupStep half;
-  SetupStep whole;
-  {
-    const auto thread = Thread::start({"stack", 0, -1, stack}, [&] {
-      half = prefault_stack(stack / 2);
-      whole = prefault_stack(stack);
-    });
-    CHECK(thread.has_value());
-  }
-  check_worked(half);
-  check_failed(whole, "the stack has only ");
-}
-
 TEST(Realtime, SaysWhyThereIsNoPriority) {
   fail_next(Call::set_scheduling, "", EPERM);
   const SetupStep step = set_fifo_priority(::pthread_self(), 80);

@@ -1,9 +1,7 @@
 // Set-up that makes a thread wake on time; each step reports its outcome.
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include <pthread.h>
 
@@ -22,9 +20,6 @@ struct SetupStep {
 /// Keeps the process's present and future memory in RAM. Call it before threads are started: their
 /// whole stacks are locked as well.
 SetupStep lock_memory();
-
-/// Touches this much of the calling thread's stack, so that it is in RAM before it is needed.
-SetupStep prefault_stack(std::size_t bytes);
 
 /// 1 to 99, above all ordinary threads; checked by reading it back.
 SetupStep set_fifo_priority(pthread_t thread, int priority);

@@ -1,14 +1,14 @@
-# What every target of supercoil is compiled with. It stands beside control, which other projects add without the rest.
-option(SUPERCOIL_WARNINGS_ARE_ERRORS "What the presets set" OFF)
+# Compile options of every supercoil target. In control's folder, because other projects add control without the rest.
+option(SUPERCOIL_WARNINGS_ARE_ERRORS "Treat warnings as errors; on in the presets" OFF)
 
-# -O3, which is CMake's, takes a quarter longer to compile, and a simulation the same time; but for what a tick runs.
+# -O3, CMake's default, takes a quarter longer to compile and makes simulations no faster: only for code that ticks run.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 function(supercoil_runs_in_ticks target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
   supercoil_only_computes(${target})
 endfunction()
-# Of what only computes a fuzz target hears which branches an input took, and not what each of them compared: what an input
-# says is compared where it is read, and to tell of every comparison in every tick takes the tests long.
+# For code that only computes: fuzz targets record the branches that an input took, but no comparisons. The parsers
+# compare inputs, and recording every comparison of every tick slows the tests down.
 function(supercoil_only_computes target)
   target_compile_options(${target} PRIVATE $<$<BOOL:${SUPERCOIL_FUZZ}>:-fno-sanitize-coverage=trace-cmp,stack-depth>)
 endfunction()
@@ -16,33 +16,33 @@ endfunction()
 add_library(supercoil_options INTERFACE)
 target_compile_options(supercoil_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${SUPERCOIL_WARNINGS_ARE_ERRORS}>:-Werror>
-  # g++ 12 reports std::string's own operator+ (its bug 105651).
+  # g++ 12 warns about std::string's own operator+ (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Contracted multiply-adds would make arm64 and x86-64 differ in the last bit.
   -ffp-contract=off
-  # So that the linker can leave out what a program does not use.
+  # So that the linker can drop functions that a program does not use.
   $<$<CONFIG:Release>:-ffunction-sections>)
-# Libraries' functions are found when a program starts: none is looked up in a tick.
+# Resolves shared libraries' functions when a program starts, not at the first call, which may be in a tick.
 target_link_options(supercoil_options INTERFACE -Wl,-z,now
-  # What a program does not use of our libraries is left out: supercoild locks all of itself in memory.
+  # Drops unused functions of our libraries: supercoild locks its whole image in memory.
   -Wl,--gc-sections)
 
 if(SUPERCOIL_SANITIZE)
-  # At -O0 the suite takes ten times as long; clang++'s -O1 hardly inlines, and its -O2 takes no longer to compile.
-  # -g1: half of -g's time to compile, and names and lines remain.
+  # At -O0 the suite takes ten times as long. clang++'s -O1 hardly inlines, and its -O2 takes no longer to compile.
+  # -g1 compiles in half the time of -g, and keeps names and line numbers.
   add_compile_options(-fsanitize=${SUPERCOIL_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer $<IF:$<CXX_COMPILER_ID:Clang>,-O2,-O1> -g1
                       $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/unsanitized.txt>
-                      # g++ knows no fences under ThreadSanitizer; the only ones are in Asio, beside its mutexes.
+                      # g++'s ThreadSanitizer does not model fences; the only ones are in Asio, beside its mutexes.
                       $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
   if(SUPERCOIL_FUZZ)
-    # Every branch counts itself, for libFuzzer to see what an input reached (tests/fuzz).
+    # Counts every branch, so that libFuzzer sees which code an input reached (tests/fuzz).
     add_compile_options(-fsanitize=fuzzer-no-link)
   endif()
   add_link_options(-fsanitize=${SUPERCOIL_SANITIZE})
 endif()
 
-# CLI11 takes 20 s to optimise, for what runs once.
+# CLI11 takes 20 s to optimise, for code that runs once.
 function(supercoil_reads_command_line file)
   set(optimised -O1)
   if(SUPERCOIL_SANITIZE)

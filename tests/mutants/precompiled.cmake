@@ -1,4 +1,4 @@
-# Included by project(): every target that uses Eigen, except control's own, starts with the precompiled headers.
+# Included by project(): every target that uses Eigen, except those of control, uses the precompiled headers.
 function(use_precompiled folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)

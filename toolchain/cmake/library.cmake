@@ -1,4 +1,4 @@
-# How other projects find the libraries: find_package(supercoil) and pkg-config. docs/library.md.
+# How other projects find the libraries: find_package(supercoil) and pkg-config (docs/library.md).
 include(CMakePackageConfigHelpers)
 
 set(headers ${CMAKE_INSTALL_INCLUDEDIR})

@@ -1,5 +1,5 @@
-// What is wrong with the page as it is laid out now: texts and controls that lie over each other, reach out of what
-// holds them, or are too small to be hit. Called by accessibility_test.py with the least size of a target in pixels.
+// Finds problems of the page's present layout: texts and controls that overlap, reach out of their containers, or are
+// too small to be hit. Called by accessibility_test.py with the min size of a target in pixels.
 
 const LEAST_TARGET_PX = arguments[0];
 // Line boxes of one font may touch.
@@ -9,7 +9,7 @@ const CONTROLS = "button, input, select, summary, progress, [role=meter], canvas
 
 const is_seen = (element) => element.checkVisibility({ opacityProperty: true, visibilityProperty: true }) && !element.closest("legend");
 
-/** The part of a rectangle that what scrolls around the element lets through. */
+/** The part of a rectangle that the scrolling containers around the element leave visible. */
 function clipped({ left, right, top, bottom }, element) {
   for (let around = element; around && around !== document.body; around = around.parentElement) {
     if (getComputedStyle(around).overflow === "visible") continue;
@@ -42,7 +42,7 @@ const controls = () => [...document.querySelectorAll(CONTROLS)].filter(is_seen).
 
 const overlap = (a, b) =>
   Math.min(a.right, b.right) - Math.max(a.left, b.left) > TOUCH_PX && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > TOUCH_PX;
-// A dialog is meant to lie over the page, and STOP over a phone's.
+// Dialogs may cover the page, and on a phone STOP may too.
 const floats = (element) => element.closest("dialog") || (element.closest("#stop") && innerWidth <= 640);
 
 const problems = [];
@@ -54,7 +54,7 @@ pieces.forEach((a, i) => {
   }
   const holder = a.element.closest(HOLDERS).getBoundingClientRect();
   const inside = clipped(a.all, a.element);
-  if (inside.right > holder.right + 1 || inside.left < holder.left - 1) problems.push(`${a.name} reaches out of what holds it`);
+  if (inside.right > holder.right + 1 || inside.left < holder.left - 1) problems.push(`${a.name} reaches out of its container`);
 });
 for (const element of document.querySelectorAll("button, input, select, summary, [tabindex]")) {
   // A hidden radio button is hit by its label.

@@ -3,7 +3,7 @@
 import { element, show } from "./dom.js";
 import { LENGTH, measure_of, same_joint } from "./joint.js";
 
-// Until the board has told its limits: the stroke and the power of the paper's muscle.
+// Used until the board reports its limits: the stroke and the power of the paper's muscle.
 const USUAL = { position: 0.02, power: 4.5 };
 const MODES = {
   position: { opcode: "position", button: "move", unit: LENGTH.unit, to_board: LENGTH.to_m, of_board: LENGTH.of_m, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
@@ -35,7 +35,7 @@ function modes_of_follower(leader) {
 }
 
 export class ControlPanel {
-  /** may: {command: whether it may, why: why not}; log(text, kind): called for each command. */
+  /** may: {command: whether commands are allowed, why: the reason if not}; log(text, kind): called for each command. */
   constructor(manual, may, log) {
     Object.assign(this, { manual, may, log, modes: MODES, mode: "position", values: {}, steps: {}, limits: new Map() });
     const id = (name) => `${name}-${manual.node}`;
@@ -97,7 +97,7 @@ export class ControlPanel {
     this.number.value = this.slider.value = this.values[mode] ?? "0";
   }
 
-  /** Number and slider end at the detector's limit, if the board has told it. */
+  /** Number and slider end at the detector's limit, if the board has reported it. */
   #scale() {
     const { of_board, steps: [finest], opcode, min } = this.modes[this.mode];
     const limit = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
@@ -106,7 +106,8 @@ export class ControlPanel {
     const reach = (unit) => whole(of_board(limit), unit), back = (unit) => -whole(-of_board(min(limit)), unit);
     Object.assign(this.number, { step, max: reach(finest) });
     this.min = min ? back(finest) : 0;
-    // Steps count from the minimum, and 0 must be one: the slider's minimum is a multiple of the step, and the number has none.
+    // Inputs count steps from their minimum, and 0 must be a step: the slider's minimum is a multiple of the step, and
+    // the number has no minimum.
     if (min) {
       this.number.removeAttribute("min");
       Object.assign(this.slider, { min: back(step), step, max: reach(step) });
@@ -121,7 +122,7 @@ export class ControlPanel {
     this.#scale();
   }
 
-  /** One step up (1) or down (-1), sent at once; no further than the limits. */
+  /** One step up (1) or down (-1), sent at once, within the limits. */
   nudge(sign) {
     if (!this.may.command || !this.modes[this.mode].unit) return;
     const wanted = (this.number.valueAsNumber || 0) + sign * Number(this.step.value);
@@ -168,8 +169,8 @@ export class ControlPanel {
     this.#choose(this.mode);
   }
 
-  /** status: the channel's own status, in words, or null; joint, leader: of joint_of(), leader_of(). Highlights the sensible next
-      step. */
+  /** status: the channel's own status, in words, or null; joint, leader: from joint_of(), leader_of(). Highlights the
+      sensible next step. */
   update(status, limits, joint, leader) {
     if (status) this.manual.observe(status);
     this.#take_joint(joint);

@@ -10,7 +10,7 @@ export class Feed {
   #filling = Promise.resolve();
   #older = 0;
 
-  /** on_problem: called with what went wrong with a request for history. */
+  /** on_problem: called with the error of a failed request for history. */
   constructor(store, stream, is_log, on_problem) {
     this.store = store;
     this.is_log = is_log;
@@ -40,7 +40,7 @@ export class Feed {
     } finally {
       const waiting = this.#waiting;
       this.#waiting = null;
-      // The history has what came before it was requested; appended again it would look like a source that restarts.
+      // Batches from before the request are in the history; appended again they would look like a source that restarts.
       for (const batch of waiting ?? []) if (!(batch.newest_s <= this.store.newest_s)) this.store.append(batch);
     }
     if (!known && !this.is_log) this.#fetch_older(++this.#older).catch((problem) => this.on_problem(problem.message));

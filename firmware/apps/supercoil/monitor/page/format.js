@@ -1,4 +1,4 @@
-// Formats numbers and words for display. What is not available is a dash.
+// Formats numbers and words for display. A value that is not available becomes a dash.
 
 export const NONE = "–";
 
@@ -26,7 +26,7 @@ export function decimals_of(step) {
   return decimals;
 }
 
-// A time beyond 1973 is a calendar time; one before is counted from a start.
+// Times after 1973 are calendar times; earlier ones count from a start.
 const CALENDAR_S = 1e8;
 
 /** A time of the bus. decimals: of the seconds. */

@@ -41,7 +41,7 @@ export class Lever {
   }
 }
 
-/** The lever that the board has told; constant unless it is a table. */
+/** The lever that the board has reported; constant unless it is a table. */
 function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...told }) {
   const levers_m = [];
   for (let i = 1; i <= MAX_POINTS && told[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(told[`joint_lever_${i}_m`]);
@@ -49,27 +49,29 @@ function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever
   return is_table ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
 }
 
-/** What a board has told of a node's muscle, by the names of Muscle.quantity. */
+/** What a board has reported of a node's muscle, by the names of Muscle.quantity. */
 function told_of(store, node, now_s) {
   const told = {};
   for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
   return told;
 }
 
-/** The node that leads the bundle of a node's muscle; null: this node leads, is in no bundle, or the board has not told yet. */
+/** The node that leads the bundle of a node's muscle; null: this node leads, is in no bundle, or the board has not
+    reported yet. */
 export function leader_of(store, node, now_s) {
   const { bundle_leader_node_offset: offset } = told_of(store, node, now_s);
   return Number.isFinite(offset) ? node + offset : null;
 }
 
-/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: the lever is this muscle's, lever_m at the angle 0, < 0 for the
-    antagonist; other is its partner's node, null if a spring draws it back, and other_travel_m how far the partner may contract, if told, as
-    an arc at this lever. null: it is in no joint, or the board has not told yet. */
+/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: the lever is this muscle's, lever_m at the
+    angle 0, < 0 for the antagonist; other is its partner's node, null if a spring draws it back, and other_travel_m how
+    far the partner may contract, if reported, as an arc at this lever. null: it is in no joint, or the board has not
+    reported yet. */
 export function joint_of(store, node, now_s) {
   const told = told_of(store, node, now_s);
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
   if (!(Math.abs(lever_m) > 0) || offset === undefined) return null;
-  // The last value that is sent: half a table would turn degrees into wrong metres.
+  // Waits for the last value: with half a table, degrees would become wrong metres.
   if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
   if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(told), other: null, other_travel_m: 0 };
   const joint = { lever_m, lever: lever_of(told), other: node + offset };
@@ -79,7 +81,7 @@ export function joint_of(store, node, now_s) {
   return joint;
 }
 
-/** Compares what joint_of() says by value: the board keeps sending the same joint. */
+/** Compares two results of joint_of() by value: the board keeps sending the same joint. */
 export const same_joint = (joint, other) => JSON.stringify(joint) === JSON.stringify(other);
 
 /** to_m, of_m: convert from the unit and back; both_ways: set points may be negative; min_m: the minimum, for a muscle with this travel. */

@@ -20,7 +20,7 @@ export class Journal {
     while (this.list.children.length > KEPT) this.list.lastChild.remove();
   }
 
-  /** A mark set by the user, who knows why. */
+  /** A mark set by the user. */
   mark(time_s) {
     this.add(`mark ${++this.marks}`, "", time_s);
   }

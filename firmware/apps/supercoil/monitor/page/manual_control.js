@@ -16,7 +16,7 @@ export class ManualControl extends EventTarget {
     Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0, following: null });
   }
 
-  /** A command by hand; it ends what is played. Resolves to {obeyed, text}. */
+  /** A manual command; it ends a motion that is playing. Resolves to {obeyed, text}. */
   async send(opcode, value = 0) {
     this.dispatchEvent(new Event("taken"));
     await this.following; // a set point in flight must not overtake this command

@@ -75,7 +75,7 @@ export class NodeView {
     for (const card of this.cards) card.update(now_s);
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
-    // Known values stay until a restarting board has told them again.
+    // Known values stay until a restarting board has sent them again.
     const joint = joint_of(this.store, this.node, now_s);
     if (joint) this.joint = { ...this.joint, ...joint };
     this.panel.update(this.status, this.margins.limits, this.joint, leader_of(this.store, this.node, now_s));

@@ -1,9 +1,10 @@
-// What happened in the time shown: limits that took power, an infeasible reference, an arming that never came, a swing that does not end.
+// What happened in the time shown: power limits, an infeasible reference, a channel that was never armed, a sustained
+// oscillation.
 
 import { fixed, significant, words } from "./format.js";
 import { refusal_words } from "./refusals.js";
 
-// A self-sustained swing is searched for in the newest part only, while the reference stands still.
+// Searches for a self-sustained oscillation only in the newest part, while the reference is constant.
 const SWING_S = 60;
 const STILL_M = 1e-5;
 const LEAST_PERIODS = 4;
@@ -27,7 +28,7 @@ function* samples(table, columns, from_s, to_s) {
 
 const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
 
-/** [time, name] of what limited the power; null while the channel was not active or, if modes are given, in none of them. */
+/** [time, name] of the limit on the power; null while the channel was not active or, if modes are given, not in any. */
 function* limits(store, node, { from_s, to_s }, modes = []) {
   const active = number_of(store, "Status", "state", "active"), wanted = modes.map((mode) => number_of(store, "Status", "mode", mode));
   const states = [...samples(store.table(node, "Status"), modes.length > 0 ? ["state", "mode"] : ["state"], from_s, to_s)];
@@ -98,13 +99,13 @@ export function never_armed_told(store, node, { from_s, to_s }) {
   return `Never armed: refused, ${refusal_words(store.word("Acknowledge", "refusal", asked.at(-1)[2]))}.`;
 }
 
-/** {period_s, amplitude_m} of a swing at a steady rhythm while the reference stood still, or null. */
+/** {period_s, amplitude_m} of an oscillation with a steady period while the reference was constant, or null. */
 export function swing_of(points) {
   const mean_m = points.reduce((sum, [, error_m]) => sum + error_m, 0) / points.length;
   const rms_m = Math.sqrt(points.reduce((sum, [, error_m]) => sum + (error_m - mean_m) ** 2, 0) / points.length);
   const rises_s = [];
   let high = null;
-  // Between the two thresholds nothing changes: noise on a swing crosses once.
+  // Between the two thresholds nothing changes: noise on an oscillation crosses once.
   for (const [time_s, error_m] of points) {
     if (error_m - mean_m > rms_m / 2) {
       if (high === false) rises_s.push(time_s);

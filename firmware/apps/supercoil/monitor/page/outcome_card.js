@@ -3,7 +3,7 @@
 import { element, show } from "./dom.js";
 import { cycle_told, infeasible_told, limits_told, never_armed_told, swing_told } from "./outcome.js";
 
-// It reads all that is shown: less often for an hour, so that the plots do not wait for it.
+// Reads all data shown, so less often when that is an hour: the plots must not wait for it.
 const every_ms = (span_s) => Math.max(2000, 5 * span_s);
 
 export class OutcomeCard {

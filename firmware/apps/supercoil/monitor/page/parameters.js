@@ -1,4 +1,4 @@
-// What the board has learned of the muscle, with its trust and, if the estimator reports them, standard deviations.
+// The estimated parameters of the muscle, whether they are trusted, and standard deviations if the estimator has any.
 
 import { element, scrolling, show } from "./dom.js";
 import { NONE, fixed, significant } from "./format.js";

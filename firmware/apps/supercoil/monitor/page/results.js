@@ -11,7 +11,7 @@ export function take_results(by_name, by_bit) {
   notes = by_bit ?? [];
 }
 
-// The estimates have no bit left for it; it is in Status.
+// identify_notes has no bit left for it; it is in Status.
 const FRICTION = "friction";
 
 /** "poor fit: the muscle did not …; θ2 is uncertain"; "" if none has ended. by: what interrupted it; bits: identify_notes. */

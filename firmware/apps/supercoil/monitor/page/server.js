@@ -14,7 +14,7 @@ function take_token() {
   return sessionStorage.getItem(KEY) ?? "";
 }
 
-// For STOP; after that another way is tried.
+// For STOP; after this time the fallback is tried.
 const STOP_WITHIN_MS = 500;
 
 async function ask(path, options = {}) {

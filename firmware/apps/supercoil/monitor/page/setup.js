@@ -37,7 +37,7 @@ export class Setup {
     const { asked } = this;
     try {
       const state = await setup_state();
-      // A state from before a request is not shown after it.
+      // Ignores a state that was read before the latest request.
       if (asked === this.asked) this.#take(state);
     } catch (problem) {
       this.#say(problem.message, true);
@@ -126,7 +126,7 @@ export class Setup {
     if (question) parts.push(this.#question(question));
     if (error) parts.push(element("p", { class: "answer refused", role: "alert" }, error));
     else if (!runs && !kept) parts.push(element("p", { class: "answer refused", role: "alert" }, "The promise was not kept."));
-    // Keys with dots are the file's.
+    // Names with dots are keys of the board's file.
     else if (!runs && Object.keys(found ?? {}).some((key) => key.includes("."))) parts.push(element("p", { class: "answer" }, "The file was changed: start the board with it, then go on with the next step."));
     return parts;
   }

@@ -14,7 +14,7 @@ const MEANS = {
   active: "heats",
   fault: "off, needs a reset",
 };
-// From here on, contact for hours burns skin (docs/safety.md).
+// At this temperature, contact for hours burns skin (docs/safety.md).
 const HOT_C = 43;
 
 /** How hot the muscle may be, by its upper bound: off is not cold. */

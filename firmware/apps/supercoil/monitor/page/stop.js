@@ -39,7 +39,7 @@ export class Stop {
   }
 
   async press() {
-    // First, because it needs no answer: what is no longer renewed expires on the board by itself.
+    // First, because it needs no answer: a command that is no longer renewed expires on the board by itself.
     this.release_hold();
     this.pressed_s = this.newest_s();
     this.button.classList.add("pressed");

@@ -5,7 +5,7 @@ import { Table } from "./table.js";
 const HOUR_S = 3600;
 // The precision of a Float32Array.
 const SINGLE_DIGITS = 8;
-// A source that restarts begins at an earlier time; frames of one source never differ by this much.
+// A restarted source begins at an earlier time; frames of one source are never this much out of order.
 const RESTART_S = 1;
 
 export class Store extends EventTarget {

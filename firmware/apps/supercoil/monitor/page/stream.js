@@ -5,7 +5,7 @@ import { token } from "./server.js";
 export class Stream extends EventTarget {
   open() {
     const url = new URL("/api/stream", location.href);
-    // The history is asked for whatever was missed.
+    // Missed data is requested from the history instead.
     url.searchParams.set("resume", "no");
     if (token) url.searchParams.set("token", token);
     if ("SharedWorker" in window) {

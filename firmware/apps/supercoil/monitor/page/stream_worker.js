@@ -1,4 +1,4 @@
-// One event stream for all pages of this browser: it allows six connections to a server, and eight pages are open.
+// One event stream for all pages of this browser, which allows only six connections to a server.
 // A classic script, so that it runs as a SharedWorker everywhere.
 
 const pages = [];

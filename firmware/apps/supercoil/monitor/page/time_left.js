@@ -9,7 +9,7 @@ const ENOUGH_DONE = 0.03;
 export class TimeLeft {
   #seen = null;
 
-  /** what: a new one starts again. done: 0 to 1. ", 14 s left", or nothing while it is unknown. */
+  /** what: the job; a new one starts a new estimate. done: 0 to 1. ", 14 s left", or nothing while it is unknown. */
   text(what, time_s, done) {
     if (this.#seen?.what !== what || done < this.#seen.done) this.#seen = { what, time_s, done };
     const passed_s = time_s - this.#seen.time_s;

@@ -46,7 +46,7 @@ function* swing_knots(at, step_s, end_s) {
   yield { time_s: end_s, position_m: at(end_s), velocity_m_per_s: 0 };
 }
 
-/** The same for a file's rows [s, m], which it passes smoothly; {why} if they are too far apart. */
+/** The same for a file's rows [s, m], which the trajectory passes smoothly; {why} if they are too far apart. */
 export function through(rows, at) {
   const kept = [];
   for (const [time_s, position_m] of rows) {

@@ -104,7 +104,7 @@ export class TrajectoryPlayer extends EventTarget {
     return "";
   }
 
-  /** Draws the knots to send next. */
+  /** Takes the knots to send next from the motion. */
   #draw(run) {
     while (run.next.length < KNOTS_AT_ONCE) {
       const { done, value } = run.knots.next();

@@ -37,7 +37,7 @@ export class Tuning {
     return this.kinds?.controllers[place];
   }
 
-  /** Asks for the kinds again when the active ones may have changed: others tune as well. */
+  /** Asks for the kinds again when the active ones may have changed: other programs tune as well. */
   follow(status) {
     const now = status && status.state !== "silent" ? `${status.state} ${status.mode} ${status.controller}` : "";
     if (now === this.known_at) return;

@@ -1,7 +1,7 @@
 // Finds problems of the page's present layout: texts and controls that overlap, reach out of their containers, or are
 // too small to be hit. Called by accessibility_test.py with the min size of a target in pixels.
 
-const LEAST_TARGET_PX = arguments[0];
+const MIN_TARGET_PX = arguments[0];
 // Line boxes of one font may touch.
 const TOUCH_PX = 3;
 const HOLDERS = "button, .card, .plot, .readouts, header, dialog, #replay, #stop-notice, body";
@@ -61,7 +61,7 @@ for (const element of document.querySelectorAll("button, input, select, summary,
   const target = element.matches("fieldset input") ? element.parentElement : element;
   if (!is_seen(target)) continue;
   const { width, height } = target.getBoundingClientRect();
-  if (width < LEAST_TARGET_PX || height < LEAST_TARGET_PX)
+  if (width < MIN_TARGET_PX || height < MIN_TARGET_PX)
     problems.push(`${element.getAttribute("aria-label") ?? element.value} ${element.textContent} is ${width.toFixed(0)} x ${height.toFixed(0)} px`);
 }
 if (document.documentElement.scrollWidth > innerWidth) problems.push(`scrolls sideways, ${document.documentElement.scrollWidth} px`);

@@ -4,7 +4,7 @@ import unittest
 
 from modules import ModulesCase
 
-OUTCOME = """const { cycle_told, infeasible_told, limits_told, never_armed_told, swing_told } = await import("/outcome.js");
+OUTCOME = """const { cycle_text, infeasible_text, limits_text, never_armed_text, oscillation_text } = await import("/outcome.js");
     const { protocol, infeasible } = await (await fetch("/api/about")).json();
     const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
     const store = new Store(protocol, true);
@@ -24,14 +24,14 @@ class OutcomeTest(ModulesCase):
     def test_share_of_limits_is_of_the_time_that_it_heated(self):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, (time) => state(time < 5 ? "armed" : "active"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5 ? "cooling" : time < 6 ? "maximum" : time < 6.5 ? "slew" : "nothing"));
-            return [limits_told(store, 1, range), limits_told(store, 1, { from_s: 7, to_s: 10 }), limits_told(store, 2, range)];"""),
+            return [limits_text(store, 1, range), limits_text(store, 1, { from_s: 7, to_s: 10 }), limits_text(store, 2, range)];"""),
             ["At a limit in 30.0 % of the heating time: maximum 20.0 %, slew 10.0 %.", "", ""])
 
     def test_a_reference_that_was_not_feasible_is_told_of_while_a_position_is_followed(self):
         self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
             hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : time < 7 ? "position" : "joint"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5.5 ? "maximum" : time < 6 ? "cooling" : time < 8 ? "slew" : "nothing"));
-            const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
+            const told = (from_s, to_s) => infeasible_text(store, 1, { from_s, to_s }, infeasible);
             return [told(0, 100), told(5, 5.49), told(6.1, 10), told(0, 4)];"""),
             # A shaped reference says so: cooling.
             ["The reference asked for more than the muscle can do, for up to 0.980 s at a time and in 20.0 % of the time that it was followed: use a slower or smaller one.",
@@ -41,14 +41,14 @@ class OutcomeTest(ModulesCase):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));
             // 0.18 of each 0.2 s, then 0.22 of each 0.25 s.
             hear("Power", 0, 250, 0.02, (time) => by(Math.round(time / 0.02) % 10 < 9 ? "maximum" : "nothing"));
-            const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
+            const told = (from_s, to_s) => infeasible_text(store, 1, { from_s, to_s }, infeasible);
             const short = told(0, 4.99);
             hear("Power", 5, 250, 0.02, (time) => by(Math.round((time - 5) / 0.02) % 13 < 12 ? "maximum" : "nothing"));
             return [short, /in 9\\d\\.\\d % of the time/.test(told(5, 10))];"""), ["", True])
 
     def test_why_it_was_never_armed(self):
-        self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_told(store, 1, range)];
-            const heard = () => told.push(never_armed_told(store, 1, range));
+        self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_text(store, 1, range)];
+            const heard = () => told.push(never_armed_text(store, 1, range));
             hear("Status", 0, 10, 0.1, () => state("disarmed")); heard();
             const answered = (opcode, refusal) => () => ({ opcode: number("Acknowledge", "opcode", opcode), refusal: number("Acknowledge", "refusal", refusal) });
             (await import("/refusals.js")).take_refusals({ not_ready: "a probe is not over yet" });
@@ -63,12 +63,12 @@ class OutcomeTest(ModulesCase):
         self.assertEqual(self.ask(OUTCOME + """let seed = 1;
             const noise = () => ((seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5) * 1e-5;
             hear("Tracking", 0, 1000, 0.01, () => ({ error_m: noise(), reference_m: 0.008 }));
-            const told = [swing_told(store, 1, { from_s: 0, to_s: 10 })];
+            const told = [oscillation_text(store, 1, { from_s: 0, to_s: 10 })];
             // It follows a sine: that is not by itself.
             hear("Tracking", 20, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time), reference_m: 0.008 + 0.002 * Math.sin(Math.PI * time) }));
-            told.push(swing_told(store, 1, { from_s: 20, to_s: 40 }));
+            told.push(oscillation_text(store, 1, { from_s: 20, to_s: 40 }));
             hear("Tracking", 50, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time) + noise(), reference_m: 0.008 }));
-            return [...told, swing_told(store, 1, { from_s: 40, to_s: 70 })];"""),
+            return [...told, oscillation_text(store, 1, { from_s: 40, to_s: 70 })];"""),
             ["", "", "It oscillates by itself: ± 100 µm with a period of 2.00 s, while the reference is constant."])
 
     def test_a_loop_that_oscillates_under_a_moving_reference_is_told_with_its_period(self):
@@ -78,13 +78,13 @@ class OutcomeTest(ModulesCase):
             const follow = (from_s, reference_s, limit) => {
                 hear("Tracking", from_s, 1500, 0.02, (time) => ({ error_m: 1e-4 * Math.sin(40 * time), reference_m: 0.01 + 0.008 * Math.sin((2 * Math.PI * time) / reference_s) }));
                 hear("Power", from_s, 1500, 0.02, (time) => by(limit(time)));
-                return cycle_told(store, 1, { from_s, to_s: from_s + 29.9 });
+                return cycle_text(store, 1, { from_s, to_s: from_s + 29.9 });
             };
             const turning = (time) => (time % 0.5 < 0.2 ? "maximum" : time % 0.5 < 0.25 ? "nothing" : "minimum");
             const by_itself = follow(0, 6, turning);
             const as_asked = follow(30, 0.5, turning);
             const by_noise = follow(60, 6, () => (random() < 0.1 ? "maximum" : random() < 0.1 ? "minimum" : "nothing"));
-            return [by_itself, as_asked, by_noise, cycle_told(store, 2, range)];"""),
+            return [by_itself, as_asked, by_noise, cycle_text(store, 2, range)];"""),
             ["The loop oscillates with a period of 0.500 s while the reference moves: its power goes from one limit to the other. "
              "Lower its gains, or identify the muscle.", "", "", ""])
 

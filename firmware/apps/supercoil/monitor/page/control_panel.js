@@ -179,8 +179,8 @@ export class ControlPanel {
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");
     // The same map is filled again each time.
-    const told = limits.size !== this.limits_told;
-    Object.assign(this, { limits, limits_told: limits.size });
-    if (told && this.modes[this.mode].unit) this.#scale();
+    const grown = limits.size !== this.known_limits;
+    Object.assign(this, { limits, known_limits: limits.size });
+    if (grown && this.modes[this.mode].unit) this.#scale();
   }
 }

@@ -20,9 +20,9 @@ export function significant(value) {
 
 /** Decimals for a tick's label, so that evenly spaced ticks have evenly spaced labels: 2.5 → 1. */
 export function decimals_of(step) {
-  const most = 9;
+  const max_decimals = 9;
   let decimals = 0;
-  while (decimals < most && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) ++decimals;
+  while (decimals < max_decimals && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) ++decimals;
   return decimals;
 }
 

@@ -42,24 +42,24 @@ export class Lever {
 }
 
 /** The lever that the board has reported; constant unless it is a table. */
-function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...told }) {
+function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...muscle }) {
   const levers_m = [];
-  for (let i = 1; i <= MAX_POINTS && told[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(told[`joint_lever_${i}_m`]);
+  for (let i = 1; i <= MAX_POINTS && muscle[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(muscle[`joint_lever_${i}_m`]);
   const is_table = levers_m.length > 1 && first_rad <= 0 && last_rad >= 0 && first_rad < last_rad;
   return is_table ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
 }
 
 /** What a board has reported of a node's muscle, by the names of Muscle.quantity. */
-function told_of(store, node, now_s) {
-  const told = {};
-  for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
-  return told;
+function reported_muscle(store, node, now_s) {
+  const muscle = {};
+  for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) muscle[store.word("Muscle", "quantity", number)] = value;
+  return muscle;
 }
 
 /** The node that leads the bundle of a node's muscle; null: this node leads, is in no bundle, or the board has not
     reported yet. */
 export function leader_of(store, node, now_s) {
-  const { bundle_leader_node_offset: offset } = told_of(store, node, now_s);
+  const { bundle_leader_node_offset: offset } = reported_muscle(store, node, now_s);
   return Number.isFinite(offset) ? node + offset : null;
 }
 
@@ -68,14 +68,14 @@ export function leader_of(store, node, now_s) {
     far the partner may contract, if reported, as an arc at this lever. null: it is in no joint, or the board has not
     reported yet. */
 export function joint_of(store, node, now_s) {
-  const told = told_of(store, node, now_s);
-  const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
+  const muscle = reported_muscle(store, node, now_s);
+  const { joint_lever_m: lever_m, joint_other_node_offset: offset } = muscle;
   if (!(Math.abs(lever_m) > 0) || offset === undefined) return null;
   // Waits for the last value: with half a table, degrees would become wrong metres.
-  if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
-  if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(told), other: null, other_travel_m: 0 };
-  const joint = { lever_m, lever: lever_of(told), other: node + offset };
-  const others_m = told_of(store, joint.other, now_s).joint_lever_m || lever_m;
+  if (!(`joint_lever_${MAX_POINTS}_m` in muscle)) return null;
+  if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(muscle), other: null, other_travel_m: 0 };
+  const joint = { lever_m, lever: lever_of(muscle), other: node + offset };
+  const others_m = reported_muscle(store, joint.other, now_s).joint_lever_m || lever_m;
   for (const [number, { limit }] of store.round(joint.other, "Limit", "fault", now_s))
     if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = Math.abs(lever_m / others_m) * limit;
   return joint;

@@ -32,9 +32,9 @@ export class ManualControl extends EventTarget {
   play(knots, start) {
     return this.#follow(async () => {
       try {
-        const told = await play(this.node, knots, start);
+        const reply = await play(this.node, knots, start);
         this.#heard();
-        return told;
+        return reply;
       } catch ({ message }) {
         return { problem: message };
       }

@@ -7,12 +7,12 @@ import { refusal_words } from "./refusals.js";
 // Searches for a self-sustained oscillation only in the newest part, while the reference is constant.
 const SWING_S = 60;
 const STILL_M = 1e-5;
-const LEAST_PERIODS = 4;
-const LEAST_SHARE = 0.0005; // else 0.0 %
+const MIN_PERIODS = 4;
+const MIN_SHARE = 0.0005; // else 0.0 %
 // Max ratio of the periods' spread to their mean: noise crosses without a rhythm.
 const RHYTHM = 0.2;
 // In a loop that oscillates from limit to limit most cycles have similar lengths, at most a third of the reference's own period.
-const LEAST_CYCLES = 12;
+const MIN_CYCLES = 12;
 const ALIKE = 0.25;
 const OF_REFERENCE = 1 / 3;
 
@@ -44,7 +44,7 @@ function* limits(store, node, { from_s, to_s }, modes = []) {
 const percent = (count, all) => `${fixed((100 * count) / all, 1)} %`;
 
 /** "at a limit in 12.3 % of the heating time: maximum 10.0 %, slew 2.3 %", or "". */
-export function limits_told(store, node, range) {
+export function limits_text(store, node, range) {
   const counts = new Map();
   let all = 0;
   for (const [, name] of limits(store, node, range)) {
@@ -52,14 +52,14 @@ export function limits_told(store, node, range) {
     ++all;
     counts.set(name, (counts.get(name) ?? 0) + 1);
   }
-  const names = [...counts].filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
+  const names = [...counts].filter(([name, count]) => name !== "nothing" && count / all >= MIN_SHARE).sort((a, b) => b[1] - a[1]);
   if (names.length === 0) return "";
   const sum = names.reduce((total, [, count]) => total + count, 0);
   return `At a limit in ${percent(sum, all)} of the heating time: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
 }
 
 /** Reports a reference that the muscle, by itself or as a joint's antagonist, cannot follow, counted as in the simulator's summary; or "". rule: infeasible of /api/about. */
-export function infeasible_told(store, node, range, rule) {
+export function infeasible_text(store, node, range, rule) {
   const too_much = new Set(rule.limits);
   let all = 0;
   let missed = 0;
@@ -87,7 +87,7 @@ export function infeasible_told(store, node, range, rule) {
 }
 
 /** Why it was never armed, or "" when it was. */
-export function never_armed_told(store, node, { from_s, to_s }) {
+export function never_armed_text(store, node, { from_s, to_s }) {
   const states = [...samples(store.table(node, "Status"), ["state", "fault"], from_s, to_s)];
   const name = (value) => store.word("Status", "state", value);
   if (states.length === 0 || states.some(([, state]) => name(state) === "armed" || name(state) === "active")) return "";
@@ -115,13 +115,13 @@ export function swing_of(points) {
     }
   }
   const periods_s = rises_s.slice(1).map((time_s, i) => time_s - rises_s[i]);
-  if (periods_s.length < LEAST_PERIODS) return null;
+  if (periods_s.length < MIN_PERIODS) return null;
   const period_s = periods_s.reduce((sum, each_s) => sum + each_s, 0) / periods_s.length;
   const spread_s = Math.sqrt(periods_s.reduce((sum, each_s) => sum + (each_s - period_s) ** 2, 0) / periods_s.length);
   return spread_s < RHYTHM * period_s ? { period_s, amplitude_m: Math.SQRT2 * rms_m } : null;
 }
 
-export function swing_told(store, node, { from_s, to_s }) {
+export function oscillation_text(store, node, { from_s, to_s }) {
   const all = [...samples(store.table(node, "Tracking"), ["error_m", "reference_m"], Math.max(from_s, to_s - SWING_S), to_s)];
   // Backwards while the reference has its present value; a gap ends it.
   let first = all.length;
@@ -131,7 +131,7 @@ export function swing_told(store, node, { from_s, to_s }) {
 }
 
 /** Reports that the power goes from limit to limit and back with its own period while the reference moves, as the simulator's summary finds it; or "". */
-export function cycle_told(store, node, { from_s, to_s }) {
+export function cycle_text(store, node, { from_s, to_s }) {
   const newest = [Math.max(from_s, to_s - SWING_S), to_s];
   const lasted_s = [];
   let last = null;
@@ -144,7 +144,7 @@ export function cycle_told(store, node, { from_s, to_s }) {
     if (risen_s !== null) lasted_s.push(time_s - risen_s);
     risen_s = time_s;
   }
-  if (lasted_s.length < LEAST_CYCLES || swing_told(store, node, { from_s, to_s })) return "";
+  if (lasted_s.length < MIN_CYCLES || oscillation_text(store, node, { from_s, to_s })) return "";
   const middle_s = lasted_s.sort((a, b) => a - b)[Math.floor(lasted_s.length / 2)];
   const alike = lasted_s.filter((each_s) => Math.abs(each_s - middle_s) < ALIKE * middle_s);
   const reference = [...samples(store.table(node, "Tracking"), ["reference_m"], ...newest)].filter(([, value_m]) => Number.isFinite(value_m));

@@ -80,7 +80,7 @@ export class Plot {
       width, height: HEIGHT_PX, pxAlign: 1, legend: { show: false }, padding: [16, 18, 0, 0],
       cursor: { sync: { key: "time" }, y: false, points: { size: 6 }, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.view.follow() } },
-      scales: { x: { time: false }, y: { range: (_, least, greatest) => this.#span(least, greatest) } },
+      scales: { x: { time: false }, y: { range: (_, min, max) => this.#span(min, max) } },
       axes: axes(),
       series: [{}, ...spec.lines.map((line) => ({
         stroke: () => colour(line.colour), width: line.width ?? 1.5, dash: line.dash, points: { show: false },
@@ -91,10 +91,10 @@ export class Plot {
     };
   }
 
-  #span(least, greatest) {
+  #span(min, max) {
     const others = this.pale.flat().filter(Number.isFinite);
-    let low = Math.min(least ?? 0, ...others);
-    let high = Math.max(greatest ?? 0, ...others);
+    let low = Math.min(min ?? 0, ...others);
+    let high = Math.max(max ?? 0, ...others);
     return round_span(low, high, this.spec, this.#limit);
   }
 

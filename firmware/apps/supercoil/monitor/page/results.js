@@ -17,6 +17,6 @@ const FRICTION = "friction";
 /** "poor fit: the muscle did not …; θ2 is uncertain"; "" if none has ended. by: what interrupted it; bits: identify_notes. */
 export function result_words(result, by, bits, friction) {
   if (!(result in meanings) || result === "none" || result === "running") return "";
-  const told = notes.filter(({ name }, bit) => name !== result && (name === FRICTION ? friction : (bits >> bit) & 1));
-  return [by ? words(result) + by : `${words(result)}: ${meanings[result]}`, ...told.map((note) => note.words)].join("; ");
+  const shown = notes.filter(({ name }, bit) => name !== result && (name === FRICTION ? friction : (bits >> bit) & 1));
+  return [by ? words(result) + by : `${words(result)}: ${meanings[result]}`, ...shown.map((note) => note.words)].join("; ");
 }

@@ -116,8 +116,8 @@ export class Setup {
   #what_happens(runs) {
     const { lines, question, error, kept, steps, last } = this.state;
     const found = steps.find(({ name }) => name === last)?.found;
-    const told = lines.map((line) => element("li", {}, line));
-    const parts = [element("div", { class: "lines", role: "log", "aria-label": "messages of setup", tabindex: 0 }, element("ul", {}, ...told))];
+    const items = lines.map((line) => element("li", {}, line));
+    const parts = [element("div", { class: "lines", role: "log", "aria-label": "messages of setup", tabindex: 0 }, element("ul", {}, ...items))];
     if (runs) {
       this.progress = element("progress", { max: 1, "aria-label": "progress of the step" });
       this.progress_text = element("span");

@@ -97,9 +97,9 @@ export class StateCard {
     const by = row ? this.#interrupted_by(name("result"), status) : "";
     const result = status && !shows ? name("result") : "none";
     const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
-    const told = result_words(result, by, notes, row?.friction === 1);
-    this.result.hidden = told === "";
-    if (told !== "") show(this.result, `Last identify or calibrate: ${told}.`);
+    const text = result_words(result, by, notes, row?.friction === 1);
+    this.result.hidden = text === "";
+    if (text !== "") show(this.result, `Last identify or calibrate: ${text}.`);
     return status;
   }
 

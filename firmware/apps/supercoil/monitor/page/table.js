@@ -64,8 +64,8 @@ class Chunk {
 }
 
 // NaN is "not available" and never a min or a max.
-const lesser = (value, least) => (Number.isNaN(value) || least < value ? least : value);
-const greater = (value, greatest) => (Number.isNaN(value) || greatest > value ? greatest : value);
+const lesser = (value, min) => (Number.isNaN(value) || min < value ? min : value);
+const greater = (value, max) => (Number.isNaN(value) || max > value ? max : value);
 
 export class Table {
   /**

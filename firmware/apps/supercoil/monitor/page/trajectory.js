@@ -5,14 +5,14 @@ import { waveform } from "./waveform.js";
 
 const STEP_S = 0.04;
 const FAST_STEP_S = 0.02; // if 25 knots a second would be fewer than 10 a period
-const LEAST_PERIOD_S = 0.2;
-const MOST_STEP_S = 4.094; // that a knot can carry
+const MIN_PERIOD_S = 0.2;
+const MAX_STEP_S = 4.094; // that a knot can carry
 
 /** Why a shape cannot be a trajectory, or "". values: the shape's, without a file's rows. */
 export function jumps(shape, values) {
   if (shape === "steps") return "it jumps";
-  const least_s = Math.min(values.period, shape === "chirp" ? values.last_period : Infinity);
-  return least_s < LEAST_PERIOD_S ? `a period of less than ${LEAST_PERIOD_S} s has too few knots` : "";
+  const min_s = Math.min(values.period, shape === "chirp" ? values.last_period : Infinity);
+  return min_s < MIN_PERIOD_S ? `a period of less than ${MIN_PERIOD_S} s has too few knots` : "";
 }
 
 /** From 0 to 1, starting and ending at rest, without a jump in acceleration. */
@@ -30,8 +30,8 @@ export function swinging(shape, values, measure = LENGTH) {
   const { period, last_period } = values;
   const fade = (time_s) => ease(time_s / period) * (shape === "chirp" ? ease((wave.end_s - time_s) / last_period) : 1);
   const at = (time_s) => middle_m + fade(time_s) * (wave.at(time_s) - middle_m);
-  const least_s = Math.min(period, shape === "chirp" ? last_period : Infinity);
-  const step_s = least_s < 10 * STEP_S ? FAST_STEP_S : STEP_S;
+  const min_s = Math.min(period, shape === "chirp" ? last_period : Infinity);
+  const step_s = min_s < 10 * STEP_S ? FAST_STEP_S : STEP_S;
   const end_s = in_ms(wave.end_s);
   return { at, end_s, knots: () => swing_knots(at, step_s, end_s) };
 }
@@ -55,7 +55,7 @@ export function through(rows, at) {
     else if (time_s === rows.at(-1)[0] && kept.length > 1) kept[kept.length - 1] = knot;
   }
   if (kept.length < 2) return { why: `it lasts less than ${FAST_STEP_S} s` };
-  if (kept.some(({ time_s }, i) => i > 0 && time_s - kept[i - 1].time_s > MOST_STEP_S)) return { why: `rows are more than ${MOST_STEP_S} s apart` };
+  if (kept.some(({ time_s }, i) => i > 0 && time_s - kept[i - 1].time_s > MAX_STEP_S)) return { why: `rows are more than ${MAX_STEP_S} s apart` };
   kept.forEach((knot, i) => (knot.velocity_m_per_s = i === 0 || i === kept.length - 1 ? 0 : velocity(kept[i - 1], knot, kept[i + 1])));
   return { at, end_s: kept.at(-1).time_s, knots: () => kept.values() };
 }

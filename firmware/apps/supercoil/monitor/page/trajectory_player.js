@@ -31,7 +31,7 @@ export class TrajectoryPlayer extends EventTarget {
     const knots = motion.knots();
     const next = [knots.next().value];
     // room: as reported by the board; taken_s: time of the last knot that it has.
-    const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, told_ms: 0, started: false };
+    const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, answered_ms: 0, started: false };
     this.run = run;
     this.#draw(run);
     const why = (await this.#arrive(run, NEAR * max_m)) ?? (await this.#play(run));
@@ -51,7 +51,7 @@ export class TrajectoryPlayer extends EventTarget {
   hold(why) {
     if (!this.playing) return;
     const { run } = this;
-    const since_s = (performance.now() - run.told_ms) / 1e3;
+    const since_s = (performance.now() - run.answered_ms) / 1e3;
     const here_m = run.started ? run.motion.at(Math.min(run.taken_s, run.taken_s - run.buffered_s + since_s)) : run.first_m;
     this.stop(why);
     this.manual.follow(here_m);
@@ -94,9 +94,9 @@ export class TrajectoryPlayer extends EventTarget {
       const batch = run.next.slice(0, Math.min(KNOTS_AT_ONCE, run.room));
       const starts = !run.started && batch.length === 0;
       const after_s = (i) => Math.round(1e3 * (batch[i].time_s - (i > 0 ? batch[i - 1].time_s : run.taken_s))) / 1e3;
-      const told = await this.manual.play(batch.map(({ time_s, ...knot }, i) => ({ after_s: after_s(i), ...knot })), starts);
+      const reply = await this.manual.play(batch.map(({ time_s, ...knot }, i) => ({ after_s: after_s(i), ...knot })), starts);
       if (run !== this.run) return "";
-      const why = this.#take(run, told, starts);
+      const why = this.#take(run, reply, starts);
       if (why) return why;
       const behind = batch.length === KNOTS_AT_ONCE && run.room >= KNOTS_AT_ONCE;
       if (run.started && !behind) await sleep(EVERY_MS);
@@ -119,7 +119,7 @@ export class TrajectoryPlayer extends EventTarget {
     if (taken > 0) run.taken_s = run.next[taken - 1].time_s;
     run.next.splice(0, taken);
     this.#draw(run);
-    Object.assign(run, { room, buffered_s: buffered_s ?? 0, told_ms: performance.now() });
+    Object.assign(run, { room, buffered_s: buffered_s ?? 0, answered_ms: performance.now() });
     const all = run.next.length === 0;
     if (run.started && (playback === "dry" || (playback === "ended" && !all))) return this.#end(run, "ran dry: its next knot came too late");
     if (refusal === "infeasible") return `the motion up to ${run.next[0].time_s.toFixed(2)} s is infeasible: it needs more power than there is, or faster cooling`;

@@ -101,7 +101,7 @@ def bash(program, commands):
         yield "      ;;"
     yield f"""  esac
   if [[ $current == -* ]]; then values=$options; fi
-  # What is not known here is a file.
+  # Everything else is a file name.
   if [ -n "$values" ]; then mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current"); fi
 }}
 complete -o bashdefault -o default -F {function} {program}"""

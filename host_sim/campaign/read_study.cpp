@@ -207,8 +207,10 @@ std::vector<compare::Document> read_contenders(Section& study,
 std::uint32_t definition_of(const toml::table& document, const Study& study) {
   std::ostringstream text;
   text << document << study.scenario;
-  for (const compare::Document& one : study.contenders)
-    text << '\n' << one.name << '\n' << one.text;
+  for (const compare::Document& one : study.contenders) {
+    config::Diagnostics none_left(one.name);
+    text << '\n' << one.name << '\n' << config::parse(one.text, none_left);
+  }
   // Only a Latin hypercube's points depend on the number of runs.
   if (study.sampling == Sampling::latin_hypercube) text << study.runs;
   return storage::crc32(text.str());

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <utility>
 
-#include <boost/crc.hpp>
-
 #include "compare/catalogue.hpp"
 #include "compare/document.hpp"
 #include "config/toml_file.hpp"
@@ -13,15 +11,6 @@
 namespace supercoil::host_sim::compare {
 
 namespace {
-
-std::uint32_t checksum(const Document& controller, const Document& disturbance,
-                       const std::string& arithmetic) {
-  boost::crc_32_type crc;
-  for (const std::string* text :
-       {&controller.text, &disturbance.text, &disturbance.name, &arithmetic})
-    crc.process_bytes(text->c_str(), text->size() + 1);
-  return crc.checksum();
-}
 
 /// Where least squares is not available in fixed point, it runs in float.
 void set_arithmetic(toml::table& document, const std::string& arithmetic) {
@@ -80,13 +69,15 @@ supercoil::Result<Case> combine(const Document& controller, const Document& dist
   if (disturbance.steps) ask_for_steps(document);
   apply_changes(document, std::move(chosen));
   set_arithmetic(document, arithmetic);
+  // The name has the delay of the events.
+  const std::uint32_t definition =
+      config::crc32_of(toml::table{{"scenario", document}, {"disturbance", disturbance.name}});
   auto scenario = scenario_from(std::move(document), name);
   if (!scenario) return failure(config::to_text(scenario.error()));
   scenario->duration_s += disturbance.later_s;
   for (Event& event : scenario->events)
     event.at_s += disturbance.later_s;
-  return Case{controller.name, disturbance.name, arithmetic,
-              checksum(controller, disturbance, arithmetic), std::move(*scenario)};
+  return Case{controller.name, disturbance.name, arithmetic, definition, std::move(*scenario)};
 }
 
 /// Cases that fixed point cannot hold are left out; all others must be valid.

@@ -66,6 +66,11 @@ class Compare(Batch, ProgramCase):
     def test_another_version_is_refused(self):
         self.damaged("# supercoil-sim ", "# supercoil-sim 9", "runs.csv:1: is of another version or definition")
 
+    def test_a_comment_is_no_other_definition(self):
+        self.whole()
+        (self.path / "brief.toml").write_text("# Another comment\n" + BRIEF + "# and another\n")
+        self.assertIn("4 of 4 runs are already in", self.batch("--out", "whole").stderr)
+
     def test_another_definition_is_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))

@@ -114,8 +114,26 @@ control::PowerRange Axis::allowed_range() const {
   return {range.min_W, std::min({range.max_W, cool_W, proof_.max_W()})};
 }
 
+/// A demand that makes room for a dither is limited like any other that exceeds a limit:
+/// controllers must not wind up, and saturation must be detected.
+void Axis::limit(double share_W, double max_W) {
+  share_W_ = share_W;
+  const Limiter& limiter = heater_.limiter();
+  const double cool_W = limiter.max_W(heater_.heat().hottest_C());
+  const double limit_W = std::fmin(max_W, cool_W);
+  LimitedBy lowered_by = LimitedBy::nothing;
+  if (proof_.lowers(share_W, limit_W)) {
+    if (proof_.max_W() < limit_W) {
+      lowered_by = LimitedBy::unproven;
+    } else {
+      lowered_by = limit_W < limiter.max_W() ? LimitedBy::temperature : LimitedBy::maximum;
+    }
+  }
+  heater_.limit(state_, proof_.added_to(share_W, limit_W), proof_.max_W(), lowered_by);
+}
+
 double Axis::held_W() const {
-  return std::min({own_range().max_W, max_hot_W(), proof_.held_W()});
+  return std::min({own_range().max_W, max_hot_W(), proof_.held_W()}) - proof_.reserve_W();
 }
 
 control::PowerRange Axis::held_range() const {

@@ -93,10 +93,7 @@ class Axis {
   /// The power that its own heater may get now, by the muscle's hottest and by what it has proven.
   control::PowerRange allowed_range() const;
   /// share_W: its own heater's share of the demand; max_W: the limit, including a dither.
-  void limit(double share_W, double max_W = std::numeric_limits<double>::infinity()) {
-    share_W_ = share_W;
-    heater_.limit(state_, proof_.added_to(share_W, max_W), proof_.max_W());
-  }
+  void limit(double share_W, double max_W = std::numeric_limits<double>::infinity());
   bool dithers() const { return proof_.dither_W() != 0.0; }
   /// For a bundle's follower: the leader's demand, and the power of this heater.
   void follow_power(double demanded_W, double power_W);

@@ -142,10 +142,13 @@ void Heater::publish(Snapshot& s) const {
   s.hottest_C = heat_.hottest_C();
 }
 
-void Heater::limit(const ChannelState& state, double demanded_W, double proven_W) {
+void Heater::limit(const ChannelState& state, double demanded_W, double proven_W,
+                   LimitedBy lowered_by) {
   limiter_.set_cap(max_power_W());
   limiter_.set_unproven(proven_W);
   allowed_ = state.may_heat() ? limiter_.step(demanded_W, heat_.hottest_C()) : Limiter::Result{};
+  cut_ = allowed_.by != LimitedBy::nothing;
+  if (!cut_ && state.may_heat()) allowed_.by = lowered_by;
 }
 
 void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
@@ -164,10 +167,10 @@ void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
   }
   write_enable(state.enable());
   write_duty(state.enable() ? out.step : 0);
-  const bool limited = allowed_.by != LimitedBy::nothing || out.clipped;
-  // A limited dither does not count.
-  const board::AppliedPower set{out.applied_W, out.duty, limited,
-                                state.may_heat() && !limited ? dither_W : 0.0};
+  const bool cut = cut_ || out.clipped;
+  // A dither that was cut does not count.
+  const board::AppliedPower set{out.applied_W, out.duty, cut || allowed_.by != LimitedBy::nothing,
+                                state.may_heat() && !cut ? dither_W : 0.0};
   set_ = set;
   acting_ = delay_.step(set);
 }

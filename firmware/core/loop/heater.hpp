@@ -55,8 +55,9 @@ class Heater {
   const HeaterInputs& inputs(const ChannelState& state);
   /// Writes the heater's part of the snapshot.
   void publish(Snapshot& s) const;
-  /// proven_W: the power that the proof of response allows.
-  void limit(const ChannelState& state, double demanded_W, double proven_W);
+  /// proven_W: the power that the proof of response allows. lowered_by: the limit because of which
+  /// the demand was lowered to make room for a dither.
+  void limit(const ChannelState& state, double demanded_W, double proven_W, LimitedBy lowered_by);
   /// may_probe: an old resistance may be measured again. dither_W: included in the power.
   void drive(const ChannelState& state, bool may_probe, double dither_W);
 
@@ -157,6 +158,7 @@ class Heater {
   std::atomic<double> max_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;
+  bool cut_ = false;  ///< the limiter gave less than the demand with its dither
   board::PowerStage power_stage_;
   board::OutputDelay delay_;
   board::AppliedPower set_;     ///< at this tick

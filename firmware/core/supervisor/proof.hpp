@@ -89,14 +89,18 @@ class Proof {
   /// both halves of a dither fit.
   double added_to(double demanded_W, double max_W = std::numeric_limits<double>::infinity()) const {
     if (dither_W_ == 0.0) return demanded_W;
-    const double room_W =
-        std::fmin(std::fmin(settings_.max_W, max_W_), max_W) - plan_.dither.amplitude_W;
-    return (demanded_W > room_W ? room_W : demanded_W) + dither_W_;
+    return (lowers(demanded_W, max_W) ? room_W(max_W) : demanded_W) + dither_W_;
+  }
+  /// Whether added_to() lowers this demand: less power acts than was demanded.
+  bool lowers(double demanded_W, double max_W) const {
+    return dither_W_ != 0.0 && demanded_W > room_W(max_W);
   }
   /// The maximum power allowed now.
   double max_W() const { return max_W_; }
   /// The same, but not lowered by a release, which is short: what a reference may count on.
   double held_W() const { return stage_ == Stage::released ? plan_.provable_W : max_W_; }
+  /// What a muscle that holds its position at a limit may have to give up for dithers.
+  double reserve_W() const { return active() ? plan_.dither.amplitude_W : 0.0; }
   /// In m: how far the position followed the power since its removal, and the minimum required.
   detectors::Margin margin() const;
 
@@ -166,6 +170,10 @@ class Proof {
   void drive_dither(double power_W, double hottest_K);
   void stop_dither();
   bool active() const { return settings_.wanted && known_; }
+  /// The demand to which a dither can be added.
+  double room_W(double max_W) const {
+    return std::fmin(std::fmin(settings_.max_W, max_W_), max_W) - plan_.dither.amplitude_W;
+  }
 
   ProofSettings settings_;
   bool known_;

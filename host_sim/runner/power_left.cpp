@@ -34,7 +34,7 @@ double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
                     const control::ThermalBounds& bounds) {
   const double armable_s = feasibility(channel, board).armable_s;
   const double cooled_s = armable_s > boot_s ? armable_s + boot_s : boot_s;
-  return channel.thermal.boot_rise_K * std::exp(-cooled_s / control::slowest_s(bounds));
+  return channel.thermal.boot_rise_K * std::exp(-cooled_s / control::max_time_constant_s(bounds));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class PowerLeft {
   /// For a cold muscle.
   Most cold() const { return at(warmest_C_); }
   /// Applies this power for a step.
-  void step(double power_W) { hottest_K_ = hot_.moved(hottest_K_, max_power_ratio_ * power_W); }
+  void step(double power_W) { hottest_K_ = hot_.next_K(hottest_K_, max_power_ratio_ * power_W); }
 
  private:
   Most at(double hottest_C) const;

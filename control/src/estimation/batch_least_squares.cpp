@@ -47,13 +47,13 @@ void BatchLeastSquares::Sums::add(const Sums& other, double sign) {
   count += sign * other.count;
 }
 
-void BatchLeastSquares::start_anew() {
+void BatchLeastSquares::restart() {
   blocks_ = 0;
   sums_.fill({});
 }
 
 void BatchLeastSquares::start(double position_m) {
-  start_anew();
+  restart();
   power_.settle(0.0);
   position_.settle(position_m * position_scale_);
   believed_.settle(0.0);
@@ -107,17 +107,17 @@ double BatchLeastSquares::unexplained_ratio(const Sums& experiment, const Theta&
   // The column of ones gives the mean of the residual.
   solution[4] =
       (experiment.projection[4] - experiment.information.row(4).dot(solution)) / experiment.count;
-  return std::fmax(experiment.missed(solution), 0.0) / experiment.variance();
+  return std::fmax(experiment.residual_energy(solution), 0.0) / experiment.variance();
 }
 
 std::optional<BatchLeastSquares::Fit> BatchLeastSquares::fit() const {
   if (blocks_ < min_blocks) return std::nullopt;
-  const std::size_t seen = (2 * blocks_ + 1) / 3;
+  const std::size_t fitted = (2 * blocks_ + 1) / 3;
   const Sums all = sum(0, blocks_);
-  const Sums unseen = sum(seen, blocks_);
+  const Sums holdout = sum(fitted, blocks_);
   const Regressors found = solve(all);
-  const Regressors before = solve(sum(0, seen));
-  const Regressors after = solve(unseen);
+  const Regressors before = solve(sum(0, fitted));
+  const Regressors after = solve(holdout);
 
   Regressors spread = Regressors::Zero();
   for (std::size_t i = 0; i < blocks_; ++i) {
@@ -128,16 +128,16 @@ std::optional<BatchLeastSquares::Fit> BatchLeastSquares::fit() const {
   const auto n = static_cast<double>(blocks_);
   const Regressors deviation = (spread * ((n - 1.0) / n)).cwiseSqrt();
 
-  const double variance = unseen.variance();
+  const double variance = holdout.variance();
   Fit fit;
   fit.theta = found.head<4>().cwiseProduct(nominal_);
   fit.bias_W = found[4];
   fit.deviation = deviation.head<4>().cwiseQuotient(found.head<4>().cwiseAbs());
-  fit.unseen_difference =
+  fit.holdout_difference =
       (after - before).head<4>().cwiseAbs().cwiseQuotient(before.head<4>().cwiseAbs());
-  fit.unexplained_ratio = std::fmax(unseen.missed(before), 0.0) / variance;
+  fit.unexplained_ratio = std::fmax(holdout.residual_energy(before), 0.0) / variance;
   const bool finite = fit.theta.allFinite() && fit.deviation.allFinite() &&
-                      fit.unseen_difference.allFinite() && variance > 0.0;
+                      fit.holdout_difference.allFinite() && variance > 0.0;
   return finite ? std::optional(fit) : std::nullopt;
 }
 

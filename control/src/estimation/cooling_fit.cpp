@@ -8,11 +8,12 @@
 namespace supercoil::control {
 
 CoolingFit::CoolingFit(const Settings& settings, double step_s) : settings_(settings) {
-  ticks_ = std::max(1, static_cast<int>(std::lround(wanted_step_s / step_s)));
+  ticks_ = std::max(1, static_cast<int>(std::lround(target_step_s / step_s)));
   step_s_ = ticks_ * step_s;
   smoothing_ = -std::expm1(-corner_rad_per_s * step_s_);
-  const double from_s = settings.fastest_s / margin;
-  const double ratio = settings.slowest_s / settings.fastest_s * margin * margin;
+  const double from_s = settings.min_time_constant_s / margin;
+  const double ratio =
+      settings.max_time_constant_s / settings.min_time_constant_s * margin * margin;
   for (std::size_t i = 0; i < candidates; ++i)
     fits_[i].tau_s = from_s * std::pow(ratio, static_cast<double>(i) / (candidates - 1));
   start();
@@ -31,7 +32,7 @@ void CoolingFit::step(double position_m, double power_W) {
   position_sum_m_ += position_m;
   power_sum_W_ += power_W;
   if (++n_ < ticks_) return;
-  take(position_sum_m_ / n_, power_sum_W_ / n_);
+  add_sample(position_sum_m_ / n_, power_sum_W_ / n_);
   n_ = 0;
   position_sum_m_ = power_sum_W_ = 0.0;
 }
@@ -43,10 +44,10 @@ std::optional<CoolingFit::Found> CoolingFit::found() const {
     left[i] = unexplained(fits_[i]);
   const auto best =
       static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
-  if (best < aside || best + aside >= candidates || !(left[best] <= max_unexplained))
+  if (best < min_distance || best + min_distance >= candidates || !(left[best] <= max_unexplained))
     return std::nullopt;
   for (std::size_t i = 0; i < candidates; ++i) {
-    const bool near = i + aside > best && i < best + aside;
+    const bool near = i + min_distance > best && i < best + min_distance;
     if (!near && !(left[i] >= min_sharpness * left[best])) return std::nullopt;
   }
   // The lowest point of a parabola through the best and its neighbours.
@@ -56,14 +57,14 @@ std::optional<CoolingFit::Found> CoolingFit::found() const {
   return Found{fits_[best].tau_s * std::pow(fits_[1].tau_s / fits_[0].tau_s, shift), mean_W_};
 }
 
-void CoolingFit::take(double position_m, double power_W) {
+void CoolingFit::add_sample(double position_m, double power_W) {
   const double x = position_m / scale_m;
   if (steps_ == 0) position_.once = position_.twice = x;
   position_.once += smoothing_ * (x - position_.once);
   position_.twice += smoothing_ * (position_.once - position_.twice);
   const bool used = step_s_ * static_cast<double>(steps_) >= settle_s;
   for (Fit& fit : fits_)
-    take(fit, x, power_W, used);
+    add_sample(fit, x, power_W, used);
   ++steps_;
   if (!used) return;
   const double n = used_s() / step_s_;
@@ -71,7 +72,7 @@ void CoolingFit::take(double position_m, double power_W) {
   position_.sum += position_.twice;
   position_.energy += position_.twice * position_.twice;
 }
-void CoolingFit::take(Fit& fit, double x, double power_W, bool used) const {
+void CoolingFit::add_sample(Fit& fit, double x, double power_W, bool used) const {
   fit.loss_W += -std::expm1(-step_s_ / fit.tau_s) * (power_W - fit.loss_W);
   const double u = fit.loss_W / settings_.max_W;
   const double time = step_s_ * static_cast<double>(steps_) / 60.0;

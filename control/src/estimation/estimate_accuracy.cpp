@@ -33,7 +33,7 @@ EstimateAccuracy::EstimateAccuracy(const Settings& settings)
     : settings_(settings),
       motion_(steep_lambda, settings.update_s),
       impulse_(steep_lambda, settings.update_s),
-      one_(steep_lambda, settings.update_s),
+      step_(steep_lambda, settings.update_s),
       gram_(gram_of_impulses()) {
   const Theta& nominal = settings.scale.nominal;
   weights_ << nominal[3], nominal[2], nominal[1], nominal[0] * settings.scale.moving_mass_kg;
@@ -43,12 +43,12 @@ EstimateAccuracy::EstimateAccuracy(const Settings& settings)
 void EstimateAccuracy::restart_filters() {
   motion_.settle(0.0);
   impulse_.settle(0.0);
-  one_.settle(0.0);
+  step_.settle(0.0);
 }
 
 void EstimateAccuracy::forget(const Parameters& variances) {
   // A prior of variance C0 enters H as R/C0, and must give C0 by itself: H⁻¹ (R²/C0) H⁻¹.
-  const double square = settings_.counted_W2 * settings_.counted_W2;
+  const double square = settings_.assumed_W2 * settings_.assumed_W2;
   prior_.setZero();
   for (int i = 0; i < size; ++i)
     prior_(i, i) = variances[i] > 0.0 ? square / variances[i] : 0.0;
@@ -67,8 +67,8 @@ void EstimateAccuracy::forget_first(const Vector<double, free>& variances) {
 
 void EstimateAccuracy::spread(const Matrix<double, 5>& before, const Matrix<double, 5>& after,
                               const Matrix<double, 5>& added) {
-  const Matrix<double, 5> inverse = before / settings_.counted_W2;  // H⁻¹
-  const Matrix<double, 5> next = after.inverse() * settings_.counted_W2;
+  const Matrix<double, 5> inverse = before / settings_.assumed_W2;  // H⁻¹
+  const Matrix<double, 5> next = after.inverse() * settings_.assumed_W2;
   const Matrix<double, 5> through = next * inverse;
   const Matrix<double, 5> scores = scores_.bottomRightCorner<5, 5>();
   const Matrix<double, 5> prior = prior_.bottomRightCorner<5, 5>();
@@ -85,34 +85,34 @@ double EstimateAccuracy::noise_gain(const Parameters& theta) const {
   return a.dot(gram_ * a);
 }
 
-void EstimateAccuracy::step(const Seen& seen) {
-  const Vector<double, 4> a = polynomial(seen.theta);
-  motion_.step(seen.motion_W);
-  impulse_.step(a.dot(seen.of_impulse.head<4>()));
-  one_.step(a.dot(seen.of_one.head<4>()));
+void EstimateAccuracy::step(const Observation& observation) {
+  const Vector<double, 4> a = polynomial(observation.theta);
+  motion_.step(observation.motion_W);
+  impulse_.step(a.dot(observation.impulse_response.head<4>()));
+  step_.step(a.dot(observation.step_response.head<4>()));
   Parameters filtered;
   filtered << impulse_.state().head<free>().reverse(),
-      motion_.state().head<4>().cwiseProduct(weights_).reverse(), one_.state()[0];
+      motion_.state().head<4>().cwiseProduct(weights_).reverse(), step_.state()[0];
   filtered *= steep_lambda_gain;
   const double kept = settings_.forgetting * settings_.forgetting;
   scores_ = (scores_ + filtered * filtered.transpose()) * kept;
   prior_ *= kept;
-  const double counted = settings_.counted_W2 / seen.scale;
+  const double assumed = settings_.assumed_W2 / observation.scale;
   prior_.diagonal().tail<5>() +=
-      settings_.unexcited.cwiseInverse() * ((1.0 - kept) * counted * counted);
+      settings_.unexcited.cwiseInverse() * ((1.0 - kept) * assumed * assumed);
 
   // It begins at its expected value: while θ is found, residuals are smaller than the noise.
   const double max_W2 = max_deviations * max_deviations * mean_square_W2_;
   const double share = settings_.update_s / settings_.averaging_s;
   mean_square_W2_ +=
-      (std::min(seen.residual_W * seen.residual_W, max_W2) - mean_square_W2_) * share;
+      (std::min(observation.residual_W * observation.residual_W, max_W2) - mean_square_W2_) * share;
 }
 
 EstimateAccuracy::Parts EstimateAccuracy::parts(const Square& covariance,
                                                 const Parameters& theta) const {
   const double density = mean_square_W2_ / noise_gain(theta);
   const Matrix<double, 5, size> inverse =
-      covariance.bottomRows<5>() / settings_.counted_W2;  // of H⁻¹
+      covariance.bottomRows<5>() / settings_.assumed_W2;  // of H⁻¹
   return {inverse * scores_ * inverse.transpose() * (density / settings_.update_s),
           inverse * prior_ * inverse.transpose()};
 }

@@ -79,13 +79,13 @@ Estimator::Estimator(const EstimatorSettings& settings, double step_s)
       trusted_error_(settings.excitation.trusted_error) {
   std::visit(
       [this](const auto& running) {
-        if constexpr (!is_none<decltype(running)>) tell(running);
+        if constexpr (!is_none<decltype(running)>) publish(running);
       },
       any_);
 }
 
 template <class Now>
-void Estimator::tell(const Now& running) {
+void Estimator::publish(const Now& running) {
   estimate_ = Now::Of::estimate(running.estimator, scale_.nominal, excitation_, trusted_error_);
 }
 
@@ -97,7 +97,7 @@ void Estimator::step(double position_m, double applied_power_W) {
           using Scalar = typename Now::ScalarType;
           running.estimator.step(Scalar(position_m * to_watts_), Scalar(applied_power_W));
           Now::Of::watch(running.estimator, excitation_);
-          if (Now::Of::tells_anew(running.estimator)) tell(running);
+          if (Now::Of::has_new_estimate(running.estimator)) publish(running);
         }
       },
       any_);

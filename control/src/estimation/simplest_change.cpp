@@ -50,10 +50,10 @@ std::optional<SimplestChange::Parameters> SimplestChange::explained(
     candidates.col(i) = theta - covariance * rest;
   }
   int best = 0;
-  const double most = log_likelihood.maxCoeff(&best);
-  const double share = 1.0 / (log_likelihood.array() - most).exp().sum();
+  const double max_log_likelihood = log_likelihood.maxCoeff(&best);
+  const double probability = 1.0 / (log_likelihood.array() - max_log_likelihood).exp().sum();
   // NaN decides nothing either.
-  if (!(share > sure)) return std::nullopt;
+  if (!(probability > min_probability)) return std::nullopt;
   return candidates.col(best);
 }
 

@@ -48,9 +48,9 @@ LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings&
       pid_(s.scale, s.bandwidth_rad_per_s, s.derivative_filter_rad_per_s, step_s),
       regressors_(s.scale, s.max_W),
       least_squares_(prior()),
-      detector_(detection()),
-      mismatch_(mismatch_detection()),
-      iterative_(repetition(), step_s),
+      detector_(detector_settings()),
+      mismatch_(mismatch_settings()),
+      iterative_(iterative_settings(), step_s),
       period_finder_(step_s),
       share_(share()),
       bandwidth_(bandwidth()),
@@ -70,8 +70,8 @@ typename LeakyLeastSquares<MotionRegressors::count>::Settings LearnedFeedforward
 }
 
 template <class Scalar>
-typename LearnedFeedforward<Scalar>::Detector::Settings LearnedFeedforward<Scalar>::detection()
-    const {
+typename LearnedFeedforward<Scalar>::Detector::Settings
+LearnedFeedforward<Scalar>::detector_settings() const {
   typename Detector::Settings s{.period_s = period_s(), .floor_rms = floor_ratio * settings_.max_W};
   s.stretch(slowness(theta_));
   return s;
@@ -79,7 +79,7 @@ typename LearnedFeedforward<Scalar>::Detector::Settings LearnedFeedforward<Scala
 
 template <class Scalar>
 typename LearnedFeedforward<Scalar>::MismatchDetector::Settings
-LearnedFeedforward<Scalar>::mismatch_detection() const {
+LearnedFeedforward<Scalar>::mismatch_settings() const {
   MismatchDetector::Settings s{.period_s = period_s(),
                                .floor_rms = mismatch_floor_ratio * settings_.max_W};
   s.window_s = mismatch_s;
@@ -91,9 +91,9 @@ LearnedFeedforward<Scalar>::mismatch_detection() const {
 }
 
 template <class Scalar>
-IterativeLearning::Settings LearnedFeedforward<Scalar>::repetition() const {
+IterativeLearning::Settings LearnedFeedforward<Scalar>::iterative_settings() const {
   IterativeLearning::Settings s{.period_s = settings_.period_s};
-  s.ahead_s *= slowness(theta_);
+  s.lead_s *= slowness(theta_);
   s.average_s *= slowness(theta_);
   return s;
 }
@@ -124,15 +124,15 @@ void LearnedFeedforward<Scalar>::retune(const Theta& theta) {
   judged_updates_ = 0;
   share_ = share();
   bandwidth_ = bandwidth();
-  detector_ = Detector(detection());
-  mismatch_ = MismatchDetector(mismatch_detection());
+  detector_ = Detector(detector_settings());
+  mismatch_ = MismatchDetector(mismatch_settings());
   signal_trend_.setZero();
   residual_trend_W_ = 0.0;
   mean_square_W2_ = 0.0;
   recovery_updates_ = 0;
-  iterative_ = IterativeLearning(repetition(), step_s_);
+  iterative_ = IterativeLearning(iterative_settings(), step_s_);
   period_finder_.restart();
-  filter_share_ = -std::expm1(-regression_pole_rad_per_s / slowness(theta_) * period_s());
+  filter_smoothing_ = -std::expm1(-regression_pole_rad_per_s / slowness(theta_) * period_s());
 }
 
 template <class Scalar>
@@ -242,11 +242,11 @@ void LearnedFeedforward<Scalar>::learn(int unit) {
 template <class Scalar>
 void LearnedFeedforward<Scalar>::observe() {
   const double share = 1.0 / static_cast<double>(ticks_per_update_);
-  once_.regressors += filter_share_ * (sum_ * share - once_.regressors);
-  once_.power_W += filter_share_ * (sum_W_ * share - once_.power_W);
-  twice_.regressors += filter_share_ * (once_.regressors - twice_.regressors);
-  twice_.power_W += filter_share_ * (once_.power_W - twice_.power_W);
-  error_.update(static_cast<double>(ticks_per_update_), filter_share_, period_s());
+  once_.regressors += filter_smoothing_ * (sum_ * share - once_.regressors);
+  once_.power_W += filter_smoothing_ * (sum_W_ * share - once_.power_W);
+  twice_.regressors += filter_smoothing_ * (once_.regressors - twice_.regressors);
+  twice_.power_W += filter_smoothing_ * (once_.power_W - twice_.power_W);
+  error_.update(static_cast<double>(ticks_per_update_), filter_smoothing_, period_s());
   sum_.setZero();
   sum_W_ = 0.0;
   const bool skip = std::exchange(skip_, false);
@@ -314,11 +314,11 @@ void LearnedFeedforward<Scalar>::watch_for_mismatch(double residual_W) {
   const auto found = mismatch_.step(MismatchDetector::Signals::Ones(), std::abs(residual_W));
   if (!found || pending_ >= 0 || upset_updates_ > 0) return;
   least_squares_.forget();
-  learn_anew();
+  restart_learning();
 }
 
 template <class Scalar>
-void LearnedFeedforward<Scalar>::learn_anew() {
+void LearnedFeedforward<Scalar>::restart_learning() {
   share_.restart();
   judged_ = judged_next_ = least_squares_.weights();
   iterative_.forget();
@@ -347,7 +347,7 @@ void LearnedFeedforward<Scalar>::watch_for_change(double residual_W) {
   const double lowest = pending_ == load ? -highest : min_amount;
   least_squares_.move(along(pending_), std::clamp(detector_.amount(pending_), lowest, highest));
   detector_.forget_window();
-  learn_anew();
+  restart_learning();
   pending_ = -1;
 }
 

@@ -112,11 +112,11 @@ constexpr Estimation common_trusted_error{
     },
     [](EstimatorSettings& s, double value) { s.excitation.trusted_error = value; }};
 
-constexpr double most_kinds =
+constexpr double max_kinds =
     static_cast<double>(std::max(controller_names.size(), estimator_names.size()));
 
 constexpr std::array<Tunable, tunable_count> all{{
-    {"kind", TunableType::kind, 0.0, most_kinds - 1.0, common_kind, common_estimator_kind},
+    {"kind", TunableType::kind, 0.0, max_kinds - 1.0, common_kind, common_estimator_kind},
     {"proportional_W_per_m", TunableType::number, 0.0, 1e7},
     {"integral_W_per_m_s", TunableType::number, 0.0, 1e7},
     {"derivative_Ws_per_m", TunableType::number, 0.0, 1e7},

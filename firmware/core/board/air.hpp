@@ -24,7 +24,7 @@ class Air {
  public:
   Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
       : settings_(settings),
-        stays_(std::exp(-step_s / control::slowest_s(bounds))),
+        stays_(std::exp(-step_s / control::max_time_constant_s(bounds))),
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 

@@ -34,7 +34,7 @@ class Heat {
     by_reading_.reset(settings.boot_rise_K);
     const control::ThermalBounds& b = settings.bounds;
     expected_[1].learn(-b.max_transfer_W_per_K / b.min_mass_J_per_K);
-    expected_[2].learn(-1.0 / control::slowest_s(b));
+    expected_[2].learn(-1.0 / control::max_time_constant_s(b));
   }
 
   /// What is known about the muscle's heat from now on. true_over_measured: power, by the senses.
@@ -72,7 +72,7 @@ class Heat {
   void learn(double pole_rad_per_s) {
     const control::ThermalBounds& b = settings_.bounds;
     learned_.learn(std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
-                             std::fmin(-1.0 / control::slowest_s(b), pole_rad_per_s)));
+                             std::fmin(-1.0 / control::max_time_constant_s(b), pole_rad_per_s)));
   }
 
   /// Expected positions are those of this muscle from now on, starting cold.

@@ -42,13 +42,13 @@ struct KnownThermalBounds {
   double min_heat_transfer_W_per_K(double rise_K) const {
     double lowest = bounds.min_transfer_W_per_K;
     for (const control::TransferSpan& span : known())
-      lowest = std::max(lowest, std::min(span.lowest(rise_K), bounds.max_transfer_W_per_K));
+      lowest = std::max(lowest, std::min(span.min_at(rise_K), bounds.max_transfer_W_per_K));
     return lowest;
   }
   double max_heat_transfer_W_per_K(double rise_K) const {
     double highest = bounds.max_transfer_W_per_K;
     for (const control::TransferSpan& span : known())
-      highest = std::min(highest, span.highest(rise_K));
+      highest = std::min(highest, span.max_at(rise_K));
     return std::max(highest, bounds.min_transfer_W_per_K);
   }
 };

@@ -17,7 +17,7 @@ class SteadyState {
  public:
   SteadyState(const ThermalSettings& settings, double step_s)
       : settings_(settings),
-        slowest_s_(control::slowest_s(with_weighed_mass(settings))),
+        slowest_s_(control::max_time_constant_s(with_weighed_mass(settings))),
         steady_ticks_(std::llround(slowest_constants * slowest_s_ / step_s)),
         smoothing_(-std::expm1(-2.0 * step_s / slowest_s_)) {}
 

@@ -111,9 +111,10 @@ void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility
   f.rest_seen = rest_m >= c.supervision.min_position_m;
   const control::ThermalBounds b = board::known_thermal_bounds(t, c.heat).bounds;
   const double allowed_K = c.limiter.derate_from_C - t.air.warmest_C;
-  f.armable_s = allowed_K <= 0.0
-                    ? INFINITY
-                    : std::max(0.0, control::slowest_s(b) * std::log(t.boot_rise_K / allowed_K));
+  f.armable_s =
+      allowed_K <= 0.0
+          ? INFINITY
+          : std::max(0.0, control::max_time_constant_s(b) * std::log(t.boot_rise_K / allowed_K));
 }
 
 std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& controller,

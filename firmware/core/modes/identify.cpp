@@ -22,7 +22,7 @@ bool Identify::knows(const Fit& fit, int i) const {
   const double max_deviation =
       slow_theta4 ? settings_.max_slow_theta4_deviation : settings_.max_deviation;
   return fit.theta[i] > 0.0 && fit.deviation[i] <= max_deviation &&
-         fit.unseen_difference[i] <= settings_.max_difference;
+         fit.holdout_difference[i] <= settings_.max_difference;
 }
 
 /// On a nonlinear muscle no θ2 suits all motions, and feedback uses it only for damping.
@@ -109,7 +109,7 @@ ModeResult Identify::shorten(ModeResult because) {
   ++shortened_;
   ++again_;
   excitation_.start_shorter();
-  fit_.start_anew();
+  fit_.restart();
   return go_on();
 }
 

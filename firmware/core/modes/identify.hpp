@@ -83,7 +83,7 @@ class Identify {
     const bool ends = excitation_.done() || elapsed_s_ >= settings_.max_s;
     const bool stroke_ended = excitation_.cycle() != cycle;
     // A quick muscle's first stroke tells little.
-    if (stroke_ended && cycle == 0 && !excitation_.slow()) fit_.start_anew();
+    if (stroke_ended && cycle == 0 && !excitation_.slow()) fit_.restart();
     const std::size_t enough = excitation_.slow() ? fit_.min_blocks : settings_.enough_strokes;
     const bool early = stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= enough;
     return ends || early ? conclude(ends) : ModeResult::running;

@@ -232,7 +232,7 @@ void Proof::warm(double power_W, bool heating, double hottest_K) {
   if (worst_K_ == 0.0) proven_K_ = hottest_K;
   const double true_W = settings_.max_power_ratio * power_W;
   for (std::int64_t ticks = 0; ticks < sums_.ticks; ticks += step_ticks_)
-    worst_K_ = warmer_air_K_ + uncooled_.moved(worst_K_ - warmer_air_K_, true_W);
+    worst_K_ = warmer_air_K_ + uncooled_.next_K(worst_K_ - warmer_air_K_, true_W);
   worst_K_ = std::fmax(worst_K_, hottest_K);
 }
 

@@ -44,7 +44,7 @@ constexpr double telling_ratio = 3.0;
 
 /// Time until the muscle is cold, however hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
-  return control::slowest_s(channel.thermal.bounds) *
+  return control::max_time_constant_s(channel.thermal.bounds) *
          std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
 }
 

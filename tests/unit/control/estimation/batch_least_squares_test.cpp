@@ -51,7 +51,7 @@ struct PowerSteps {
         muscle.change(parameters);
       }
       muscle.step(power_W);
-      if (std::abs(time_s - anew_at_s) < 0.5 * step_s) fit.start_anew();
+      if (std::abs(time_s - anew_at_s) < 0.5 * step_s) fit.restart();
       // The filters settle during the first block of a run.
       const double from_s = time_s < anew_at_s ? block_s : anew_at_s;
       fit.step(muscle.position_m() + noise(random), power_W + bias_W,
@@ -80,7 +80,7 @@ TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
   for (int i = 0; i < 4; ++i) {
     DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.02 * paper_theta()[i]);
     CHECK(fit->deviation[i] < 0.02);
-    CHECK(fit->unseen_difference[i] < 0.03);
+    CHECK(fit->holdout_difference[i] < 0.03);
   }
   DOUBLES_EQUAL(0.0, fit->bias_W, 1e-3);
   CHECK(fit->unexplained_ratio < 1e-4);
@@ -156,7 +156,7 @@ TEST(BatchLeastSquares, DeviationsAreThoseOfTheErrors) {
 TEST(BatchLeastSquares, AMuscleThatChangesUnderwayIsNotExplained) {
   const auto fit = PowerSteps{.softens_at_s = 42.0}.run();
   CHECK(fit->unexplained_ratio > 0.06);
-  CHECK(fit->unseen_difference[3] > 0.15);
+  CHECK(fit->holdout_difference[3] > 0.15);
 }
 
 TEST(BatchLeastSquares, TooFewBlocksAreNoFit) {

@@ -93,11 +93,11 @@ TEST(Filter, ZeroOrderHoldOfASmoothSignalConvergesWithTheStep) {
 TEST(Filter, HighestDerivativeSettlesToZeroAndTheFirstStateToTheDcGain) {
   StateVariableFilter<double, 3, Hold::first_order> filter(paper_lambda, 1e-2);
   filter.step(3.0);
-  DOUBLES_EQUAL(3.0, filter.highest(3.0), 0.1);  // nearly all of it at first
+  DOUBLES_EQUAL(3.0, filter.highest_derivative(3.0), 0.1);  // nearly all of it at first
   for (int k = 0; k < 3000; ++k)
     filter.step(3.0);
   DOUBLES_EQUAL(0.3, filter.state()[0], 1e-9);
-  DOUBLES_EQUAL(0.0, filter.highest(3.0), 1e-8);
+  DOUBLES_EQUAL(0.0, filter.highest_derivative(3.0), 1e-8);
 }
 
 TEST(Filter, FixedPointStatesFollowDouble) {

@@ -153,8 +153,8 @@ TEST(RiseIntervalObserver, GoesOnFromWhereItIsWhenItIsSetAnew) {
 
 TEST(RiseIntervalObserver, KnowsLessBesideTheRisesOfASpan) {
   const TransferSpan span{0.08, 0.10, 40.0, 60.0};
-  DOUBLES_EQUAL(0.04, span.lowest(5.0), 1e-12);
-  DOUBLES_EQUAL(0.08, span.lowest(100.0), 0.0);
-  DOUBLES_EQUAL(0.10, span.highest(5.0), 0.0);
-  DOUBLES_EQUAL(0.20, span.highest(480.0), 1e-12);
+  DOUBLES_EQUAL(0.04, span.min_at(5.0), 1e-12);
+  DOUBLES_EQUAL(0.08, span.min_at(100.0), 0.0);
+  DOUBLES_EQUAL(0.10, span.max_at(5.0), 0.0);
+  DOUBLES_EQUAL(0.20, span.max_at(480.0), 1e-12);
 }

@@ -48,7 +48,7 @@ TEST(ReferenceShapers, FeasibleReferencePassesToTheBit) {
     const double reference_m = supercoil::test::paper_sine_m(k * tick_s);
     shaped.tick(reference_m);
     plain.step(reference_m);
-    CHECK(shaped.now.what == Infeasible::nothing);
+    CHECK(shaped.now.infeasible == Infeasible::nothing);
     CHECK(shaped.now.reference_m == reference_m);
   }
   CHECK(shaped.position_m() == plain.motion().position);
@@ -67,7 +67,7 @@ TEST(ReferenceShapers, FallIsTheCoolingMuscleItself) {
   for (int k = 0; k < 3'000; ++k) {
     shaped.tick(-10.0);
     muscle.step(0.0);
-    cooling += static_cast<int>(shaped.now.what == Infeasible::cooling);
+    cooling += static_cast<int>(shaped.now.infeasible == Infeasible::cooling);
     DOUBLES_EQUAL(muscle.position_m(), shaped.position_m(), 20e-6);
   }
   LONGS_EQUAL(3'000, cooling);
@@ -81,7 +81,7 @@ TEST(ReferenceShapers, ItArrivesAndIsNoMoreLimited) {
     shaped.tick(0.002);
     min_m = std::fmin(min_m, shaped.position_m());
   }
-  CHECK(shaped.now.what == Infeasible::nothing);
+  CHECK(shaped.now.infeasible == Infeasible::nothing);
   DOUBLES_EQUAL(0.002, shaped.position_m(), 1e-6);
   // Hardly more than the model's own overshoot, 5 %.
   CHECK(min_m > 0.002 - 0.08 * (level_m - 0.002));
@@ -93,7 +93,7 @@ TEST(ReferenceShapers, GreatestPowerSetsTheHighestPosition) {
   bool was_limited = false;
   for (int k = 0; k < 60'000; ++k) {
     shaped.tick(0.025, weak);
-    was_limited = was_limited || shaped.now.what == Infeasible::heating;
+    was_limited = was_limited || shaped.now.infeasible == Infeasible::heating;
     CHECK(shaped.shaper.power_W(shaped.now.reference_m, shaped.model.motion()) < 2.0 + 0.02);
   }
   CHECK_TRUE(was_limited);

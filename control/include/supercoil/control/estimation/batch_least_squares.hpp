@@ -37,7 +37,7 @@ class BatchLeastSquares {
     Theta deviation;  ///< standard, relative to theta
     /// Distance of the last third's fit from the fit of the rest, which has not seen the last
     /// third, relative to the latter.
-    Theta unseen_difference;
+    Theta holdout_difference;
     /// Fraction of the filtered power's variance in the last third that the fit of the rest does
     /// not explain.
     double unexplained_ratio;
@@ -50,7 +50,7 @@ class BatchLeastSquares {
   void start(double position_m);
 
   /// Begins another experiment while the motion continues.
-  void start_anew();
+  void restart();
 
   /// One tick: this tick's position, and the power applied since the last one. block: which one the
   /// tick counts to, below max_blocks; empty while the filters settle.
@@ -77,7 +77,7 @@ class BatchLeastSquares {
 
     void add(const Sums& other, double sign);
     double variance() const { return energy - mean * mean / count; }
-    double missed(const Regressors& solution) const {
+    double residual_energy(const Regressors& solution) const {
       return energy - 2.0 * solution.dot(projection) + solution.dot(information * solution);
     }
   };

@@ -56,7 +56,7 @@ class ChangeDetector {
 
   explicit ChangeDetector(const Settings& s)
       : settings_(s),
-        share_(-std::expm1(-s.period_s / s.window_s)),
+        smoothing_(-std::expm1(-s.period_s / s.window_s)),
         fade_(std::exp(-s.period_s / s.memory_s)),
         slot_steps_(std::max<std::int64_t>(
             1, std::llround(s.delay_s / s.period_s / static_cast<double>(slots)))) {}
@@ -64,8 +64,8 @@ class ChangeDetector {
   /// One observation. Returns the direction of a change when it sees one.
   std::optional<int> step(const Signals& signals, double residual) {
     ++steps_;
-    correlation_ += share_ * (signals * residual - correlation_);
-    square_ += share_ * (signals.cwiseProduct(signals) - square_);
+    correlation_ += smoothing_ * (signals * residual - correlation_);
+    square_ += smoothing_ * (signals.cwiseProduct(signals) - square_);
     const Signals gain =
         correlation_.cwiseProduct(correlation_).cwiseQuotient(square_.cwiseMax(1e-300));
     follow_past(gain);
@@ -110,7 +110,7 @@ class ChangeDetector {
   }
 
   Settings settings_;
-  double share_;
+  double smoothing_;
   double fade_;
   std::int64_t slot_steps_;
   std::int64_t steps_ = 0;

@@ -22,8 +22,8 @@ class CoolingFit {
  public:
   /// The muscle's possible range; all > 0.
   struct Settings {
-    double fastest_s = 0.5;  ///< possible time constants
-    double slowest_s = 6.0;
+    double min_time_constant_s = 0.5;  ///< possible time constants
+    double max_time_constant_s = 6.0;
     double max_W = 4.5;
   };
   /// The time constant that explains the motion best.
@@ -49,13 +49,14 @@ class CoolingFit {
   static constexpr std::size_t candidates = 40;
   static constexpr int terms = 9;
   static constexpr int filtered = 7;  ///< of these, through the low-pass
-  static constexpr double wanted_step_s = 0.01;
+  static constexpr double target_step_s = 0.01;
   static constexpr double corner_rad_per_s = 4.0;  ///< of two equal low-passes
   static constexpr double margin = 1.3;            ///< around the possible range
   static constexpr double min_used_s = 20.0;
   static constexpr double fine_play = 0.03;  ///< of max_W
   static constexpr double coarse_play = 0.12;
-  static constexpr std::size_t aside = 4;       ///< all candidates at least this far from the best
+  static constexpr std::size_t min_distance =
+      4;                                        ///< all candidates at least this far from the best
   static constexpr double min_sharpness = 1.7;  ///< leave at least this many times its residual
   static constexpr double ridge = 1e-10;
 
@@ -76,8 +77,8 @@ class CoolingFit {
     double energy = 0.0;
   };
 
-  void take(double position_m, double power_W);
-  void take(Fit& fit, double x, double power_W, bool used) const;
+  void add_sample(double position_m, double power_W);
+  void add_sample(Fit& fit, double x, double power_W, bool used) const;
   /// Unexplained fraction of the position's variance.
   double unexplained(const Fit& fit) const;
   double used_s() const;

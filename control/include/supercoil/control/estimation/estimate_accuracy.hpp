@@ -27,7 +27,7 @@ class EstimateAccuracy {
     double update_s;         ///< between regressions
     double averaging_s;      ///< of the residuals' mean square
     double noise_m2_per_Hz;  ///< expected density of the position's noise (rms² · tick)
-    double counted_W2;       ///< R: what least squares takes the residual's variance for
+    double assumed_W2;       ///< R: the residual variance that least squares assumes
     double forgetting;       ///< of an update
     /// Of the last five: to these their variances grow when nothing excites them.
     Vector<double, 5> unexcited;
@@ -42,19 +42,19 @@ class EstimateAccuracy {
   void forget_first(const Vector<double, free>& variances);
 
   /// What one regression showed.
-  struct Seen {
-    Parameters theta;        ///< over nominal, the bias in W
-    double motion_W;         ///< the part of z that motion explains
-    Derivatives of_impulse;  ///< FilteredRegression's
-    Derivatives of_one;
+  struct Observation {
+    Parameters theta;              ///< over nominal, the bias in W
+    double motion_W;               ///< the part of z that motion explains
+    Derivatives impulse_response;  ///< FilteredRegression's
+    Derivatives step_response;
     double residual_W;
-    double scale;  ///< counted covariance over a true one, for unexcited parameters
+    double scale;  ///< assumed covariance over the true one, for unexcited parameters
   };
   /// One regression, every update_s.
-  void step(const Seen& seen);
+  void step(const Observation& observation);
 
   /// The muscle has changed: `added` is added to the covariance of the last five. before, after:
-  /// their counted covariance; after must be regular.
+  /// their assumed covariance; after must be regular.
   void spread(const Matrix<double, 5>& before, const Matrix<double, 5>& after,
               const Matrix<double, 5>& added);
 
@@ -65,12 +65,12 @@ class EstimateAccuracy {
     Matrix<double, 5> noise;  ///< from the residuals, as if they were position noise
     Matrix<double, 5> prior;
   };
-  /// covariance: as counted.
+  /// covariance: as assumed by least squares.
   Parts parts(const Square& covariance, const Parameters& theta) const;
   /// Limits a scaled-up covariance to twice the deviations of unexcited parameters.
   Matrix<double, 5> bounded(const Matrix<double, 5>& covariance) const;
   /// True when the residuals' rms is more than twice what the expected noise makes it.
-  bool model_errs(const Parameters& theta) const {
+  bool model_error_visible(const Parameters& theta) const {
     return mean_square_W2_ > 4.0 * settings_.noise_m2_per_Hz * noise_gain(theta);
   }
 
@@ -83,7 +83,7 @@ class EstimateAccuracy {
   Settings settings_;
   Filter motion_;
   Filter impulse_;
-  Filter one_;
+  Filter step_;
   Vector<double, 4> weights_;  // of 1, s, s², s³ in A
   Matrix<double, 4> gram_;     // ∫ of the impulse responses of [1, s, s², s³]/Λ', pairwise
   double mean_square_W2_;

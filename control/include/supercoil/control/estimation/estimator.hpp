@@ -73,7 +73,7 @@ class Estimator {
   using Any = VariantOf<std::monostate, Running, Estimators>::Type;
   static Any make(const EstimatorSettings& settings, double step_s);
   template <class Now>
-  void tell(const Now& running);
+  void publish(const Now& running);
 
   Any any_;
   RegressionScale scale_;

@@ -20,10 +20,10 @@ concept ParameterEstimator = requires(Running running, Scalar scalar) {
 };
 
 /// In<Scalar>: the estimator, made from its settings and step_s. watch(): each tick after step(),
-/// for estimators whose trust depends on excitation. tells_anew(): whether estimate() may have
-/// changed in this tick. estimate(): its result, and whether that is trusted, given the nominal θ
-/// and the maximum relative error. set_nominal(): max_W is NaN while unknown. values: a range of
-/// SettingValue. If it runs in fixed_point, check_fit(fit, settings, step_s).
+/// for estimators whose trust depends on excitation. has_new_estimate(): whether estimate() may
+/// have changed in this tick. estimate(): its result, and whether that is trusted, given the
+/// nominal θ and the maximum relative error. set_nominal(): max_W is NaN while unknown. values: a
+/// range of SettingValue. If it runs in fixed_point, check_fit(fit, settings, step_s).
 template <class Definition, class Running = typename Definition::template In<double>,
           class Value = SettingValue<typename Definition::Settings>>
 concept EstimatorDefinition = ParameterEstimator<Running, double> &&
@@ -35,7 +35,7 @@ concept EstimatorDefinition = ParameterEstimator<Running, double> &&
   Definition::set_nominal(settings, scale, value);
   { *Definition::values.begin() } -> std::convertible_to<Value>;
   Definition::watch(running, excitation);
-  { Definition::tells_anew(running) } -> std::same_as<bool>;
+  { Definition::has_new_estimate(running) } -> std::same_as<bool>;
   { Definition::estimate(running, nominal, excitation, value) } -> std::same_as<Estimate>;
 };
 

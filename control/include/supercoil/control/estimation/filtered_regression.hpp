@@ -68,8 +68,8 @@ class FilteredRegression {
   Scalar z() const { return z_; }
   const Regressors& phi() const { return phi_; }
   /// [1, s, s², s³, s⁴]/Λ' of an impulse, and of a constant 1, since the restart.
-  Derivatives of_impulse() const { return derivatives(free_); }
-  Derivatives of_one() const { return derivatives(bias_); }
+  Derivatives impulse_response() const { return derivatives(free_); }
+  Derivatives step_response() const { return derivatives(bias_); }
 
  private:
   using Held = StateVariableFilter<Scalar, 5, Hold::zero_order>;

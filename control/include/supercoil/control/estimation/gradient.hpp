@@ -109,7 +109,7 @@ struct GradientEstimation {
                     estimator.scaled_theta());
   }
   template <class Scalar>
-  static bool tells_anew(const GradientEstimator<Scalar>&) {
+  static bool has_new_estimate(const GradientEstimator<Scalar>&) {
     return true;
   }
   template <class Scalar>

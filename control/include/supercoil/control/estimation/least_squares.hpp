@@ -63,9 +63,9 @@ class LeastSquaresEstimator {
   /// One tick. position_W: position over the DC gain. applied_power_W: the power really applied
   /// since the last tick.
   void step(Scalar position_W, Scalar applied_power_W) {
-    updated_ = begins_;
-    if (begins_) {
-      begins_ = false;
+    updated_ = restart_pending_;
+    if (restart_pending_) {
+      restart_pending_ = false;
       updates_ = 0;
       start_filters(position_W, abs(position_W));
       watch_.restart(position_W);
@@ -76,7 +76,7 @@ class LeastSquaresEstimator {
   }
 
   /// The muscle is heated again after a pause: the filters start at rest, what was learned stays.
-  void restart() { begins_ = true; }
+  void restart() { restart_pending_ = true; }
 
   /// True when the reported estimate may have changed in the last tick.
   bool updated() const { return updated_; }
@@ -96,7 +96,8 @@ class LeastSquaresEstimator {
   std::int64_t changes() const { return changes_; }
   /// True when θ predicts the muscle, at least in the direction of its motion.
   bool settled() const {
-    return running_s() > settled_s && since_change_s() > (errs_ ? free_s : resettled_s);
+    return running_s() > settled_s &&
+           since_change_s() > (model_error_visible_ ? free_s : resettled_s);
   }
 
  private:
@@ -126,7 +127,7 @@ class LeastSquaresEstimator {
   /// Share of the drift's mean square in the covariance, and the drift's memory over its lag. Over
   /// random muscles (muscles_study) the best fit of the next minute is then within two deviations
   /// in 90 to 99 of 100 cases.
-  static constexpr double drift_share = 0.06;
+  static constexpr double drift_weight = 0.06;
   static constexpr double drift_memory = 30.0;
 
   LeastSquaresEstimator(const LeastSquaresSettings& s, double step_s, std::int64_t ticks_per_update)
@@ -140,7 +141,7 @@ class LeastSquaresEstimator {
                    .update_s = period_s_,
                    .averaging_s = s.forgetting_s,
                    .noise_m2_per_Hz = s.position_noise_m * s.position_noise_m * step_s,
-                   .counted_W2 = counted_W2(),
+                   .assumed_W2 = assumed_W2(),
                    .forgetting = std::exp(-period_s_ / s.forgetting_s),
                    .unexcited = unexcited_}),
         drift_(
@@ -149,8 +150,8 @@ class LeastSquaresEstimator {
              .memory_s = drift_memory * s.forgetting_s * std::max(1.0, slowness(s.scale.nominal)),
              .unexcited = unexcited_}),
         forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
-        counted_updates_(error_lasts_s * slowness(s.scale.nominal) / period_s_),
-        explains_s_(free_s * std::max(1.0, slowness(s.scale.nominal))),
+        updates_per_error_(error_lasts_s * slowness(s.scale.nominal) / period_s_),
+        explains_change_s_(free_s * std::max(1.0, slowness(s.scale.nominal))),
         covariance_(All::Zero()) {
     initial_ << s.initial.cwiseQuotient(s.scale.nominal), 0.0;
     theta_ << Vector<Wide, free>::Zero(), initial_.template cast<Wide>();
@@ -162,7 +163,7 @@ class LeastSquaresEstimator {
     accuracy_.forget(variances);
   }
 
-  double counted_W2() const {
+  double assumed_W2() const {
     const double rms_W = settings_.residual_ratio * settings_.max_W;
     return rms_W * rms_W;
   }
@@ -209,10 +210,10 @@ class LeastSquaresEstimator {
     regression_.update();
     const All& phi = regression_.phi();
     error_ = regression_.z() - theta_.template cast<Scalar>().dot(phi);
-    const All gain = covariance_.update(phi, to<Scalar>(counted_W2()), forgetting_, first_);
+    const All gain = covariance_.update(phi, to<Scalar>(assumed_W2()), forgetting_, first_);
     theta_ += gain.template cast<Wide>() * Wide(error_);
-    accuracy_.step(seen());
-    scale_ = std::min(1.0, counted_scale());
+    accuracy_.step(observation());
+    scale_ = std::min(1.0, covariance_scale());
     if (running_s() > settled_s) return_unexcited();
     if (updates_ % updates_per_accuracy == 0) judge();
     if (first_ == 0 && static_cast<double>(since_start_) * period_s_ > free_s) end_free_responses();
@@ -227,25 +228,27 @@ class LeastSquaresEstimator {
     const Vector<double, size> theta = theta_.template cast<double>();
     const auto parts = accuracy_.parts(covariance_.template matrix<double>(), theta);
     drift_.step(theta.template tail<5>(), parts.noise + parts.prior);
-    errs_ = accuracy_.model_errs(theta);
-    const double more = errs_ ? std::max(1.0, drift_share * drift_.mean_square()) : 1.0;
+    model_error_visible_ = accuracy_.model_error_visible(theta);
+    const double more =
+        model_error_visible_ ? std::max(1.0, drift_weight * drift_.mean_square()) : 1.0;
     reported_covariance_ = more * parts.noise + parts.prior;
-    if (more > 1.0 || explains()) reported_covariance_ = accuracy_.bounded(reported_covariance_);
+    if (more > 1.0 || explains_change())
+      reported_covariance_ = accuracy_.bounded(reported_covariance_);
     deviations_ = reported_covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
 
   /// True while the change may still be explained.
-  bool explains() const { return since_change_s() < explains_s_; }
+  bool explains_change() const { return since_change_s() < explains_change_s_; }
 
   void publish_estimate() {
     reported_ = theta_.template tail<5>().template cast<double>();
-    if (explains()) {
-      const auto simplest = change_.explained(reported_, counted_covariance() / change_scale_);
+    if (explains_change()) {
+      const auto simplest = change_.explained(reported_, assumed_covariance() / change_scale_);
       if (simplest) reported_ = *simplest;
       if (!simplest && !settled()) reported_ = change_.before();
     }
     if (!bounds_.contains(reported_))
-      reported_ = project<5>(reported_, bounds_, counted_covariance());
+      reported_ = project<5>(reported_, bounds_, assumed_covariance());
   }
 
   /// Acts as if one parameter after the other were observed at its initial value, with just the
@@ -262,13 +265,13 @@ class LeastSquaresEstimator {
   }
 
   /// The covariance of θ1 … θ4 and the bias.
-  Matrix<double, 5> counted_covariance() const {
+  Matrix<double, 5> assumed_covariance() const {
     return covariance_.template matrix<double>().template bottomRightCorner<5, 5>();
   }
 
-  /// Counted covariance over a true one, according to the residuals.
-  double counted_scale() const {
-    return counted_W2() / (accuracy_.mean_square() * counted_updates_);
+  /// Assumed covariance over the true one, according to the residuals.
+  double covariance_scale() const {
+    return assumed_W2() / (accuracy_.mean_square() * updates_per_error_);
   }
 
   void change(Scalar position_W, const Parameters& theta) {
@@ -280,24 +283,24 @@ class LeastSquaresEstimator {
     Matrix<double, 5> more = along * along.transpose();
     more.diagonal().array() += other_deviation * other_deviation;
 
-    const Matrix<double, 5> before = counted_covariance();
-    Matrix<Scalar, size> counted = Matrix<Scalar, size>::Zero();
-    change_scale_ = counted_scale();
+    const Matrix<double, 5> before = assumed_covariance();
+    Matrix<Scalar, size> added = Matrix<Scalar, size>::Zero();
+    change_scale_ = covariance_scale();
     change_.begin(theta, before / change_scale_, along, more);
-    counted.template bottomRightCorner<5, 5>() = (more * change_scale_).template cast<Scalar>();
-    covariance_.add(counted);
+    added.template bottomRightCorner<5, 5>() = (more * change_scale_).template cast<Scalar>();
+    covariance_.add(added);
     drift_.forget_past();
-    accuracy_.spread(before, counted_covariance(), more);
+    accuracy_.spread(before, assumed_covariance(), more);
   }
 
-  EstimateAccuracy::Seen seen() const {
+  EstimateAccuracy::Observation observation() const {
     const All& phi = regression_.phi();
     const All theta = theta_.template cast<Scalar>();
     const Scalar motion = theta.template segment<4>(free).dot(phi.template segment<4>(free));
     return {theta_.template cast<double>(),
             static_cast<double>(motion),
-            regression_.of_impulse(),
-            regression_.of_one(),
+            regression_.impulse_response(),
+            regression_.step_response(),
             static_cast<double>(regression_.z() - theta.dot(phi)),
             scale_};
   }
@@ -311,10 +314,10 @@ class LeastSquaresEstimator {
   EstimateAccuracy accuracy_;
   EstimateDrift drift_;
   Scalar forgetting_;
-  double counted_updates_;  ///< a model error counts once per this many
-  double explains_s_;       ///< for this time after a change
+  double updates_per_error_;  ///< a model error counts once per this many
+  double explains_change_s_;  ///< for this time after a change
   SimplestChange change_;
-  double change_scale_ = 1.0;  ///< counted_scale() at the last change
+  double change_scale_ = 1.0;  ///< covariance_scale() at the last change
   UdCovariance<Scalar, size> covariance_;
   Vector<Wide, size> theta_;
   Parameters initial_;
@@ -323,17 +326,17 @@ class LeastSquaresEstimator {
   Matrix<double, 5> reported_covariance_ = Matrix<double, 5>::Zero();
   Parameters deviations_ = Parameters::Constant(INFINITY);
 
-  bool begins_ = true;
+  bool restart_pending_ = true;
   bool updated_ = false;
-  bool errs_ = false;  ///< the model's error is visible
-  int first_ = 0;      ///< first parameter estimated: 0 with, 3 without the free responses
+  bool model_error_visible_ = false;  ///< the model's error is visible
+  int first_ = 0;  ///< first parameter estimated: 0 with, 3 without the free responses
   std::int64_t tick_ = 0;
   std::int64_t updates_ = 0;
   std::int64_t since_start_ = 0;  ///< of the filters, in updates
   std::int64_t since_change_ = 0;
   std::int64_t changes_ = 0;
   int selector_ = 0;    ///< of the parameters in return_unexcited()
-  double scale_ = 1.0;  ///< counted covariance over a true one, for what is added to it
+  double scale_ = 1.0;  ///< assumed covariance over the true one, for what is added to it
   Scalar error_{};
 };
 
@@ -362,7 +365,7 @@ struct LeastSquaresEstimation {
   template <class Scalar>
   static void watch(const LeastSquaresEstimator<Scalar>&, ExcitationMonitor&) {}
   template <class Scalar>
-  static bool tells_anew(const LeastSquaresEstimator<Scalar>& estimator) {
+  static bool has_new_estimate(const LeastSquaresEstimator<Scalar>& estimator) {
     return estimator.updated();
   }
   template <class Scalar>

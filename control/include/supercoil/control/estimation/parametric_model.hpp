@@ -38,7 +38,7 @@ class ParametricModel {
     position_.step(position_W);
     z_ = to<Scalar>(power_.state()[0]);
     const auto& x = position_.state();
-    phi_[0] = to<Scalar>(position_.highest(position_W) * weights_[0]);
+    phi_[0] = to<Scalar>(position_.highest_derivative(position_W) * weights_[0]);
     phi_[1] = to<Scalar>(x[2] * weights_[1]);
     phi_[2] = to<Scalar>(x[1] * weights_[2]);
     phi_[3] = to<Scalar>(x[0] * weights_[3]);

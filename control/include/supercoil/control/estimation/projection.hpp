@@ -37,14 +37,14 @@ Vector<double, N> project(Vector<double, N> value, const Box<double, N>& box,
   std::array<bool, N> known{};
   for (int count = 0; count < N; ++count) {
     int worst = -1;
-    double most = 0.0;
+    double max_deviations = 0.0;
     for (int i = 0; i < N; ++i) {
       const double inside = std::clamp(value[i], box.lower[i], box.upper[i]);
       const double variance = covariance(i, i);
       if (known[static_cast<std::size_t>(i)] || inside == value[i] || !(variance > 0.0)) continue;
       const double deviations = std::abs(value[i] - inside) / std::sqrt(variance);
-      if (deviations <= most) continue;
-      most = deviations;
+      if (deviations <= max_deviations) continue;
+      max_deviations = deviations;
       worst = i;
     }
     if (worst < 0) break;

@@ -34,7 +34,7 @@ class SimplestChange {
  private:
   /// Deviation of each θ in addition to its move along the direction.
   static constexpr double other_deviation = 0.01;
-  static constexpr double sure = 0.9;  ///< the likelihood's share that decides
+  static constexpr double min_probability = 0.9;  ///< at which an explanation is accepted
 
   Parameters theta_ = Parameters::Zero();
   Square covariance_ = Square::Zero();

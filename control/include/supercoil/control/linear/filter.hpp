@@ -84,7 +84,7 @@ class StateVariableFilter {
   }
 
   /// s^Order X/Λ at this tick, for the given input of this tick.
-  Accumulator<Scalar> highest(Scalar input) const {
+  Accumulator<Scalar> highest_derivative(Scalar input) const {
     return Accumulator<Scalar>(input) - lambda_.dot(state_);
   }
 

@@ -66,11 +66,11 @@ constexpr void with_each(Settings& settings, Function function) {
 
 /// The names of the list's kinds, after the one kind that is not in the list.
 template <class List, class Kind>
-constexpr auto names_of(std::string_view none, Kind none_of_it) {
+constexpr auto names_of(std::string_view none, Kind none_kind) {
   return std::apply(
       [&](auto... listed) {
         return Names<Kind, 1 + sizeof...(listed)>{
-            {{none, none_of_it}, {decltype(listed)::Definition::name, decltype(listed)::kind}...}};
+            {{none, none_kind}, {decltype(listed)::Definition::name, decltype(listed)::kind}...}};
       },
       List{});
 }

@@ -18,7 +18,7 @@ struct BasicThermalBounds {
 using ThermalBounds = BasicThermalBounds<double>;
 
 /// The longest time constant that the bounds allow, in s.
-inline double slowest_s(const ThermalBounds& bounds) {
+inline double max_time_constant_s(const ThermalBounds& bounds) {
   return std::fmin(bounds.max_time_constant_s,
                    bounds.max_mass_J_per_K / bounds.min_transfer_W_per_K);
 }
@@ -32,7 +32,7 @@ struct BasicIntervalEnd {
   Real cooling_decay;
 
   /// The rise one tick later, in K, with this power in between.
-  Real moved(Real rise_K, Real power_W) const {
+  Real next_K(Real rise_K, Real power_W) const {
     const Real rest_K = power_W * rest_K_per_W;
     return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
   }
@@ -76,8 +76,8 @@ class BasicIntervalObserver {
 
   /// min_W, max_W ≥ 0: the power applied since the last tick lies between them.
   void step(Real min_W, Real max_W) {
-    max_K_ = hot_.moved(max_K_, max_W);
-    min_K_ = cold_.moved(min_K_, min_W);
+    max_K_ = hot_.next_K(max_K_, max_W);
+    min_K_ = cold_.next_K(min_K_, min_W);
   }
   /// The power is known exactly.
   void step(Real power_W) { step(power_W, power_W); }

@@ -22,11 +22,11 @@ struct TransferSpan {
   double to_K = INFINITY;
 
   /// The minimum heat transfer possible at this rise >= 0, in W/K.
-  double lowest(double rise_K) const {
+  double min_at(double rise_K) const {
     return rise_K >= from_K ? min_W_per_K : min_W_per_K * std::cbrt(rise_K / from_K);
   }
   /// The maximum.
-  double highest(double rise_K) const {
+  double max_at(double rise_K) const {
     return rise_K <= to_K ? max_W_per_K : max_W_per_K * std::cbrt(rise_K / to_K);
   }
 };
@@ -48,12 +48,12 @@ class RiseIntervalObserver {
       double highest = bounds.max_transfer_W_per_K;
       const double from_K = band_K * static_cast<double>(i);
       for (const TransferSpan& span : spans) {
-        lowest = std::max(lowest, std::min(span.lowest(from_K), bounds.max_transfer_W_per_K));
+        lowest = std::max(lowest, std::min(span.min_at(from_K), bounds.max_transfer_W_per_K));
         // The last band has no upper end.
-        if (i + 1 < bands) highest = std::min(highest, span.highest(from_K + band_K));
+        if (i + 1 < bands) highest = std::min(highest, span.max_at(from_K + band_K));
       }
       highest = std::max(highest, bounds.min_transfer_W_per_K);
-      hot_[i] = hot_end(lowest, no_slower(bounds, lowest), step_s_);
+      hot_[i] = hot_end(lowest, limit_time_constant(bounds, lowest), step_s_);
       cold_[i] = cold_end(highest, bounds, step_s_);
     }
   }
@@ -62,13 +62,13 @@ class RiseIntervalObserver {
   void step(double min_W, double max_W) {
     // When an end moves into another band, the bound must hold in both.
     const std::size_t hot = band(max_K_);
-    const double max_K = hot_[hot].moved(max_K_, max_W);
+    const double max_K = hot_[hot].next_K(max_K_, max_W);
     const std::size_t cooler = band(max_K);
-    max_K_ = cooler < hot ? hot_[cooler].moved(max_K_, max_W) : max_K;
+    max_K_ = cooler < hot ? hot_[cooler].next_K(max_K_, max_W) : max_K;
     const std::size_t cold = band(min_K_);
-    const double min_K = cold_[cold].moved(min_K_, min_W);
+    const double min_K = cold_[cold].next_K(min_K_, min_W);
     const std::size_t warmer = band(min_K);
-    min_K_ = warmer > cold ? cold_[warmer].moved(min_K_, min_W) : min_K;
+    min_K_ = warmer > cold ? cold_[warmer].next_K(min_K_, min_W) : min_K;
   }
 
   /// Temperature rise over ambient.
@@ -92,7 +92,7 @@ class RiseIntervalObserver {
 
   /// Limits the mass so that this minimum heat transfer keeps ψ/η within its bound. A muscle with
   /// more mass has more heat transfer too, and cools no slower (docs/safety.md).
-  static ThermalBounds no_slower(ThermalBounds bounds, double lowest_W_per_K) {
+  static ThermalBounds limit_time_constant(ThermalBounds bounds, double lowest_W_per_K) {
     bounds.max_mass_J_per_K = std::clamp(lowest_W_per_K * bounds.max_time_constant_s,
                                          bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);
     return bounds;

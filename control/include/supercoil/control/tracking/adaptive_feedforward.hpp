@@ -126,7 +126,7 @@ class AdaptiveFeedforward {
 };
 
 /// `adaptive_ff`: how AdaptiveFeedforward is named, set, made and checked (LawDefinition).
-struct AdaptiveFeedforwardLaw : UsualLaw {
+struct AdaptiveFeedforwardLaw : LawDefaults {
   using Settings = AdaptiveFeedforwardSettings;
   template <class Scalar>
   using In = AdaptiveFeedforward<Scalar>;

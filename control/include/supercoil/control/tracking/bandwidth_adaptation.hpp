@@ -33,7 +33,7 @@ class BandwidthAdaptation {
       : ticks_per_update_(
             std::max<std::int64_t>(1, std::llround(update_angle / s.max_rad_per_s / s.step_s))),
         max_angle_(s.max_rad_per_s * static_cast<double>(ticks_per_update_) * s.step_s),
-        lag_share_(
+        lag_smoothing_(
             -std::expm1(-s.lag_rad_per_s * static_cast<double>(ticks_per_update_) * s.step_s)) {}
 
   /// Restarts at full bandwidth, with nothing learned.
@@ -85,7 +85,7 @@ class BandwidthAdaptation {
 
   void update(double error, bool limited) {
     const double change = error - error_;
-    lagged_ += lag_share_ * (error_ - lagged_);
+    lagged_ += lag_smoothing_ * (error_ - lagged_);
     const double moved = ratio_ * max_angle_ * lagged_;
     error_ = error;
     learn_noise(0.5 * change * change);
@@ -96,7 +96,7 @@ class BandwidthAdaptation {
     }
     double angle = max_angle_;
     for (Loop& loop : loops_) {
-      loop.lagged += lag_share_ * (loop.error - loop.lagged);
+      loop.lagged += lag_smoothing_ * (loop.error - loop.lagged);
       loop.error += change + moved - angle * loop.lagged;
       angle *= 0.5;
     }
@@ -133,7 +133,7 @@ class BandwidthAdaptation {
 
   std::int64_t ticks_per_update_;
   double max_angle_;  // ωc times the time between updates
-  double lag_share_;
+  double lag_smoothing_;
   double ratio_ = 1.0;
   double noise_ = 0.0;   // mean square, of an update's error
   double error_ = 0.0;   // of the last update

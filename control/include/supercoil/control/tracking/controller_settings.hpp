@@ -64,9 +64,9 @@ constexpr bool supported(ControllerKind kind, Arithmetic arithmetic) {
 
 /// True for laws whose feedback changes while they run.
 constexpr bool adapts(ControllerKind kind) {
-  bool it_does = false;
-  with_listed<Laws>(kind, [&](auto listed) { it_does = decltype(listed)::Definition::adapts; });
-  return it_does;
+  bool adaptive = false;
+  with_listed<Laws>(kind, [&](auto listed) { adaptive = decltype(listed)::Definition::adapts; });
+  return adaptive;
 }
 
 /// The law with the gains that follow from a muscle; for a law that adapts, with the θ* that

@@ -20,11 +20,11 @@ class ErrorPower {
   /// belongs to the power that acted since.
   void step(double error) { sum_ += std::exchange(last_, error); }
 
-  /// Ends a period of this many ticks. filter_share: of a low-pass, in a period.
-  void update(double ticks, double filter_share, double period_s) {
-    once_ += filter_share * (std::exchange(sum_, 0.0) / ticks - once_);
+  /// Ends a period of this many ticks. smoothing: of a low-pass, in a period.
+  void update(double ticks, double smoothing, double period_s) {
+    once_ += smoothing * (std::exchange(sum_, 0.0) / ticks - once_);
     const double before = twice_;
-    twice_ += filter_share * (once_ - twice_);
+    twice_ += smoothing * (once_ - twice_);
     const double rate = (twice_ - before) / period_s;
     rate_change_ = (rate - rate_) / period_s;
     rate_ = rate;

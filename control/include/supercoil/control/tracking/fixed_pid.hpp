@@ -13,7 +13,7 @@ namespace supercoil::control {
 /// Maximum of ωc over the mechanics' damping rate. Up to it the open loop with FixedPid is about
 /// ωc/s; beyond it a second-order gain falls with the square. A lightly damped muscle (ratio 0.06)
 /// limit-cycles at 8 rad/s, but tracks within 0.34 µm at 1 rad/s.
-constexpr double damping_share = 0.36;
+constexpr double max_bandwidth_ratio = 0.36;
 
 /// About µ/m̂ of the muscle: the lag that a FixedPid tuned for it leaves in the open loop.
 inline double damping_rate(const Theta& theta, double moving_mass_kg) {
@@ -22,7 +22,7 @@ inline double damping_rate(const Theta& theta, double moving_mass_kg) {
 
 /// ωc of a FixedPid tuned for the muscle.
 inline double feedback_bandwidth(double max_rad_per_s, const Theta& theta, double moving_mass_kg) {
-  return std::min(max_rad_per_s, damping_share * damping_rate(theta, moving_mass_kg));
+  return std::min(max_rad_per_s, max_bandwidth_ratio * damping_rate(theta, moving_mass_kg));
 }
 
 /// For laws that cannot do without their FixedPid.

@@ -10,7 +10,7 @@ namespace supercoil::control {
 
 /// Iterative learning control for a reference that repeats itself. A period has 1024 slots. Half of
 /// what the feedback added in one period, shifted earlier by the time that the muscle needs to
-/// answer, is added to what was given there. A zero-phase average of both suppresses components
+/// answer, is added to the output there. A zero-phase average of both suppresses components
 /// that a longer lag would make grow from period to period.
 class IterativeLearning {
  public:
@@ -18,10 +18,10 @@ class IterativeLearning {
   /// `real_hard`: a width of 0.06 s diverges on the latter.
   struct Settings {
     double period_s = 0.0;  ///< of the reference; 0: it does not repeat itself
-    double ahead_s = 0.08;
-    double average_s = 0.13;  ///< half of the width
-    double share = 0.5;       ///< of the feedback
-    double kept = 0.99;       ///< from period to period, so that noise does not pile up
+    double lead_s = 0.08;
+    double average_s = 0.13;     ///< half of the width
+    double learning_gain = 0.5;  ///< on the feedback
+    double retention = 0.99;     ///< from period to period, so that noise does not pile up
   };
 
   /// step_s: > 0, between ticks.
@@ -33,7 +33,7 @@ class IterativeLearning {
   void set_period(double period_s) {
     settings_.period_s = period_s;
     phase_step_ = period_s > 0.0 ? step_s_ / period_s : 0.0;
-    ahead_ = slots_of(settings_.ahead_s);
+    lead_ = slots_of(settings_.lead_s);
     half_width_ = slots_of(settings_.average_s);
     reset();
   }
@@ -49,8 +49,8 @@ class IterativeLearning {
   /// Forgets what was learned; the period goes on.
   void forget() {
     feedback_W_.fill(0.0F);
-    for (Slots& given : given_W_)
-      given.fill(0.0F);
+    for (Slots& output : output_W_)
+      output.fill(0.0F);
   }
 
   /// The power to add at this tick.
@@ -58,9 +58,9 @@ class IterativeLearning {
     if (phase_step_ == 0.0) return 0.0;
     const double place = phase_ * static_cast<double>(slots);
     const double left = std::floor(place);
-    const Slots& given_W = given_W_[(period_ + 1) % 2];
+    const Slots& output_W = output_W_[(period_ + 1) % 2];
     const auto i = static_cast<std::size_t>(left) % slots;
-    return given_W[i] + (place - left) * (given_W[(i + 1) % slots] - given_W[i]);
+    return output_W[i] + (place - left) * (output_W[(i + 1) % slots] - output_W[i]);
   }
 
   /// Ends the tick. feedback_W: what the feedback added; usable: it is informative.
@@ -82,8 +82,8 @@ class IterativeLearning {
   using Slots = std::array<float, slots>;
 
   std::size_t slots_of(double time_s) const {
-    const double many = time_s * phase_slots_per_s();
-    return static_cast<std::size_t>(std::fmin(std::round(many), max_half_width));
+    const double count = time_s * phase_slots_per_s();
+    return static_cast<std::size_t>(std::fmin(std::round(count), max_half_width));
   }
   double phase_slots_per_s() const {
     return settings_.period_s > 0.0 ? static_cast<double>(slots) / settings_.period_s : 0.0;
@@ -101,7 +101,7 @@ class IterativeLearning {
     const float mean_W = count_ > 0.0 ? static_cast<float>(sum_W_ / count_) : last_W;
     feedback_W_[slot_] = usable_ ? mean_W : 0.0F;
     // The slots around the learned one are known by now; it may belong to the previous period.
-    const std::size_t delay = ahead_ + half_width_;
+    const std::size_t delay = lead_ + half_width_;
     if (slot_ >= delay) {
       learn(slot_ - delay, period_);
     } else if (period_ > 0) {
@@ -116,24 +116,24 @@ class IterativeLearning {
 
   /// Computes what the next period gives at this slot.
   void learn(std::size_t slot, std::uint64_t period) {
-    const Slots& given_W = given_W_[(period + 1) % 2];
+    const Slots& output_W = output_W_[(period + 1) % 2];
     double sum_W = 0.0;
     for (std::size_t i = 0; i <= 2 * half_width_; ++i) {
       const std::size_t at = slot + slots - half_width_ + i;
-      sum_W += settings_.kept * given_W[at % slots] +
-               settings_.share * feedback_W_[(at + ahead_) % slots];
+      sum_W += settings_.retention * output_W[at % slots] +
+               settings_.learning_gain * feedback_W_[(at + lead_) % slots];
     }
-    given_W_[period % 2][slot] =
+    output_W_[period % 2][slot] =
         static_cast<float>(sum_W / static_cast<double>(2 * half_width_ + 1));
   }
 
   Settings settings_;
   double step_s_;
   double phase_step_ = 0.0;
-  std::size_t ahead_ = 0;
+  std::size_t lead_ = 0;
   std::size_t half_width_ = 0;
   Slots feedback_W_{};
-  std::array<Slots, 2> given_W_{};  // [p % 2]: for the period after p; the other one: for p
+  std::array<Slots, 2> output_W_{};  // [p % 2]: for the period after p; the other one: for p
   double phase_ = 0.0;
   std::size_t slot_ = 0;
   std::uint64_t period_ = 0;

@@ -44,7 +44,7 @@ struct LawContext {
 };
 
 /// What most laws declare; a law's definition hides the members that differ.
-struct UsualLaw {
+struct LawDefaults {
   static constexpr bool fixed_point = true;  ///< runs in q8.24, and has check_fit()
   static constexpr bool adapts = false;      ///< its feedback changes while it runs
   static constexpr std::string_view when_unstable = "lower its gains";

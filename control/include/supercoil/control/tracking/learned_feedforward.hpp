@@ -92,9 +92,9 @@ class LearnedFeedforward {
   };
 
   LeakyLeastSquares<R::count>::Settings prior() const;
-  typename Detector::Settings detection() const;
-  typename MismatchDetector::Settings mismatch_detection() const;
-  IterativeLearning::Settings repetition() const;
+  typename Detector::Settings detector_settings() const;
+  typename MismatchDetector::Settings mismatch_settings() const;
+  IterativeLearning::Settings iterative_settings() const;
   LearnedShare share() const;
   BandwidthAdaptation bandwidth() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
@@ -111,7 +111,7 @@ class LearnedFeedforward {
   void judge(double power_W);
   void watch_for_mismatch(double residual_W);
   void watch_for_change(double residual_W);
-  void learn_anew();
+  void restart_learning();
   Weights along(int direction) const;
 
   /// The units of one update: the observation, the factoring in steps of three columns, the
@@ -153,7 +153,7 @@ class LearnedFeedforward {
   ErrorPower error_;
   BandwidthAdaptation bandwidth_;
   double follow_step_;
-  double filter_share_ = 0.0;
+  double filter_smoothing_ = 0.0;
 
   Weights followed_;  // w̄
   Weights goal_;      // of w̄
@@ -184,7 +184,7 @@ extern template class LearnedFeedforward<double>;
 extern template class LearnedFeedforward<float>;
 
 /// `learned_ff`: how LearnedFeedforward is named, set, made and checked (LawDefinition).
-struct LearnedFeedforwardLaw : UsualLaw {
+struct LearnedFeedforwardLaw : LawDefaults {
   using Settings = LearnedFeedforwardSettings;
   template <class Scalar>
   using In = LearnedFeedforward<Scalar>;

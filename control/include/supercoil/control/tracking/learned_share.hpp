@@ -25,43 +25,44 @@ class LearnedShare {
   /// slowness: of the muscle.
   LearnedShare(const Settings& s, double slowness)
       : min_W2_(s.min_W * s.min_W),
-        trend_share_(s.period_s / (s.trend_s * slowness)),
-        memory_share_(s.period_s / (s.memory_s * slowness)),
-        trusting_(1.0 / s.period_s) {}
+        trend_smoothing_(s.period_s / (s.trend_s * slowness)),
+        memory_smoothing_(s.period_s / (s.memory_s * slowness)),
+        prior_weight_(1.0 / s.period_s) {}
 
   /// Uses all of it, until there are data.
-  void restart() { both_ = learned_ = 0.0; }
+  void restart() { cross_sum_ = square_sum_ = 0.0; }
 
   /// One observation. judge: it says something about the muscle.
-  void step(double left_W, double learned_W, bool judge) {
-    left_trend_W_ += trend_share_ * (left_W - left_trend_W_);
-    learned_trend_W_ += trend_share_ * (learned_W - learned_trend_W_);
+  void step(double residual_W, double learned_W, bool judge) {
+    residual_trend_W_ += trend_smoothing_ * (residual_W - residual_trend_W_);
+    learned_trend_W_ += trend_smoothing_ * (learned_W - learned_trend_W_);
     if (!judge) return;
-    const double z = left_W - left_trend_W_;
+    const double z = residual_W - residual_trend_W_;
     const double d = learned_W - learned_trend_W_;
     const double size_W2 = z * z + d * d;
-    usual_W2_ += memory_share_ * (std::min(size_W2, max_ratio * usual_W2_ + min_W2_) - usual_W2_);
-    const double weight = 1.0 / (size_W2 + usual_W2_ + min_W2_);
-    both_ += weight * z * d - memory_share_ * both_;
-    learned_ += weight * d * d - memory_share_ * learned_;
+    mean_square_W2_ += memory_smoothing_ *
+                       (std::min(size_W2, max_ratio * mean_square_W2_ + min_W2_) - mean_square_W2_);
+    const double weight = 1.0 / (size_W2 + mean_square_W2_ + min_W2_);
+    cross_sum_ += weight * z * d - memory_smoothing_ * cross_sum_;
+    square_sum_ += weight * d * d - memory_smoothing_ * square_sum_;
   }
 
   double value() const {
-    return std::clamp(2.0 * (both_ + trusting_) / (learned_ + trusting_), 0.0, 1.0);
+    return std::clamp(2.0 * (cross_sum_ + prior_weight_) / (square_sum_ + prior_weight_), 0.0, 1.0);
   }
 
  private:
   static constexpr double max_ratio = 10.0;
 
   double min_W2_;
-  double trend_share_;
-  double memory_share_;
-  double trusting_;  ///< one second of observations, in favour
-  double left_trend_W_ = 0.0;
+  double trend_smoothing_;
+  double memory_smoothing_;
+  double prior_weight_;  ///< one second of observations, in favour
+  double residual_trend_W_ = 0.0;
   double learned_trend_W_ = 0.0;
-  double usual_W2_ = 0.0;
-  double both_ = 0.0;     // weighted sum of z d
-  double learned_ = 0.0;  // of d²
+  double mean_square_W2_ = 0.0;
+  double cross_sum_ = 0.0;   // weighted sum of z d
+  double square_sum_ = 0.0;  // of d²
 };
 
 }  // namespace supercoil::control

@@ -96,10 +96,10 @@ class ModelFollower {
     model_.step(last_reference_);
     const double reference_m =
         in.trajectory ? model_settings_.reference_for(*in.trajectory, motion()) : in.reference_m;
-    const FeasibleReference asked =
+    const FeasibleReference feasible =
         shaper_ ? shaper_->step(reference_m, motion(), in.range) : FeasibleReference{reference_m};
     LawInput<Scalar> input;
-    input.reference = to<Scalar>(asked.reference_m * to_watts_);
+    input.reference = to<Scalar>(feasible.reference_m * to_watts_);
     input.position = to<Scalar>(in.position_m * to_watts_);
     input.model = model_.motion();
     input.model_jerk = model_.jerk(input.reference);
@@ -115,7 +115,7 @@ class ModelFollower {
     }
     const double bridged_W = demanded + bridge_W_;
     bridge_W_ *= fading_;
-    return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what,
+    return {bridged_W, static_cast<double>(input.model.position) * to_metres_, feasible.infeasible,
             oscillation_period_s_};
   }
 

@@ -187,7 +187,7 @@ class Mrac {
 };
 
 /// `mrac`: how Mrac is named, set, made and checked (LawDefinition).
-struct MracLaw : UsualLaw {
+struct MracLaw : LawDefaults {
   using Settings = MracSettings;
   template <class Scalar>
   using In = Mrac<Scalar>;

@@ -70,7 +70,7 @@ class MracLeastSquares {
         scale_(scale_of(s, model)),
         follow_step_(step_s / s.follow_s),
         forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
-        change_share_(to<Scalar>(-std::expm1(-period_s_ / mean_square_s))),
+        error_smoothing_(to<Scalar>(-std::expm1(-period_s_ / mean_square_s))),
         covariance_(Parameters::Constant(to<Scalar>(s.prior_variance))) {
     const Polynomial<2> lambda = squared_pole(s.filter_rad_per_s);
     const Polynomial<5> inner = multiply<2, 3>(lambda, model.denominator);
@@ -190,13 +190,13 @@ class MracLeastSquares {
 
   /// Without excitation, forgetting alone would let the covariance grow without bound.
   void cap() {
-    const Scalar largest = covariance_.max_variance(0);
-    const auto most = to<Scalar>(settings_.prior_variance);
-    if (largest > most) covariance_.scale(most / largest);
+    const Scalar max_variance = covariance_.max_variance(0);
+    const auto limit = to<Scalar>(settings_.prior_variance);
+    if (max_variance > limit) covariance_.scale(limit / max_variance);
   }
 
   void detect_change(Scalar error) {
-    error_square_ += (error * error - error_square_) * change_share_;
+    error_square_ += (error * error - error_square_) * error_smoothing_;
     ++since_change_;
     const bool blind =
         static_cast<double>(updates_) * period_s_ < blind_s || since_change_s() < change_every_s;
@@ -235,7 +235,7 @@ class MracLeastSquares {
   WideParameters scale_;
   Wide follow_step_;
   Scalar forgetting_;
-  Scalar change_share_;
+  Scalar error_smoothing_;
   UdCovariance<Scalar, size> covariance_;
   Vector<Wide, 3> lambda_;
   Vector<Wide, 6> inner_;  ///< λ and Wm's denominator, times F's gain
@@ -251,7 +251,7 @@ class MracLeastSquares {
 };
 
 /// `mrac_ls`: how MracLeastSquares is named, set, made and checked (LawDefinition).
-struct MracLeastSquaresLaw : UsualLaw {
+struct MracLeastSquaresLaw : LawDefaults {
   using Settings = MracLeastSquaresSettings;
   template <class Scalar>
   using In = MracLeastSquares<Scalar>;

@@ -26,8 +26,8 @@ class OscillationDetector {
   OscillationDetector(double step_s, const Settings& s)
       : settings_(s),
         step_s_(step_s),
-        fast_share_(-std::expm1(-s.fast_rad_per_s * step_s)),
-        slow_share_(-std::expm1(-s.slow_rad_per_s * step_s)) {}
+        fast_smoothing_(-std::expm1(-s.fast_rad_per_s * step_s)),
+        slow_smoothing_(-std::expm1(-s.slow_rad_per_s * step_s)) {}
 
   /// Forgets the error's past, which belongs to another law.
   void restart() {
@@ -40,10 +40,10 @@ class OscillationDetector {
   /// One tick: tracking error, and position of the reference model. True once for every
   /// `half_periods` of an oscillation.
   bool step(double error_m, double model_m) {
-    const double error = error_.step(error_m, fast_share_, slow_share_);
-    const double model = model_.step(model_m, fast_share_, slow_share_);
+    const double error = error_.step(error_m, fast_smoothing_, slow_smoothing_);
+    const double model = model_.step(model_m, fast_smoothing_, slow_smoothing_);
     half_s_ += step_s_;
-    max_m_ = std::max(max_m_, std::abs(error));
+    peak_m_ = std::max(peak_m_, std::abs(error));
     model_peak_m_ = std::max(model_peak_m_, std::abs(model));
     if (half_s_ > std::numbers::pi / settings_.slow_rad_per_s) start_counting();
     if (std::abs(error) <= settings_.min_amplitude_m) return false;
@@ -64,49 +64,50 @@ class OscillationDetector {
   struct Band {
     double fast_m = 0.0;
     double slow_m = 0.0;
-    double step(double value_m, double fast_share, double slow_share) {
-      fast_m += fast_share * (value_m - fast_m);
-      slow_m += slow_share * (fast_m - slow_m);
+    double step(double value_m, double fast_smoothing, double slow_smoothing) {
+      fast_m += fast_smoothing * (value_m - fast_m);
+      slow_m += slow_smoothing * (fast_m - slow_m);
       return fast_m - slow_m;
     }
   };
 
   void start_counting() {
     count_ = 0;
-    usual_s_ = usual_m_ = 0.0;
+    mean_half_s_ = mean_peak_m_ = 0.0;
   }
-  void begin_half_period() { half_s_ = max_m_ = model_peak_m_ = 0.0; }
+  void begin_half_period() { half_s_ = peak_m_ = model_peak_m_ = 0.0; }
 
   bool end_half_period() {
     const bool own =
-        half_s_ > std::numbers::pi / settings_.fast_rad_per_s && model_peak_m_ < 0.5 * max_m_;
-    const bool alike = count_ == 0 || (std::abs(half_s_ - usual_s_) < 0.3 * usual_s_ &&
-                                       max_m_ < 2.0 * usual_m_ && usual_m_ < 2.0 * max_m_);
+        half_s_ > std::numbers::pi / settings_.fast_rad_per_s && model_peak_m_ < 0.5 * peak_m_;
+    const bool alike =
+        count_ == 0 || (std::abs(half_s_ - mean_half_s_) < 0.3 * mean_half_s_ &&
+                        peak_m_ < 2.0 * mean_peak_m_ && mean_peak_m_ < 2.0 * peak_m_);
     if (!own || !alike) {
       start_counting();
       return false;
     }
-    const double part = count_ == 0 ? 1.0 : 0.3;
-    usual_s_ += part * (half_s_ - usual_s_);
-    usual_m_ += part * (max_m_ - usual_m_);
+    const double smoothing = count_ == 0 ? 1.0 : 0.3;
+    mean_half_s_ += smoothing * (half_s_ - mean_half_s_);
+    mean_peak_m_ += smoothing * (peak_m_ - mean_peak_m_);
     if (++count_ < settings_.half_periods) return false;
-    period_s_ = 2.0 * usual_s_;
+    period_s_ = 2.0 * mean_half_s_;
     start_counting();
     return true;
   }
 
   Settings settings_;
   double step_s_;
-  double fast_share_;
-  double slow_share_;
+  double fast_smoothing_;
+  double slow_smoothing_;
   Band error_;
   Band model_;
   int sign_ = 0;
-  int count_ = 0;         // of half periods alike, in a row
-  double usual_s_ = 0.0;  // of those
-  double usual_m_ = 0.0;
+  int count_ = 0;             // of half periods alike, in a row
+  double mean_half_s_ = 0.0;  // of those
+  double mean_peak_m_ = 0.0;
   double half_s_ = 0.0;  // of the present half period
-  double max_m_ = 0.0;
+  double peak_m_ = 0.0;
   double model_peak_m_ = 0.0;
   double period_s_ = 0.0;
 };

@@ -62,7 +62,7 @@ class PdFeedforward {
 };
 
 /// `pd_ff`: how PdFeedforward is named, set, made and checked (LawDefinition).
-struct PdFeedforwardLaw : UsualLaw {
+struct PdFeedforwardLaw : LawDefaults {
   using Settings = PdFeedforwardSettings;
   template <class Scalar>
   using In = PdFeedforward<Scalar>;

@@ -64,7 +64,7 @@ class Pi {
 };
 
 /// `pi`: how Pi is named, set, made and checked (LawDefinition).
-struct PiLaw : UsualLaw {
+struct PiLaw : LawDefaults {
   using Settings = PiSettings;
   template <class Scalar>
   using In = Pi<Scalar>;

@@ -87,7 +87,9 @@ class ReferenceModel {
   }
 
   /// The position's third derivative from this tick on, under the reference held until the next.
-  Scalar jerk(Scalar reference) const { return to<Scalar>(filter_.highest(reference) * gain_); }
+  Scalar jerk(Scalar reference) const {
+    return to<Scalar>(filter_.highest_derivative(reference) * gain_);
+  }
 
  private:
   StateVariableFilter<Scalar, 3, Hold::zero_order> filter_;

@@ -21,7 +21,7 @@ enum class Infeasible : std::uint8_t {
 /// The reference that a muscle can follow, and why it is not the demanded one.
 struct FeasibleReference {
   double reference_m = 0.0;
-  Infeasible what = Infeasible::nothing;
+  Infeasible infeasible = Infeasible::nothing;
 };
 
 /// Under a reference r the model's motion has the jerk x⃛ = g r − a2 ẍ − a1 ẋ − a0 x, and a muscle

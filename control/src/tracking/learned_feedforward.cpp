@@ -120,8 +120,8 @@ void LearnedFeedforward<Scalar>::retune(const Theta& theta) {
   pid_.retune(theta);
   regressors_.retune(theta);
   least_squares_.reset(linear_muscle());
-  followed_ = goal_ = judged_ = judged_next_ = linear_muscle();
-  judged_updates_ = 0;
+  followed_ = goal_ = validated_ = validated_next_ = linear_muscle();
+  validation_updates_ = 0;
   share_ = share();
   bandwidth_ = bandwidth();
   detector_ = Detector(detector_settings());
@@ -259,19 +259,20 @@ void LearnedFeedforward<Scalar>::observe() {
     least_squares_.add(twice_.regressors, power_W, variance_W2(power_W - predicted_W));
     recovery_updates_ = std::max<std::int64_t>(0, recovery_updates_ - 1);
   }
-  judge(power_W);
+  update_share(power_W);
   watch_for_mismatch(power_W - predicted_W);
   watch_for_change(twice_.power_W - predicted_W);
 }
 
-/// Judges what was learned by how it predicts the power some seconds later.
+/// Validates what was learned by how it predicts the power some seconds later.
 template <class Scalar>
-void LearnedFeedforward<Scalar>::judge(double power_W) {
+void LearnedFeedforward<Scalar>::update_share(double power_W) {
   const double linear_W = linear_muscle().dot(twice_.regressors);
-  share_.step(power_W - linear_W, judged_.dot(twice_.regressors) - linear_W, upset_updates_ == 0);
-  if (--judged_updates_ > 0) return;
-  judged_updates_ = updates_of(judged_after_s);
-  judged_ = std::exchange(judged_next_, least_squares_.weights());
+  share_.step(power_W - linear_W, validated_.dot(twice_.regressors) - linear_W,
+              upset_updates_ == 0);
+  if (--validation_updates_ > 0) return;
+  validation_updates_ = updates_of(validation_delay_s);
+  validated_ = std::exchange(validated_next_, least_squares_.weights());
 }
 
 /// Observations count for less when the model's error is large, so that the weights do not follow
@@ -320,7 +321,7 @@ void LearnedFeedforward<Scalar>::watch_for_mismatch(double residual_W) {
 template <class Scalar>
 void LearnedFeedforward<Scalar>::restart_learning() {
   share_.restart();
-  judged_ = judged_next_ = least_squares_.weights();
+  validated_ = validated_next_ = least_squares_.weights();
   iterative_.forget();
   upset_updates_ = updates_of(upset_s);
   recovery_updates_ = updates_of(recovery_s);

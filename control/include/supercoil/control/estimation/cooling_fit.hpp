@@ -55,9 +55,10 @@ class CoolingFit {
   static constexpr double min_used_s = 20.0;
   static constexpr double fine_play = 0.03;  ///< of max_W
   static constexpr double coarse_play = 0.12;
-  static constexpr std::size_t min_distance =
-      4;                                        ///< all candidates at least this far from the best
-  static constexpr double min_sharpness = 1.7;  ///< leave at least this many times its residual
+  /// All candidates at least min_distance from the best leave at least min_sharpness times its
+  /// residual.
+  static constexpr std::size_t min_distance = 4;
+  static constexpr double min_sharpness = 1.7;
   static constexpr double ridge = 1e-10;
 
   struct Fit {

@@ -215,7 +215,7 @@ class LeastSquaresEstimator {
     accuracy_.step(observation());
     scale_ = std::min(1.0, covariance_scale());
     if (running_s() > settled_s) return_unexcited();
-    if (updates_ % updates_per_accuracy == 0) judge();
+    if (updates_ % updates_per_accuracy == 0) update_accuracy();
     if (first_ == 0 && static_cast<double>(since_start_) * period_s_ > free_s) end_free_responses();
     ++since_change_;
     const Parameters now = theta_.template tail<5>().template cast<double>();
@@ -224,7 +224,7 @@ class LeastSquaresEstimator {
   }
 
   /// Learns from how θ has moved what the model's error adds.
-  void judge() {
+  void update_accuracy() {
     const Vector<double, size> theta = theta_.template cast<double>();
     const auto parts = accuracy_.parts(covariance_.template matrix<double>(), theta);
     drift_.step(theta.template tail<5>(), parts.noise + parts.prior);
@@ -328,7 +328,7 @@ class LeastSquaresEstimator {
 
   bool restart_pending_ = true;
   bool updated_ = false;
-  bool model_error_visible_ = false;  ///< the model's error is visible
+  bool model_error_visible_ = false;
   int first_ = 0;  ///< first parameter estimated: 0 with, 3 without the free responses
   std::int64_t tick_ = 0;
   std::int64_t updates_ = 0;

@@ -108,7 +108,7 @@ class LearnedFeedforward {
   void observe();
   void learn(int unit);
   double variance_W2(double residual_W);
-  void judge(double power_W);
+  void update_share(double power_W);
   void watch_for_mismatch(double residual_W);
   void watch_for_change(double residual_W);
   void restart_learning();
@@ -130,9 +130,9 @@ class LearnedFeedforward {
   static constexpr double fade_s = 1.0;
   /// A change is faster than this; most of the model's error is slower.
   static constexpr double change_trend_s = 0.7;
-  /// The judged weights are this old, and up to twice as old.
-  static constexpr double judged_after_s = 5.0;
-  /// For this time after a change nothing is repeated or judged. With 10 s the feedback's work
+  /// The validated weights are this old, and up to twice as old.
+  static constexpr double validation_delay_s = 5.0;
+  /// For this time after a change nothing is repeated or validated. With 10 s the feedback's work
   /// during relearning was repeated: 5.6 instead of 1.7 µm (a muscle believed 30 % off).
   static constexpr double upset_s = 30.0;
   static constexpr double recovery_s = 60.0;
@@ -157,9 +157,9 @@ class LearnedFeedforward {
 
   Weights followed_;  // w̄
   Weights goal_;      // of w̄
-  Weights judged_;
-  Weights judged_next_;
-  std::int64_t judged_updates_ = 0;  // before the next ones
+  Weights validated_;
+  Weights validated_next_;
+  std::int64_t validation_updates_ = 0;  // before the next ones
   double slope_ = 1.0;
   Weights sum_ = Weights::Zero();  // of ψ since the last update
   double sum_W_ = 0.0;

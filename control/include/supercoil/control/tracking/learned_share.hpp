@@ -32,11 +32,11 @@ class LearnedShare {
   /// Uses all of it, until there are data.
   void restart() { cross_sum_ = square_sum_ = 0.0; }
 
-  /// One observation. judge: it says something about the muscle.
-  void step(double residual_W, double learned_W, bool judge) {
+  /// One observation. validate: it says something about the muscle.
+  void step(double residual_W, double learned_W, bool validate) {
     residual_trend_W_ += trend_smoothing_ * (residual_W - residual_trend_W_);
     learned_trend_W_ += trend_smoothing_ * (learned_W - learned_trend_W_);
-    if (!judge) return;
+    if (!validate) return;
     const double z = residual_W - residual_trend_W_;
     const double d = learned_W - learned_trend_W_;
     const double size_W2 = z * z + d * d;

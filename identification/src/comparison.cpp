@@ -17,18 +17,18 @@ constexpr std::array addable{Effect::drift,        Effect::force,      Effect::h
                              Effect::lonely_stroke};
 constexpr std::size_t max_effects = 4;
 /// An effect must lower the error by this ratio, and by this much of the stroke.
-constexpr double worth_ratio = 0.1;
-constexpr double worth_stroke_ratio = 0.001;
+constexpr double min_improvement_ratio = 0.1;
+constexpr double min_stroke_ratio = 0.001;
 /// It must also lower the error of the whole motion by this ratio. An error within
-/// worth_stroke_ratio needs no effect.
-constexpr double worth_of_all_ratio = 0.03;
+/// min_stroke_ratio needs no effect.
+constexpr double min_overall_ratio = 0.03;
 
 /// It is a shape-memory wire if that model's error is below this ratio of the best other model's,
-/// and the latter above well_explained.
-constexpr double much_better = 0.6;
-constexpr double well_explained = 0.005;
+/// and the latter above min_error_ratio.
+constexpr double transformation_ratio = 0.6;
+constexpr double min_error_ratio = 0.005;
 /// Error on unseen data over the stroke, above which no model explains the motion.
-constexpr double unexplained = 0.15;
+constexpr double max_error_ratio = 0.15;
 
 double explained_of(const Samples& samples, double rms_m, Span span) {
   double sum = 0.0;
@@ -55,8 +55,8 @@ double stroke_within(const Samples& samples, Span span) {
   return highest - lowest;
 }
 
-Judged judged(Fit fit, const Samples& samples, const Parts& parts) {
-  Judged result;
+EvaluatedModel evaluate(Fit fit, const Samples& samples, const Parts& parts) {
+  EvaluatedModel result;
   result.fitted_rms_m = fit.rms_m;
   result.unseen_rms_m = rms_error(samples, fit.predicted_m, parts.unseen);
   result.fitted_explained = explained_of(samples, result.fitted_rms_m, parts.fitted);
@@ -66,86 +66,90 @@ Judged judged(Fit fit, const Samples& samples, const Parts& parts) {
 }
 
 /// Over both parts, as if they were equally long.
-double both_rms(const Judged& model) {
+double overall_rms(const EvaluatedModel& model) {
   return std::hypot(model.fitted_rms_m, model.unseen_rms_m) / std::sqrt(2.0);
 }
 
 /// A model's error on data to which it was not fitted.
-double unseen_error(const Judged& model) {
+double unseen_error(const EvaluatedModel& model) {
   return std::hypot(model.fit.cross_validated_m, model.unseen_rms_m);
 }
 
 /// Fits each of these models from the same start.
-std::vector<Judged> each_of(const std::vector<Effects>& models, const Muscle& start,
-                            const Samples& samples, const Parts& parts) {
-  std::vector<std::future<Judged>> started;
+std::vector<EvaluatedModel> fit_each(const std::vector<Effects>& models, const Muscle& start,
+                                     const Samples& samples, const Parts& parts) {
+  std::vector<std::future<EvaluatedModel>> started;
   started.reserve(models.size());
   for (const Effects& effects : models) {
     started.push_back(std::async(std::launch::async, [&, effects] {
-      return judged(refit(start, effects, samples, parts.fitted), samples, parts);
+      return evaluate(refit(start, effects, samples, parts.fitted), samples, parts);
     }));
   }
-  std::vector<Judged> result;
+  std::vector<EvaluatedModel> result;
   result.reserve(started.size());
-  for (std::future<Judged>& fit : started)
+  for (std::future<EvaluatedModel>& fit : started)
     result.push_back(fit.get());
   return result;
 }
 
-std::vector<Judged>::iterator best_of(std::vector<Judged>& models) {
-  return std::min_element(models.begin(), models.end(), [](const Judged& a, const Judged& b) {
-    return unseen_error(a) < unseen_error(b);
-  });
+std::vector<EvaluatedModel>::iterator best_of(std::vector<EvaluatedModel>& models) {
+  return std::min_element(models.begin(), models.end(),
+                          [](const EvaluatedModel& a, const EvaluatedModel& b) {
+                            return unseen_error(a) < unseen_error(b);
+                          });
 }
 
 /// Whether a model is worth one more effect than another, on unseen data and over the whole motion.
 /// The first alone would see a difference between two models that are both within the noise.
-bool worth_more(const Judged& larger, const Judged& smaller, double stroke_m) {
+bool is_improvement(const EvaluatedModel& larger, const EvaluatedModel& smaller, double stroke_m) {
   const double error_m = unseen_error(smaller);
-  const double min_m = worth_stroke_ratio * stroke_m;
-  const bool unseen = error_m - unseen_error(larger) > std::max(worth_ratio * error_m, min_m);
-  const bool all = both_rms(smaller) > min_m &&
-                   both_rms(larger) < (1.0 - worth_of_all_ratio) * both_rms(smaller);
+  const double min_m = min_stroke_ratio * stroke_m;
+  const bool unseen =
+      error_m - unseen_error(larger) > std::max(min_improvement_ratio * error_m, min_m);
+  const bool all = overall_rms(smaller) > min_m &&
+                   overall_rms(larger) < (1.0 - min_overall_ratio) * overall_rms(smaller);
   return unseen && all;
 }
 
 /// Appends models better than all before, in the first round all. Returns the index of the best.
-std::size_t add_effects_to(std::vector<Judged>& models, const Samples& samples, const Parts& parts,
-                           double stroke_m) {
+std::size_t add_effects_to(std::vector<EvaluatedModel>& models, const Samples& samples,
+                           const Parts& parts, double stroke_m) {
   std::size_t best = 0;
   for (std::size_t round = 0; round < max_effects; ++round) {
     std::vector<Effects> larger;
     const Effects base = models[best].fit.effects;
     for (const Effect effect : addable)
       if (!base.has(effect)) larger.push_back(base.with(effect));
-    std::vector<Judged> tried = each_of(larger, models[best].fit.muscle, samples, parts);
-    const auto found = best_of(tried);
-    const bool worth = worth_more(*found, models[best], stroke_m);
+    std::vector<EvaluatedModel> candidates =
+        fit_each(larger, models[best].fit.muscle, samples, parts);
+    const auto found = best_of(candidates);
+    const bool improves = is_improvement(*found, models[best], stroke_m);
     const std::size_t before = models.size();
     if (round == 0) {
-      if (worth) best = before + static_cast<std::size_t>(found - tried.begin());
-      std::move(tried.begin(), tried.end(), std::back_inserter(models));
-    } else if (worth) {
+      if (improves) best = before + static_cast<std::size_t>(found - candidates.begin());
+      std::move(candidates.begin(), candidates.end(), std::back_inserter(models));
+    } else if (improves) {
       models.push_back(std::move(*found));
       best = before;
     }
-    if (!worth) break;
+    if (!improves) break;
   }
   return best;
 }
 
 /// An effect that was added early may have stood in for a later one.
-std::size_t take_effects_from(std::vector<Judged>& models, std::size_t best, const Samples& samples,
-                              const Parts& parts, double stroke_m) {
+std::size_t remove_effects_from(std::vector<EvaluatedModel>& models, std::size_t best,
+                                const Samples& samples, const Parts& parts, double stroke_m) {
   while (true) {
     std::vector<Effects> smaller;
     const Effects base = models[best].fit.effects;
     for (const Effect effect : addable)
       if (base.has(effect)) smaller.push_back(base.without(effect));
     if (smaller.size() < 2) return best;
-    std::vector<Judged> tried = each_of(smaller, models[best].fit.muscle, samples, parts);
-    const auto found = best_of(tried);
-    if (worth_more(models[best], *found, stroke_m)) return best;
+    std::vector<EvaluatedModel> candidates =
+        fit_each(smaller, models[best].fit.muscle, samples, parts);
+    const auto found = best_of(candidates);
+    if (is_improvement(models[best], *found, stroke_m)) return best;
     models.push_back(std::move(*found));
     best = models.size() - 1;
   }
@@ -153,11 +157,12 @@ std::size_t take_effects_from(std::vector<Judged>& models, std::size_t best, con
 
 std::string muscle_rejection(const Comparison& c) {
   double best_m = std::numeric_limits<double>::infinity();
-  for (const Judged& model : c.models)
-    best_m = std::min(best_m, both_rms(model));
-  const double transformed_m = both_rms(c.transformation);
+  for (const EvaluatedModel& model : c.models)
+    best_m = std::min(best_m, overall_rms(model));
+  const double transformed_m = overall_rms(c.transformation);
   std::array<char, 400> text{};
-  if (best_m > well_explained * c.sizes.stroke_m && transformed_m < much_better * best_m) {
+  if (best_m > min_error_ratio * c.sizes.stroke_m &&
+      transformed_m < transformation_ratio * best_m) {
     std::snprintf(
         text.data(), text.size(),
         "nearly all of its stroke lies within a narrow range of heat, and heat below or above "
@@ -167,8 +172,8 @@ std::string muscle_rejection(const Comparison& c) {
         100.0 * transformed_m / c.sizes.stroke_m, 100.0 * best_m / c.sizes.stroke_m);
     return text.data();
   }
-  const Judged& best = c.best();
-  if (best.unseen_rms_m > unexplained * c.sizes.stroke_m) {
+  const EvaluatedModel& best = c.best();
+  if (best.unseen_rms_m > max_error_ratio * c.sizes.stroke_m) {
     std::snprintf(
         text.data(), text.size(),
         "no model predicts the part that it was not fitted to: the best is off by %.0f %% of "
@@ -212,13 +217,13 @@ Comparison compare(const Samples& samples, const Parts& parts) {
   result.sizes = sizes_of(samples);
   result.parts = parts;
   result.unseen_stroke_ratio = stroke_within(samples, parts.unseen) / result.sizes.stroke_m;
-  result.models.push_back(judged(fit_model({}, samples, parts.fitted), samples, parts));
+  result.models.push_back(evaluate(fit_model({}, samples, parts.fitted), samples, parts));
   const double stroke_m = result.sizes.stroke_m;
   const std::size_t added = add_effects_to(result.models, samples, parts, stroke_m);
-  result.chosen = take_effects_from(result.models, added, samples, parts, stroke_m);
+  result.chosen = remove_effects_from(result.models, added, samples, parts, stroke_m);
   result.transformation =
-      judged(fit_model({Effect::transformation}, samples, parts.fitted), samples, parts);
-  result.not_a_muscle = muscle_rejection(result);
+      evaluate(fit_model({Effect::transformation}, samples, parts.fitted), samples, parts);
+  result.rejection_reason = muscle_rejection(result);
   return result;
 }
 

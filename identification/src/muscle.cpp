@@ -13,7 +13,7 @@ namespace {
 
 constexpr int plays = 5;
 /// Above this share of full power a muscle counts as heated.
-constexpr double heated_share = 0.02;
+constexpr double min_heated_fraction = 0.02;
 
 control::FirstOrderHold<2, 1> mechanics(const Muscle& m, double step_s) {
   const double w = m.natural_frequency_rad_per_s;
@@ -43,7 +43,7 @@ class Drive {
     const double before = u_;
     u_ = rest_W + (u_ - rest_W) * kept_;
     heat_J_ += 0.5 * (before + u_) * step_s_;
-    hottest_W_ = std::max(hottest_W_, u_);
+    max_power_W_ = std::max(max_power_W_, u_);
     if (m_.play_ratio <= 0.0) return;
     for (control::Play& play : play_)
       play.step(u_);
@@ -68,7 +68,7 @@ class Drive {
   }
 
   double rest_m(double time_s) const {
-    const double first = std::clamp(hottest_W_ / m_.lonely_stroke_W, 0.0, 1.0);
+    const double first = std::clamp(max_power_W_ / m_.lonely_stroke_W, 0.0, 1.0);
     return m_.rest_m + m_.drift_m_per_s * time_s + m_.heat_drift_m_per_J * heat_J_ -
            m_.lonely_stroke_m * first;
   }
@@ -76,7 +76,7 @@ class Drive {
  private:
   double transfer(double power_W) const {
     const double warm = 1.0 + (m_.transfer_ratio - 1.0) * std::max(0.0, u_ / full_W_);
-    return std::max(0.02, warm) * (power_W > heated_share * full_W_ ? m_.heated_ratio : 1.0);
+    return std::max(0.02, warm) * (power_W > min_heated_fraction * full_W_ ? m_.heated_ratio : 1.0);
   }
 
   const Muscle& m_;
@@ -86,7 +86,7 @@ class Drive {
   double last_transfer_ = 0.0;
   double kept_ = 0.0;  // share of the difference from rest that is left after a step
   double heat_J_ = 0.0;
-  double hottest_W_ = 0.0;
+  double max_power_W_ = 0.0;
   std::array<control::Play, plays> play_{};
 };
 
@@ -97,8 +97,8 @@ std::vector<double> motion(const Muscle& muscle, const Samples& samples, double 
   const auto hold = mechanics(muscle, samples.step_s);
   Drive drive(muscle, full_W, samples.step_s);
   const double late = std::exp(-samples.step_s / muscle.creep_s);
-  double asked = drive.position_m();
-  control::Vector<double, 2> state{asked + muscle.start_offset_m, muscle.start_m_per_s};
+  double input = drive.position_m();
+  control::Vector<double, 2> state{input + muscle.start_offset_m, muscle.start_m_per_s};
   double crept = state[0];
   std::vector<double> result(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -107,9 +107,9 @@ std::vector<double> motion(const Muscle& muscle, const Samples& samples, double 
         drive.rest_m(time_s) + (1.0 - muscle.creep_ratio) * state[0] + muscle.creep_ratio * crept;
     drive.heat(samples.power_W[k]);
     const double next = drive.position_m();
-    state = (hold.transition * state + hold.start * asked + hold.end * next).eval();
+    state = (hold.transition * state + hold.start * input + hold.end * next).eval();
     crept = state[0] + (crept - state[0]) * late;
-    asked = next;
+    input = next;
   }
   return result;
 }

@@ -11,15 +11,16 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Limit of fits and starts, in prior deviations.
-constexpr double farthest = 3.0;
+constexpr double max_deviations = 3.0;
 /// Part of the force comes without play, and at least half of the motion without creep.
-constexpr double max_share = 0.9;
+constexpr double max_play_ratio = 0.9;
 constexpr double max_creep = 0.5;
 /// Radians per sample: faster mechanics cannot be seen.
-constexpr double fastest_rad = 1.5;
+constexpr double max_phase_step_rad = 1.5;
 
 double limited(const Parameter& parameter, double number) {
-  return std::clamp(number, -farthest * parameter.deviation, farthest * parameter.deviation);
+  return std::clamp(number, -max_deviations * parameter.deviation,
+                    max_deviations * parameter.deviation);
 }
 
 double value_of(const Parameter& p, double number) {
@@ -54,7 +55,7 @@ void add_effects(List& list, const Effects& effects, const Sizes& s) {
   if (effects.has(Effect::heated_air))
     list.positive("heated_ratio", &Muscle::heated_ratio, 1.0, 0.5);
   if (effects.has(Effect::hysteresis)) {
-    list.positive("play_ratio", &Muscle::play_ratio, 0.1, 1.0, max_share);
+    list.positive("play_ratio", &Muscle::play_ratio, 0.1, 1.0, max_play_ratio);
     list.positive("play_range_W", &Muscle::play_range_W, 0.3 * s.full_W, 1.0);
   }
   if (effects.has(Effect::creep)) {
@@ -78,7 +79,7 @@ std::vector<Parameter> parameters_of(const Effects& effects, const Sizes& s) {
   list.positive("gain_m_per_W", &Muscle::gain_m_per_W, s.stroke_m / s.full_W, 3.0);
   list.positive("time_constant_s", &Muscle::time_constant_s, 5.0, 1.0);
   list.positive("natural_frequency_rad_per_s", &Muscle::natural_frequency_rad_per_s, 15.0, 0.8,
-                fastest_rad / s.step_s);
+                max_phase_step_rad / s.step_s);
   list.positive("damping_ratio", &Muscle::damping_ratio, 0.8, 1.0);
   add_effects(list, effects, s);
   list.either_sign("rest_m", &Muscle::rest_m, s.stroke_m, 3.0, false);

@@ -23,16 +23,16 @@ std::string list_of(const Fields& names) {
 }
 
 /// A quantity's name in messages and options, and its usual names in files, the likeliest first.
-struct Wanted {
+struct ColumnNames {
   Quantity quantity;
   const char* name;
-  std::array<std::string_view, 5> called;
+  std::array<std::string_view, 5> aliases;
 };
-constexpr Wanted wanted_time{
+constexpr ColumnNames time_names{
     Quantity::time, "time", {"time", "t", "timestamp", "seconds", "clock"}};
-constexpr Wanted wanted_position{
+constexpr ColumnNames position_names{
     Quantity::position, "position", {"measured", "position", "contraction", "displacement", "x"}};
-constexpr Wanted wanted_power{
+constexpr ColumnNames power_names{
     Quantity::power, "power", {"applied_power", "applied", "power", "heat", "p"}};
 
 struct Found {
@@ -41,7 +41,7 @@ struct Found {
   std::string name;
 };
 
-std::optional<std::size_t> index_of(const Fields& names, const Wanted& wanted,
+std::optional<std::size_t> index_of(const Fields& names, const ColumnNames& expected,
                                     const std::string& column) {
   if (!column.empty()) {
     const auto named = std::find(names.begin(), names.end(), column);
@@ -52,32 +52,32 @@ std::optional<std::size_t> index_of(const Fields& names, const Wanted& wanted,
     if (whole && number >= 1 && number <= names.size()) return number - 1;
     return std::nullopt;
   }
-  for (const std::string_view called : wanted.called) {
+  for (const std::string_view alias : expected.aliases) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (split_name(wanted.quantity, names[i]).name == called) return i;
+      if (split_name(expected.quantity, names[i]).name == alias) return i;
     }
   }
   return std::nullopt;
 }
 
 tl::expected<Found, Problem> find_column(const Fields& names, std::size_t line,
-                                         const Wanted& wanted, const Column& column) {
-  const std::string option = std::string("--") + wanted.name;
-  const auto index = index_of(names, wanted, column.name);
+                                         const ColumnNames& expected, const Column& column) {
+  const std::string option = std::string("--") + expected.name;
+  const auto index = index_of(names, expected, column.name);
   if (!index) {
     return tl::unexpected(Problem{
         line,
-        (column.name.empty() ? std::string("has no column recognised as ") + wanted.name +
+        (column.name.empty() ? std::string("has no column recognised as ") + expected.name +
                                    "; name it with " + option + "-column"
                              : option + "-column " + column.name + ": there is no such column") +
             "; the columns are " + list_of(names)});
   }
   std::string unit = column.unit;
-  if (unit.empty()) unit = split_name(wanted.quantity, names[*index]).unit;
-  const auto size = unit.empty() ? 1.0 : unit_size(wanted.quantity, unit);
+  if (unit.empty()) unit = split_name(expected.quantity, names[*index]).unit;
+  const auto size = unit.empty() ? 1.0 : unit_size(expected.quantity, unit);
   if (!size) {
     return tl::unexpected(
-        Problem{0, option + "-unit " + unit + ": must be one of " + units_of(wanted.quantity)});
+        Problem{0, option + "-unit " + unit + ": must be one of " + units_of(expected.quantity)});
   }
   return Found{*index, *size * column.scale, std::string(names[*index])};
 }
@@ -103,10 +103,10 @@ class CsvReader {
                                     "begins with numbers: its first line must name the "
                                     "columns, e.g. time_s,position_m,power_W"});
     }
-    const std::array<const Wanted*, 3> wanted{&wanted_time, &wanted_position, &wanted_power};
+    const std::array<const ColumnNames*, 3> expected{&time_names, &position_names, &power_names};
     const std::array<const Column*, 3> columns{&columns_.time, &columns_.position, &columns_.power};
     for (std::size_t i = 0; i < 3; ++i) {
-      auto found = find_column(fields, lines_.number(), *wanted[i], *columns[i]);
+      auto found = find_column(fields, lines_.number(), *expected[i], *columns[i]);
       if (!found) return tl::unexpected(found.error());
       found_[i] = *found;
     }

@@ -8,7 +8,7 @@ namespace supercoil::identification {
 
 namespace {
 
-constexpr double step_wanted_s = 0.02;
+constexpr double target_step_s = 0.02;
 constexpr double max_samples = 10000.0;
 /// Positions further apart than this many steps are not interpolated.
 constexpr double bridged_steps = 3.0;
@@ -65,9 +65,9 @@ class Positions {
 Samples resample(const Recording& r) {
   const double duration_s = r.time_s.back() - r.time_s.front();
   const double mean_interval_s = duration_s / static_cast<double>(r.size() - 1);
-  const double wanted_s = std::max(step_wanted_s, duration_s / max_samples);
+  const double desired_step_s = std::max(target_step_s, duration_s / max_samples);
   // Whole intervals, so that samples coincide with rows if the recording's rate is constant.
-  const double intervals = std::max(1.0, std::round(wanted_s / mean_interval_s));
+  const double intervals = std::max(1.0, std::round(desired_step_s / mean_interval_s));
   Samples samples;
   samples.start_s = r.time_s.front();
   samples.step_s = intervals * mean_interval_s;

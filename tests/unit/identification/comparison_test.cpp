@@ -18,7 +18,7 @@ Comparison compared(const Muscle& muscle) {
 
 void check_chosen(const Effects& expected, const Comparison& comparison) {
   STRCMP_EQUAL(name(expected).c_str(), name(comparison.best().fit.effects).c_str());
-  STRCMP_EQUAL("", comparison.not_a_muscle.c_str());
+  STRCMP_EQUAL("", comparison.rejection_reason.c_str());
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ TEST(Comparison, TellsAMaterialThatTransforms) {
   wire.transformation_W = 1.0;
   wire.transformed_W = 0.08;
   const Comparison c = compared(wire);
-  STRCMP_CONTAINS("shape-memory wire", c.not_a_muscle.c_str());
+  STRCMP_CONTAINS("shape-memory wire", c.rejection_reason.c_str());
   CHECK(c.transformation.unseen_rms_m < 0.01 * c.sizes.stroke_m);
 }
 
@@ -58,7 +58,7 @@ TEST(Comparison, TellsMotionThatPowerDoesNotExplain) {
   for (std::size_t k = 0; k < samples.size(); ++k)
     samples.position_m[k] += 2e-4 * samples.time_s(k) * std::sin(0.7 * samples.time_s(k));
   const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
-  STRCMP_CONTAINS("no model predicts", c.not_a_muscle.c_str());
+  STRCMP_CONTAINS("no model predicts", c.rejection_reason.c_str());
 }
 
 TEST(Comparison, TellsAChangeAndNoChange) {

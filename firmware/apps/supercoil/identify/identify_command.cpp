@@ -114,7 +114,7 @@ int identify_command(const IdentifyOptions& options) {
   if (!parts) return refuse(options.json, exit_wrong_input, parts.error().text());
   const Findings found = find(options, recording->size(), std::move(samples), *parts);
 
-  const bool muscle = found.comparison.not_a_muscle.empty();
+  const bool muscle = found.comparison.rejection_reason.empty();
   std::string text = options.json ? json_report(found) : report(found);
   if (!options.plot.empty()) {
     if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)

@@ -27,7 +27,7 @@ Curve curve_over(const identification::Samples& samples, const char* label, int 
 Figure identify_figure(const Findings& f) {
   const identification::Samples& s = f.samples;
   const auto& c = f.comparison;
-  const auto& best = c.not_a_muscle.empty() ? c.best().fit : c.transformation.fit;
+  const auto& best = c.rejection_reason.empty() ? c.best().fit : c.transformation.fit;
   const auto& linear = c.models.front().fit;
   const auto curve = [&](const char* label, int colour, auto value) {
     return curve_over(s, label, colour, value);

@@ -8,8 +8,8 @@ namespace supercoil::operating {
 
 namespace {
 
+using identification::EvaluatedModel;
 using identification::Fit;
-using identification::Judged;
 using Json = nlohmann::ordered_json;
 
 Json parameters_of(const Fit& fit) {
@@ -24,7 +24,7 @@ Json parameters_of(const Fit& fit) {
   return result;
 }
 
-Json model_of(const Judged& model) {
+Json model_of(const EvaluatedModel& model) {
   return {{"model", name(model.fit.effects)},
           {"fitted_rms_m", model.fitted_rms_m},
           {"left_out_rms_m", model.fit.cross_validated_m},
@@ -43,7 +43,7 @@ Json vector_of(const control::Vector<double, 4>& values) {
 std::string json_report(const Findings& f) {
   const auto& c = f.comparison;
   Json models = Json::array();
-  for (const Judged& model : c.models)
+  for (const EvaluatedModel& model : c.models)
     models.push_back(model_of(model));
   Json result{{"file", f.file},
               {"stroke_m", c.sizes.stroke_m},
@@ -53,9 +53,9 @@ std::string json_report(const Findings& f) {
               {"unseen_stroke_ratio", c.unseen_stroke_ratio},
               {"models", models},
               {"transformation", model_of(c.transformation)},
-              {"is_muscle", c.not_a_muscle.empty()}};
-  if (!c.not_a_muscle.empty()) {
-    result["reason"] = c.not_a_muscle;
+              {"is_muscle", c.rejection_reason.empty()}};
+  if (!c.rejection_reason.empty()) {
+    result["reason"] = c.rejection_reason;
     return result.dump() + "\n";
   }
   const auto change = identification::max_change(f.linear_first, f.linear);

@@ -10,8 +10,8 @@ namespace supercoil::operating {
 namespace {
 
 using identification::Comparison;
+using identification::EvaluatedModel;
 using identification::Fit;
-using identification::Judged;
 
 /// With less motion than this share of the stroke, no model can be judged.
 constexpr double still = 0.1;
@@ -26,7 +26,7 @@ constexpr double still = 0.1;
   text += line.data();
 }
 
-void add_model(std::string& text, const Comparison& c, const Judged& model, bool chosen) {
+void add_model(std::string& text, const Comparison& c, const EvaluatedModel& model, bool chosen) {
   const double percent = 100.0 / c.sizes.stroke_m;
   print(text, "%s %-42s %7.2f %8.2f %8.2f %8.2f %%", chosen ? "*" : " ",
         name(model.fit.effects).c_str(), model.fitted_rms_m * percent,
@@ -44,7 +44,7 @@ void add_models(std::string& text, const Comparison& c) {
   print(text, "%-44s %7s %8s %8s %10s %10s\n", "  error in % of the stroke (rms)", "fitted", "out",
         "unseen", "fitted", "unseen");
   for (std::size_t i = 0; i < c.models.size(); ++i)
-    add_model(text, c, c.models[i], i == c.chosen && c.not_a_muscle.empty());
+    add_model(text, c, c.models[i], i == c.chosen && c.rejection_reason.empty());
   add_model(text, c, c.transformation, false);
   if (c.unseen_stroke_ratio < still) {
     print(text,
@@ -115,9 +115,9 @@ std::string report(const Findings& f) {
       "fifth of the fitted part, predicted by a fit to the others. Both choose the model (*).\n",
       c.parts.fitted.from_s, c.parts.fitted.to_s, c.parts.unseen.from_s, c.parts.unseen.to_s);
   add_models(text, c);
-  if (!c.not_a_muscle.empty()) {
+  if (!c.rejection_reason.empty()) {
     text += "\nAccording to the recording, this is not a super-coiled polymer muscle: " +
-            c.not_a_muscle + ".\n";
+            c.rejection_reason + ".\n";
     return text;
   }
   add_parameters(text, c.best().fit, f.whole);

@@ -9,7 +9,7 @@
 namespace supercoil::identification {
 
 /// One model, fitted to one part of a recording and judged on another.
-struct Judged {
+struct EvaluatedModel {
   Fit fit;
   double fitted_rms_m = 0.0;
   double unseen_rms_m = 0.0;
@@ -31,14 +31,15 @@ Parts default_parts(const Samples& samples);
 struct Comparison {
   Sizes sizes{};
   Parts parts{};
-  double unseen_stroke_ratio =
-      0.0;                     ///< of the whole stroke: a part that stands still judges nothing
-  std::vector<Judged> models;  ///< linear, each effect alone, then the steps to the chosen one
-  std::size_t chosen = 0;      ///< of models
-  Judged transformation;       ///< how a shape-memory wire would move
-  std::string not_a_muscle;    ///< why not; empty: a model explains the motion
+  /// Of the whole stroke: a part that stands still judges nothing.
+  double unseen_stroke_ratio = 0.0;
+  /// Linear, each effect alone, then the steps to the chosen one.
+  std::vector<EvaluatedModel> models;
+  std::size_t chosen = 0;         ///< of models
+  EvaluatedModel transformation;  ///< how a shape-memory wire would move
+  std::string rejection_reason;   ///< why it is not a muscle; empty: a model explains the motion
 
-  const Judged& best() const { return models[chosen]; }
+  const EvaluatedModel& best() const { return models[chosen]; }
 };
 
 /// Adds at most four effects, one at a time: the one that lowers the error on data that was not

@@ -13,10 +13,10 @@
 
 namespace supercoil::host_sim::batch {
 
-/// One of `of` shares of all runs, numbered from 1: every `of`-th run.
+/// One of `count` equal parts of all runs, numbered from 1: every `count`-th run.
 struct Shard {
   std::int64_t number = 1;
-  std::int64_t of = 1;
+  std::int64_t count = 1;
 };
 
 /// The shortest text that reads back as the same value; nothing for NaN.

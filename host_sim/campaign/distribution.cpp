@@ -29,11 +29,11 @@ double cut_normal(const Distribution& d, double probability) {
                                 : (value > 0.0 ? 1.0 : 0.0);
   };
   const double low = below(d.min);
-  const double wanted = low + probability * (below(d.max) - low);
+  const double target = low + probability * (below(d.max) - low);
   // Rounding may turn a probability in a far tail into 0 or 1.
-  constexpr double least = std::numeric_limits<double>::min();
-  constexpr double most = 1.0 - std::numeric_limits<double>::epsilon() / 2.0;
-  const double value = d.first + d.second * normal_quantile(std::clamp(wanted, least, most));
+  constexpr double min = std::numeric_limits<double>::min();
+  constexpr double max = 1.0 - std::numeric_limits<double>::epsilon() / 2.0;
+  const double value = d.first + d.second * normal_quantile(std::clamp(target, min, max));
   return std::clamp(value, d.min, d.max);
 }
 

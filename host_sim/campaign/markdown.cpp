@@ -11,10 +11,10 @@ namespace {
 /// What the worst few runs missed; their scenarios are in files.
 std::string worst_runs(const Study& study, const Outcomes& outcomes, const ContenderRow& row) {
   if (row.worst.empty()) return {};
-  constexpr std::size_t told = 3;
+  constexpr std::size_t max_listed = 3;
   std::string text = "\nThe worst runs of " + row.name + " (repeat them with " +
                      worst_name(row.name, 1) + " and following):\n\n";
-  for (std::size_t i = 0; i < std::min(told, row.worst.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(max_listed, row.worst.size()); ++i) {
     text += std::to_string(i + 1) + ". run " + std::to_string(row.worst[i].run + 1) + ", " +
             missed(study, outcomes.at(row.worst[i])) + "\n";
   }
@@ -47,14 +47,14 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
     for (const GoalRow& goal : row.goals) {
       text += cells({row.name, std::string(quantity(goal.goal.quantity).name),
                      "≤ " + shown(goal.goal, goal.goal.max), percent(goal.failures),
-                     shown(goal.goal, goal.median), shown(goal.goal, goal.of_95_in_100),
+                     shown(goal.goal, goal.median), shown(goal.goal, goal.percentile_95),
                      shown(goal.goal, goal.worst), deciding(study, goal)});
     }
   }
-  std::string told;
+  std::string last_reason;
   for (const ContenderRow& row : table) {
-    if (row.reason.empty() || row.reason == told) continue;
-    told = row.reason;
+    if (row.reason.empty() || row.reason == last_reason) continue;
+    last_reason = row.reason;
     text += "\nFirst refusal: " + row.reason + "\n";
   }
   for (const ContenderRow& row : table)
@@ -62,7 +62,7 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
   return text;
 }
 
-std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found) {
+std::string to_markdown(const Study& study, const std::map<std::size_t, WorstRun>& found) {
   std::string text = "# The worst runs of " + study.name + "\n\n" +
                      cells({"controller", "runs", "quantity", "goal", "worst found"}) +
                      "|---|---|---|---|---|\n";

@@ -12,18 +12,18 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
-constexpr std::int64_t look_every_ticks = 4096;
+constexpr std::int64_t poll_every_ticks = 4096;
 
 /// 1 if the identify or calibrate that was requested found nothing; NaN if none was requested.
 double not_found(const Scenario& scenario, const Simulation& simulation) {
-  const auto asks = [](OperatorAction action) {
+  const auto is_mode = [](OperatorAction action) {
     return action == OperatorAction::identify || action == OperatorAction::calibrate;
   };
-  const bool asked =
-      asks(scenario.start.action) || std::ranges::any_of(scenario.events, [&](const Event& event) {
-        return asks(event.conditions.action);
-      });
-  if (!asked) return NAN;
+  const bool requested = is_mode(scenario.start.action) ||
+                         std::ranges::any_of(scenario.events, [&](const Event& event) {
+                           return is_mode(event.conditions.action);
+                         });
+  if (!requested) return NAN;
   return simulation.learned() ? 0.0 : 1.0;
 }
 
@@ -59,7 +59,7 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
   double hottest_rise_K = 0.0;
   double hottest_C = -std::numeric_limits<double>::infinity();
   while (!simulation.done()) {
-    if (simulation.tick() % look_every_ticks == 0 && stop) return std::nullopt;
+    if (simulation.tick() % poll_every_ticks == 0 && stop) return std::nullopt;
     const TickRecord& record = simulation.step();
     meters.add(record);
     summary.add(record);
@@ -76,7 +76,7 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
   const double first_motion_rms_m = motion ? motion->rms_m() : NAN;
   const std::array<double, run_quantities.size()> others{
       followed ? summary.tracking().rms() : NAN,
-      followed ? summary.tracking().largest() : NAN,
+      followed ? summary.tracking().max() : NAN,
       hottest_rise_K,
       hottest_C,
       static_cast<double>(summary.outside_interval_ticks()),

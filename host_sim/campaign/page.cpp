@@ -59,9 +59,9 @@ std::string row_of(const std::string& cells) {
   return "<tr>" + cells + "</tr>\n";
 }
 
-std::string asked(const Study& study) {
-  const auto said = [](const char* what, const std::string& text) {
-    return row_of("<th>" + std::string(what) + "</th>" + cell(escaped(text)));
+std::string definition(const Study& study) {
+  const auto row = [](const char* label, const std::string& text) {
+    return row_of("<th>" + std::string(label) + "</th>" + cell(escaped(text)));
   };
   std::vector<std::string> contenders;
   for (const compare::Document& contender : study.contenders)
@@ -70,15 +70,15 @@ std::string asked(const Study& study) {
   scenario << study.scenario;
   std::string html =
       "<h2>The study</h2>\n<div class=\"wide\"><table id=\"asked\">\n<tbody>\n" +
-      said("made by", origin_of(study)) + said("scenario", study.base) +
-      said("controllers", joined(contenders)) + said("runs", std::to_string(study.runs)) +
-      said("sampling", std::string(control::name_of(sampling_names, study.sampling)) + ", seed " +
-                           std::to_string(study.seed)) +
-      said("tracking window",
-           batch::number(study.window.from_s) + " to " + batch::number(study.window.to_s) + " s");
+      row("made by", origin_of(study)) + row("scenario", study.base) +
+      row("controllers", joined(contenders)) + row("runs", std::to_string(study.runs)) +
+      row("sampling", std::string(control::name_of(sampling_names, study.sampling)) + ", seed " +
+                          std::to_string(study.seed)) +
+      row("tracking window",
+          batch::number(study.window.from_s) + " to " + batch::number(study.window.to_s) + " s");
   if (study.known_to > 0.0) {
     const std::string share = brief(100.0 * study.known_to);
-    html += said("ends", "when the share of failures is known to ± " + share + " %");
+    html += row("ends", "when the share of failures is known to ± " + share + " %");
   }
   html +=
       "</tbody></table></div>\n<details><summary>The scenario, before the draws</summary>\n<pre "
@@ -96,23 +96,23 @@ std::string asked(const Study& study) {
 
 std::string shares(const std::vector<ContenderRow>& table) {
   std::string rows;
-  std::string told;
+  std::string first_refusal;
   for (const ContenderRow& row : table) {
-    const auto line = [&](const char* what, const Rate& rate) {
-      rows += row_of(cell(escaped(row.name)) + cell(what) + cell(data(rate.runs), "n") +
+    const auto add_row = [&](const char* label, const Rate& rate) {
+      rows += row_of(cell(escaped(row.name)) + cell(label) + cell(data(rate.runs), "n") +
                      cells_of(rate));
     };
-    line("refused", row.refused);
-    line("any", row.failures);
-    if (!row.reason.empty() && told.empty())
-      told = "<p>First refusal: " + escaped(row.reason) + "</p>\n";
+    add_row("refused", row.refused);
+    add_row("any", row.failures);
+    if (!row.reason.empty() && first_refusal.empty())
+      first_refusal = "<p>First refusal: " + escaped(row.reason) + "</p>\n";
   }
   return "<h2>How often runs failed</h2>\n<p>Refused: out of all runs. Any: runs that missed a "
          "goal, "
          "out of those that were not refused. 95 % confidence intervals (Clopper-Pearson).</p>\n" +
          table_of("shares", {"controller", "what", "runs", "failures", "share", "from", "to"},
                   rows) +
-         told;
+         first_refusal;
 }
 
 std::string goals(const Study& study, const std::vector<ContenderRow>& table) {
@@ -124,7 +124,7 @@ std::string goals(const Study& study, const std::vector<ContenderRow>& table) {
                      cell(escaped(std::string(quantity(goal.quantity).name)), "id") +
                      cell("≤ " + data(goal, goal.max), "n") + cell(data(one.failures.runs), "n") +
                      cells_of(one.failures) + cell(data(goal, one.median), "n") +
-                     cell(data(goal, one.of_95_in_100), "n") + cell(data(goal, one.worst), "n") +
+                     cell(data(goal, one.percentile_95), "n") + cell(data(goal, one.worst), "n") +
                      cell(escaped(deciding(study, one))));
     }
   }
@@ -142,9 +142,9 @@ std::string correlations(const Study& study, const std::vector<ContenderRow>& ta
     for (const GoalRow& goal : row.goals) {
       const auto order = deciding_draws(goal);
       for (std::size_t i = 0; i < study.draws.size(); ++i) {
-        if (std::isnan(goal.decides[i])) continue;
+        if (std::isnan(goal.rank_correlations[i])) continue;
         const bool counts = std::ranges::find(order, i) != order.end();
-        const std::string value = data(goal.decides[i]);
+        const std::string value = data(goal.rank_correlations[i]);
         rows += row_of(cell(escaped(row.name)) +
                        cell(escaped(std::string(quantity(goal.goal.quantity).name)), "id") +
                        cell(escaped(study.draws[i].name), "id") +
@@ -197,8 +197,8 @@ std::string to_html(const Study& study, const std::vector<ContenderRow>& table,
             svg, "Each quantity's distribution, and its dependence on the draw it follows most") +
         "</figure>\n";
   }
-  return html + correlations(study, table) + worst_runs(study, table, outcomes) + asked(study) +
-         page_end();
+  return html + correlations(study, table) + worst_runs(study, table, outcomes) +
+         definition(study) + page_end();
 }
 
 }  // namespace supercoil::host_sim::campaign

@@ -67,8 +67,8 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
   panel.y_label = "%";
   panel.y_low = 0.0;
   panel.y_high = 100.0;
-  double largest = axis.scale * of.max;
-  double smallest = largest;
+  double max_value = axis.scale * of.max;
+  double min_value = max_value;
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::vector<Point> points = finite_values(outcomes, i, of.quantity);
     std::ranges::sort(points, {}, &Point::value);
@@ -82,8 +82,8 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
     }
     // A few outliers would squeeze all other runs into a corner.
     if (!points.empty()) {
-      largest = std::max(largest, axis.scale * points[points.size() * 98 / 100].value);
-      smallest = std::min(smallest, axis.scale * points.front().value);
+      max_value = std::max(max_value, axis.scale * points[points.size() * 98 / 100].value);
+      min_value = std::min(min_value, axis.scale * points.front().value);
       panel.curves.push_back(std::move(curve));
     }
   }
@@ -93,21 +93,21 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
                           true,
                           static_cast<int>(table.size()),
                           {}});
-  panel.x_logarithmic = axis.logarithmic && smallest > 0.0;
-  panel.x_low = panel.x_logarithmic ? 0.95 * smallest : std::min(0.0, smallest);
-  panel.x_high = 1.05 * largest;
+  panel.x_logarithmic = axis.logarithmic && min_value > 0.0;
+  panel.x_low = panel.x_logarithmic ? 0.95 * min_value : std::min(0.0, min_value);
+  panel.x_high = 1.05 * max_value;
   return panel;
 }
 
 /// The draw that the goal's quantity follows most, with any contender; empty if it follows none.
 std::optional<std::size_t> deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
   std::optional<std::size_t> draw;
-  double most = -1.0;
+  double max_abs = -1.0;
   for (const ContenderRow& row : table) {
-    const auto& decides = row.goals[goal].decides;
-    for (std::size_t i = 0; i < decides.size(); ++i) {
-      if (!(std::abs(decides[i]) > most)) continue;
-      most = std::abs(decides[i]);
+    const auto& rank_correlations = row.goals[goal].rank_correlations;
+    for (std::size_t i = 0; i < rank_correlations.size(); ++i) {
+      if (!(std::abs(rank_correlations[i]) > max_abs)) continue;
+      max_abs = std::abs(rank_correlations[i]);
       draw = i;
     }
   }

@@ -91,12 +91,12 @@ std::string missed(const Study& study, const Outcome& outcome) {
 }
 
 std::string deciding(const Study& study, const GoalRow& row) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t max_listed = 3;
   std::string text;
   const auto order = deciding_draws(row);
-  for (std::size_t i = 0; i < std::min(most, order.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(max_listed, order.size()); ++i) {
     text += (text.empty() ? "" : ", ") + study.draws[order[i]].name + " " +
-            brief(row.decides[order[i]]);
+            brief(row.rank_correlations[order[i]]);
   }
   return text.empty() ? "–" : text;
 }
@@ -122,13 +122,13 @@ std::string shell_word(const std::string& text) {
 std::vector<std::size_t> deciding_draws(const GoalRow& row) {
   std::vector<std::size_t> order;
   // By chance alone, less than 3 draws in 1000 reach this.
-  const double least =
+  const double min_correlation =
       3.0 / std::sqrt(static_cast<double>(std::max<std::int64_t>(1, row.failures.runs)));
-  for (std::size_t i = 0; i < row.decides.size(); ++i) {
-    if (std::abs(row.decides[i]) > least) order.push_back(i);
+  for (std::size_t i = 0; i < row.rank_correlations.size(); ++i) {
+    if (std::abs(row.rank_correlations[i]) > min_correlation) order.push_back(i);
   }
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return std::abs(row.decides[a]) > std::abs(row.decides[b]);
+    return std::abs(row.rank_correlations[a]) > std::abs(row.rank_correlations[b]);
   });
   return order;
 }

@@ -118,8 +118,8 @@ Result<bool> Lines::read(const std::filesystem::path& path, Outcomes& into) cons
       if (!batch::read_number(fields[before + 2 + i], outcome.values[i]))
         return damaged(std::string(quantity(i).name) + " must be a number");
     }
-    const auto [there, is_new] = into.try_emplace(*key, outcome);
-    if (!is_new && !same(there->second, outcome)) {
+    const auto [entry, is_new] = into.try_emplace(*key, outcome);
+    if (!is_new && !same(entry->second, outcome)) {
       return failure(where + "run " + std::to_string(key->run + 1) + " gave another result before");
     }
     return {};

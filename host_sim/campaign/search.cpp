@@ -28,7 +28,7 @@ class Search {
          const std::atomic<bool>& stop, const std::function<void()>& ran)
       : study_(&study), draws_(&draws), contender_(contender), stop_(&stop), ran_(&ran) {}
 
-  Worst from(std::int64_t runs) {
+  WorstRun run(std::int64_t runs) {
     using Optimiser = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
     const auto dimensions = static_cast<unsigned>(draws_->dimensions());
     const Optimiser made(nlopt_create(NLOPT_GN_CRS2_LM, dimensions), &nlopt_destroy);
@@ -36,7 +36,7 @@ class Search {
     nlopt_srand(static_cast<std::uint32_t>(study_->seed) + 1U);
     nlopt_set_lower_bounds1(optimiser_, nearest_end);
     nlopt_set_upper_bounds1(optimiser_, 1.0 - nearest_end);
-    nlopt_set_max_objective(optimiser_, &Search::judge, this);
+    nlopt_set_max_objective(optimiser_, &Search::evaluate, this);
     nlopt_set_maxeval(optimiser_, static_cast<int>(runs));
     nlopt_set_stopval(optimiser_, worst_possible);
     std::vector<double> point(dimensions, 0.5);
@@ -48,11 +48,11 @@ class Search {
   }
 
  private:
-  static double judge(unsigned count, const double* point, double* /*gradient*/, void* self) {
-    return static_cast<Search*>(self)->judge({point, point + count});
+  static double evaluate(unsigned count, const double* point, double* /*gradient*/, void* self) {
+    return static_cast<Search*>(self)->evaluate({point, point + count});
   }
 
-  double judge(const std::vector<double>& point) {
+  double evaluate(const std::vector<double>& point) {
     const auto drawn = draws_->at(point);
     const auto scenario = draws_->scenario(drawn, contender_, 0);
     double severity_of_run = no_scenario;
@@ -76,14 +76,14 @@ class Search {
   const std::atomic<bool>* stop_;
   const std::function<void()>* ran_;
   nlopt_opt optimiser_ = nullptr;
-  Worst worst_;
+  WorstRun worst_;
 };
 
 }  // namespace
 
-Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
-             const std::atomic<bool>& stop, const std::function<void()>& ran) {
-  return Search(study, draws, contender, stop, ran).from(runs);
+WorstRun search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
+                const std::atomic<bool>& stop, const std::function<void()>& ran) {
+  return Search(study, draws, contender, stop, ran).run(runs);
 }
 
 }  // namespace supercoil::host_sim::campaign

@@ -13,7 +13,7 @@
 
 namespace supercoil::host_sim::campaign {
 
-struct Worst {
+struct WorstRun {
   std::vector<double> drawn;  ///< as from Draws::at(); empty: no run had a valid scenario
   Outcome outcome;
   double severity = 0.0;  ///< as from severity()
@@ -25,7 +25,7 @@ struct Worst {
 /// Ends after `runs` runs, or when nothing can be worse. The study's seed determines the start: the
 /// same study gives the same result. ran: called after each run, on the calling thread. Throws
 /// std::runtime_error if NLopt fails.
-Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
-             const std::atomic<bool>& stop, const std::function<void()>& ran);
+WorstRun search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
+                const std::atomic<bool>& stop, const std::function<void()>& ran);
 
 }  // namespace supercoil::host_sim::campaign

@@ -42,10 +42,10 @@ GoalRow row_of(const Goal& goal, const Runs& runs) {
   }
   row.failures = rate_of(missed, static_cast<std::int64_t>(values.size()));
   row.median = quantile(values, 0.5);
-  row.of_95_in_100 = quantile(values, 0.95);
+  row.percentile_95 = quantile(values, 0.95);
   row.worst = quantile(values, 1.0);
   for (const auto& drawn : runs.drawn)
-    row.decides.push_back(rank_correlation(drawn, values));
+    row.rank_correlations.push_back(rank_correlation(drawn, values));
   return row;
 }
 
@@ -110,7 +110,7 @@ std::string to_csv(const std::vector<ContenderRow>& table) {
     for (const GoalRow& goal : row.goals) {
       line(row, std::string(quantity(goal.goal.quantity).name), batch::number(goal.goal.max),
            goal.failures,
-           "," + batch::number(goal.median) + "," + batch::number(goal.of_95_in_100) + "," +
+           "," + batch::number(goal.median) + "," + batch::number(goal.percentile_95) + "," +
                batch::number(goal.worst));
     }
   }

@@ -19,9 +19,9 @@ struct GoalRow {
   Goal goal;
   Rate failures;  ///< runs that miss it
   double median = 0.0;
-  double of_95_in_100 = 0.0;  ///< 95 of 100 runs are not above
+  double percentile_95 = 0.0;  ///< 95 of 100 runs are not above
   double worst = 0.0;
-  std::vector<double> decides;  ///< rank correlation with each draw; NaN: none
+  std::vector<double> rank_correlations;  ///< rank correlation with each draw; NaN: none
 };
 
 struct ContenderRow {
@@ -57,6 +57,6 @@ Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcome
 std::string worst_name(const std::string& contender, std::size_t place);
 
 /// What a search found, by contender.
-std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found);
+std::string to_markdown(const Study& study, const std::map<std::size_t, WorstRun>& found);
 
 }  // namespace supercoil::host_sim::campaign

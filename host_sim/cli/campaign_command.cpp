@@ -18,7 +18,7 @@ namespace {
 
 /// Each contender's failure rate is checked after this many runs, whatever the jobs, so that a
 /// study always ends at the same run.
-constexpr std::int64_t look_every_runs = 100;
+constexpr std::int64_t check_every_runs = 100;
 
 /// At the median of all draws, the study must give a valid scenario.
 std::string check_medians(const campaign::Study& study, const campaign::Draws& draws) {
@@ -39,7 +39,7 @@ std::vector<campaign::Key> missing(const campaign::Study& study, const batch::Sh
                                    std::int64_t to) {
   std::vector<campaign::Key> runs;
   for (std::int64_t run = from; run < to; ++run) {
-    if (run % shard.of != shard.number - 1) continue;
+    if (run % shard.count != shard.number - 1) continue;
     for (std::size_t i = 0; i < study.contenders.size(); ++i) {
       const campaign::Key key{static_cast<std::size_t>(run), i};
       if (!outcomes.contains(key)) runs.push_back(key);
@@ -81,8 +81,8 @@ void carry_out_all(const campaign::Study& study, const campaign::Draws& draws,
   const campaign::Lines lines(study, draws);
   Shares shares(study);
   bool stopped = false;
-  const bool looks = study.known_to > 0.0;
-  const std::int64_t step = looks ? look_every_runs : study.runs;
+  const bool checks_precision = study.known_to > 0.0;
+  const std::int64_t step = checks_precision ? check_every_runs : study.runs;
   for (std::int64_t from = 0; from < study.runs && !stopped; from += step) {
     const std::int64_t to = std::min(study.runs, from + step);
     const auto todo = missing(study, options.shard, outcomes, from, to);
@@ -100,9 +100,9 @@ void carry_out_all(const campaign::Study& study, const campaign::Draws& draws,
           },
           [&] { return stopped = kept.stop(); });
     }
-    if (stopped || !looks) continue;
+    if (stopped || !checks_precision) continue;
     shares.count(outcomes, from, to);
-    if (shares.known_to(study.known_to)) return kept.enough();
+    if (shares.known_to(study.known_to)) return kept.stop_early();
   }
 }
 
@@ -119,9 +119,9 @@ int campaign_command(const CampaignOptions& given) {
   CampaignOptions options = given;
   if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
   const batch::Shard& shard = options.shard;
-  if (shard.number < 1 || shard.number > shard.of)
+  if (shard.number < 1 || shard.number > shard.count)
     return refuse(options.json, exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
-  if ((shard.of > 1 || options.slurm > 0) && study->known_to > 0.0) {
+  if ((shard.count > 1 || options.slurm > 0) && study->known_to > 0.0) {
     return refuse(options.json, exit_wrong_input,
                   given.study +
                       ": study.known_to: one part cannot tell when the whole study is known well "

@@ -32,7 +32,7 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
   std::string svg;
   if (options.plot) {
     const Figure figure = figure_of(study, draws, outcomes, table);
-    if (!figure.panels.empty()) svg = draw_into(folder, figure, "campaign.svg");
+    if (!figure.panels.empty()) svg = write_svg(folder, figure, "campaign.svg");
   }
   const campaign::Lines lines(study, draws);
   const auto kept = folder.write(runs_name, [&](std::ostream& out) { lines.write(out, outcomes); });

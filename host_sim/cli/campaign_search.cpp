@@ -24,7 +24,7 @@ std::string file_of(const campaign::Study& study, std::size_t contender) {
 
 /// One row per goal and contender, as in search.md.
 nlohmann::ordered_json rows_of(const campaign::Study& study,
-                               const std::map<std::size_t, campaign::Worst>& found) {
+                               const std::map<std::size_t, campaign::WorstRun>& found) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const auto& [contender, worst] : found) {
     const bool ran = !worst.drawn.empty();
@@ -53,7 +53,7 @@ int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
   std::atomic<std::int64_t> runs = 0;
   const auto all =
       static_cast<double>(study.contenders.size()) * static_cast<double>(options.search);
-  std::map<std::size_t, campaign::Worst> found;
+  std::map<std::size_t, campaign::WorstRun> found;
   batch::in_parallel(
       study.contenders.size(), batch::threads_for(options.jobs),
       [&](std::size_t contender, const std::atomic<bool>& stop) -> batch::Handover {

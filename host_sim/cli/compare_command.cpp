@@ -16,8 +16,8 @@ namespace {
 using compare::Results;
 
 compare::Key key_of(const compare::Plan& plan, const compare::Run& run) {
-  const compare::Case& of = plan.cases[run.of];
-  return {of.controller, of.disturbance, of.arithmetic, run.seed};
+  const compare::Case& planned = plan.cases[run.case_index];
+  return {planned.controller, planned.disturbance, planned.arithmetic, run.seed};
 }
 
 /// The plan's runs without a result; an error if a result was made with another definition.
@@ -25,12 +25,12 @@ Result<std::vector<compare::Run>> missing(const compare::Plan& plan, const Resul
                                           const std::string& file) {
   std::vector<compare::Run> runs;
   for (const compare::Run& run : plan.runs) {
-    const auto there = results.find(key_of(plan, run));
-    const compare::Case& of = plan.cases[run.of];
-    if (there == results.end()) {
+    const auto entry = results.find(key_of(plan, run));
+    const compare::Case& planned = plan.cases[run.case_index];
+    if (entry == results.end()) {
       runs.push_back(run);
-    } else if (there->second.definition != of.definition) {
-      return failure(file + ": its " + of.controller + " with " + of.disturbance +
+    } else if (entry->second.definition != planned.definition) {
+      return failure(file + ": its " + planned.controller + " with " + planned.disturbance +
                      " was run with another definition; choose another --out, or delete it");
     }
   }
@@ -44,7 +44,7 @@ int compare_command(const CompareOptions& options) {
   if (!options.merge.empty()) return merge_comparisons(options);
   const auto plan = compare::make_plan(options.selection);
   if (!plan) return refuse_lines(options.json, plan.error().text());
-  for (const std::string& reason : plan->left_out)
+  for (const std::string& reason : plan->impossible)
     std::fprintf(stderr, "supercoil-sim: left out: %s", reason.c_str());
   auto folder = OutputFolder::open(options.out);
   if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());

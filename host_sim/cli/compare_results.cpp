@@ -20,7 +20,7 @@ int conclude_comparison(const Results& results, OutputFolder& folder,
   const auto table = compare::table_of(results);
   const std::string markdown = compare::to_markdown(table);
   const std::string csv = compare::to_csv(table);
-  if (options.plot) draw_into(folder, compare::figure_of(table), "compare.svg");
+  if (options.plot) write_svg(folder, compare::figure_of(table), "compare.svg");
   return conclude_tables(
       {{{runs_name, compare::to_file(results)}, {"compare.csv", csv}, {"compare.md", markdown}},
        markdown,

@@ -79,7 +79,7 @@ int estimators_command(const EstimatorsOptions& options) {
   const std::string csv = estimators::to_csv(outcomes, bounds);
   const std::string markdown =
       estimators::to_markdown(outcomes, bounds, estimators::measure_costs());
-  if (options.plot) draw_into(*folder, estimators::figure_of(outcomes, bounds), "estimators.svg");
+  if (options.plot) write_svg(*folder, estimators::figure_of(outcomes, bounds), "estimators.svg");
   return conclude_tables({{{runs_name, estimators::to_file(outcomes)},
                            {"estimators.csv", csv},
                            {"estimators.md", markdown}},

@@ -50,7 +50,7 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
     const auto promise = scenario_promise(scenario);
     reference = {{"feasible", f->feasible()},
                  {"first_s", json_number(f->first_s)},
-                 {"first_lasts_s", json_number(f->first_lasts_s)},
+                 {"first_lasts_s", json_number(f->first_duration_s)},
                  {"first_ends", f->first_ends},
                  {"limited_by", name(f->limited_by)},
                  {"excess_W", f->excess_W},

@@ -36,7 +36,7 @@ class KeptRuns {
   /// Shows the progress; true: give up.
   bool stop();
   /// The runs that have ended are enough.
-  void enough() { count_.todo = ended_; }
+  void stop_early() { count_.todo = ended_; }
   /// Returns the program's exit status; prints a message if not all runs have ended.
   int end();
 

@@ -128,8 +128,8 @@ batch::Shard shard_of(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto number = std::from_chars(text.data(), end, shard.number);
   if (number.ec == std::errc{} && number.ptr != end && *number.ptr == '/') {
-    const auto of = std::from_chars(number.ptr + 1, end, shard.of);
-    if (of.ec == std::errc{} && of.ptr == end) return shard;
+    const auto count = std::from_chars(number.ptr + 1, end, shard.count);
+    if (count.ec == std::errc{} && count.ptr == end) return shard;
   }
   throw CLI::ValidationError("--shard", text + ": must be I/N with 1 <= I <= N");
 }

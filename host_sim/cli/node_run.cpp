@@ -34,8 +34,8 @@ const TickRecord& NodeRun::step() {
   const std::int64_t tick = simulation_.tick();
   const TickRecord& record = simulation_.step();
   summary_.add(record);
-  if (trace_ && trace_->wants(tick)) trace_->add(record, simulation_.estimate());
-  if (plot_ && plot_->wants(tick)) plot_->add(record, simulation_.estimate());
+  if (trace_ && trace_->is_due(tick)) trace_->add(record, simulation_.estimate());
+  if (plot_ && plot_->is_due(tick)) plot_->add(record, simulation_.estimate());
   return record;
 }
 
@@ -64,14 +64,14 @@ int NodeRun::conclude(double wall_s, const LearnedFolder& learned) {
     if (const auto finished = trace_->finish(); !finished)
       return fail(exit_failed, (folder_->path() / finished.error().text()).string());
   }
-  if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
+  if (plot_) write_svg(*folder_, plot_->figure(), "plot.svg");
   auto concluded =
       host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
   if (!concluded) return fail(exit_failed, concluded.error().text());
   summary_json_ = std::move(*concluded);
   if (!learned.complete()) return exit_failed;  // the loss was reported
-  if (options_->real_time && !asks(scenario_)) return exit_done;
-  return judge(summary_, scenario_, simulation_, *options_);
+  if (options_->real_time && !ever_arms(scenario_)) return exit_done;
+  return report_outcome(summary_, scenario_, simulation_, *options_);
 }
 
 }  // namespace supercoil::host_sim

@@ -30,10 +30,10 @@ void shift_noise(Scenario& board, int channels_before) {
 tl::expected<std::vector<Scenario>, Errors> copies(const RunOptions& options,
                                                    const Scenario& scenario) {
   const int first = scenario.can.first_node;
-  const int most = (can::max_nodes + 1 - first) / scenario.channels();
-  if (options.nodes > most) {
+  const int node_limit = (can::max_nodes + 1 - first) / scenario.channels();
+  if (options.nodes > node_limit) {
     return wrong("", "--nodes", std::to_string(options.nodes),
-                 "must be 1 to " + std::to_string(most) + ", as the first board is node " +
+                 "must be 1 to " + std::to_string(node_limit) + ", as the first board is node " +
                      std::to_string(first));
   }
   std::vector<Scenario> boards;

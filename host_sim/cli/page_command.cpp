@@ -37,7 +37,7 @@ std::string page_program(const std::filesystem::path& own) {
 
 struct Board {
   pid_t process = 0;
-  int told = -1;  ///< to read what it prints
+  int output = -1;  ///< read end of its standard output
 };
 
 /// Starts a simulated board on its own bus; it ends with this program.
@@ -65,7 +65,7 @@ std::optional<Board> start_board(const std::filesystem::path& own, const PageOpt
 int bus_port(const Board& board) {
   constexpr std::string_view before = "127.0.0.1:";
   std::string line;
-  for (char next = 0; read(board.told, &next, 1) == 1 && next != '\n';)
+  for (char next = 0; read(board.output, &next, 1) == 1 && next != '\n';)
     line += next;
   const std::size_t at = line.find(before);
   int port = 0;

@@ -17,7 +17,7 @@ std::vector<std::string> draw_all(const std::vector<paper::Part>& parts, OutputF
   std::vector<std::string> texts;
   for (const paper::Part& part : parts) {
     for (const paper::NamedFigure& figure : part.figures)
-      texts.push_back(draw_into(folder, figure.figure, figure.name + ".svg"));
+      texts.push_back(write_svg(folder, figure.figure, figure.name + ".svg"));
   }
   return texts;
 }

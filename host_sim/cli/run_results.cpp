@@ -29,7 +29,7 @@ void note_signal(int) {
 }
 
 /// "at a limit in 12.3 % of the ticks: maximum 10.0 %, slew 2.3 %"
-void print_limits(const char* whose, const LimitCount& count, const Summary& summary) {
+void print_limits(const char* label, const LimitCount& count, const Summary& summary) {
   std::string limits;
   const auto percent = [&](std::int64_t ticks) {
     std::array<char, 32> text{};
@@ -45,7 +45,7 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
     limits += (limits.empty() ? "" : ", ") + std::string(limit_names[i]) + " " + percent(ticks);
   }
   if (all == 0) return;
-  std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(), limits.c_str());
+  std::printf("%sat a limit in %s of the ticks: %s\n", label, percent(all).c_str(), limits.c_str());
 }
 
 /// Oscillation or divergence that the loop causes without the reference asking for it.
@@ -71,7 +71,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
   const double noise_W = summary.power_noise_W();
   const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
   if (!std::isnan(summary.limit_cycle_period_s(scenario))) return;
-  if (!summary.tells_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
+  if (!summary.has_power_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
   const BoardSettings board = firmware_of(scenario);
   const ChannelSettings& channel = board.channels.front();
   std::printf(
@@ -93,9 +93,9 @@ void print_promise(const nlohmann::ordered_json& json) {
 
 /// How identify, calibrate and the first motion ended, if there were any.
 void print_modes(const nlohmann::ordered_json& json) {
-  const auto& told = json["mode_result"]["told"];
-  if (!told.is_null())
-    std::printf("the last identify or calibrate: %s\n", told.get<std::string>().c_str());
+  const auto& text = json["mode_result"]["told"];
+  if (!text.is_null())
+    std::printf("the last identify or calibrate: %s\n", text.get<std::string>().c_str());
   const auto& motion = json["first_motion"];
   if (motion.is_null() || motion["rms_m"].is_null()) return;
   const double rms_m = motion["rms_m"].get<double>();
@@ -192,12 +192,12 @@ Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
   return text;
 }
 
-bool asks(const Scenario& scenario) {
+bool ever_arms(const Scenario& scenario) {
   return arms(scenario.start.action) || arms_later(scenario);
 }
 
-int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
-          const RunOptions& options) {
+int report_outcome(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+                   const RunOptions& options) {
   const Fault fault = summary.ended_in();
   const auto& motion = simulation.first_motion();
   const bool unfinished = motion && std::isnan(motion->rms_m());
@@ -205,26 +205,26 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   const std::string nothing_found = mode_failed_because(scenario, simulation);
   const bool ended_well = summary.armed() && fault == Fault::none && !unfinished;
   if (ended_well && unfollowed.empty() && nothing_found.empty()) return exit_done;
-  std::string told = prefix(options, scenario);
+  std::string text = prefix(options, scenario);
   if (!summary.armed()) {
-    told += "never armed: " + summary.never_armed_because(scenario, simulation);
+    text += "never armed: " + summary.never_armed_because(scenario, simulation);
   } else if (ended_well && !unfollowed.empty()) {
-    told += "it did not follow: " + unfollowed;
+    text += "it did not follow: " + unfollowed;
   } else if (ended_well) {
-    told += "identify or calibrate found nothing: " + nothing_found;
+    text += "identify or calibrate found nothing: " + nothing_found;
   } else if (fault == Fault::none) {
-    told += "the first motion did not finish";
+    text += "the first motion did not finish";
   } else {
-    told += "the run ended in " + fault_text(fault);
+    text += "the run ended in " + fault_text(fault);
   }
-  const bool meant = !summary.armed() && fault == Fault::none && !asks(scenario);
-  if (!options.allow_fault && !meant)
-    return fail(exit_failed, told + " (--allow-fault: exit status 0)");
-  if (!options.quiet) std::puts(told.c_str());
+  const bool intended = !summary.armed() && fault == Fault::none && !ever_arms(scenario);
+  if (!options.allow_fault && !intended)
+    return fail(exit_failed, text + " (--allow-fault: exit status 0)");
+  if (!options.quiet) std::puts(text.c_str());
   return exit_done;
 }
 
-std::string draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
+std::string write_svg(OutputFolder& folder, const Figure& figure, const std::string& name) {
   const auto path = folder.temporary(name);
   if (const auto drawn = draw(figure, path); !drawn) {
     folder.drop(name);

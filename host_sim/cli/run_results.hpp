@@ -34,15 +34,15 @@ Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
                              bool quiet);
 
 /// Whether the operator arms the muscle at some time, so that there is something to judge.
-bool asks(const Scenario& scenario);
+bool ever_arms(const Scenario& scenario);
 
 /// Prints what else there is to say of the run; it is an error if nothing was followed. Returns the
 /// program's exit status.
-int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
-          const RunOptions& options);
+int report_outcome(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+                   const RunOptions& options);
 
 /// Draws the figure into the folder and returns it, or reports why not and returns nothing: results
 /// are worth more than their picture.
-std::string draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
+std::string write_svg(OutputFolder& folder, const Figure& figure, const std::string& name);
 
 }  // namespace supercoil::host_sim

@@ -20,12 +20,12 @@ struct Tables {
 };
 
 /// How the results are printed.
-struct Telling {
+struct TableOutput {
   bool json;   ///< the rows, instead of the tables
   bool quiet;  ///< no tables
 };
 
 /// Writes the files, commits the folder and prints the results. Returns the program's exit status.
-int conclude_tables(const Tables& tables, OutputFolder& folder, Telling telling);
+int conclude_tables(const Tables& tables, OutputFolder& folder, TableOutput output);
 
 }  // namespace supercoil::host_sim

@@ -9,7 +9,7 @@ struct Goal {
   std::string_view controller;
   std::string_view disturbance;
   std::string_view measure;
-  double most;
+  double max;
 };
 
 constexpr double micro = 1e-6;
@@ -69,7 +69,7 @@ std::optional<double> goal_of(const TableRow& row, std::string_view measure) {
   for (const Goal& goal : goals) {
     if (goal.controller == row.controller && goal.disturbance == row.disturbance &&
         goal.measure == measure) {
-      return goal.most;
+      return goal.max;
     }
   }
   return std::nullopt;

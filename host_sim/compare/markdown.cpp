@@ -31,7 +31,7 @@ std::string shown(double value) {
 std::string cell(const TableRow& row, std::size_t measure) {
   const auto& statistics = row.statistics[measure];
   if (!statistics) return "";
-  const double unit = measures[measure].how == How::settling ? 1.0 : um_per_m;
+  const double unit = measures[measure].kind == MeasureKind::settling ? 1.0 : um_per_m;
   std::string text = shown(statistics->mean * unit);
   if (std::isfinite(statistics->half_width)) text += " ± " + shown(statistics->half_width * unit);
   text += " (" + shown(statistics->worst * unit) + ")";
@@ -56,7 +56,7 @@ std::string to_markdown(const std::vector<TableRow>& table) {
     const bool none =
         std::none_of(table.begin(), table.end(), [&](const TableRow& row) { return has(row, i); });
     if (none) continue;
-    const bool time = measures[i].how == How::settling;
+    const bool time = measures[i].kind == MeasureKind::settling;
     text += "\n### `" + std::string(measures[i].name) + "`\n\n" + std::string(time ? "s" : "µm") +
             ": " + std::string(measures[i].meaning) + ".\n\n| |";
     for (const std::string& contender : contenders)

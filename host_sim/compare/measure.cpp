@@ -55,8 +55,8 @@ void Meters::add(const TickRecord& record) {
     if (record.time_s < meter.window.from_s || record.time_s >= meter.window.to_s) continue;
     meter.lost = meter.lost || record.open_loop || !std::isfinite(error_m);
     meter.errors.add(error_m);
-    meter.seen_until_s = record.time_s + step_s_;
-    if (!(std::abs(error_m) < settled_m)) meter.outside_until_s = meter.seen_until_s;
+    meter.end_s = record.time_s + step_s_;
+    if (!(std::abs(error_m) < settled_m)) meter.outside_until_s = meter.end_s;
   }
 }
 
@@ -64,15 +64,15 @@ double Meters::value(std::size_t measure) const {
   const Meter& meter = meters_[measure];
   if (meter.errors.count() == 0) return NAN;
   if (meter.lost) return INFINITY;
-  switch (measures[measure].how) {
-    case How::rms:
+  switch (measures[measure].kind) {
+    case MeasureKind::rms:
       return meter.errors.rms();
-    case How::largest:
-      return meter.errors.largest();
-    case How::settling:
+    case MeasureKind::max:
+      return meter.errors.max();
+    case MeasureKind::settling:
       break;
   }
-  if (meter.outside_until_s == meter.seen_until_s) return INFINITY;
+  if (meter.outside_until_s == meter.end_s) return INFINITY;
   return std::max(0.0, meter.outside_until_s - meter.window.from_s);
 }
 

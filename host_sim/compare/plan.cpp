@@ -91,7 +91,7 @@ supercoil::Result<void> add_cases(Plan& plan, const std::vector<Document>& contr
         if (made) {
           plan.cases.push_back(std::move(*made));
         } else if (arithmetic == "q8.24" && combine(controller, disturbance, "double")) {
-          plan.left_out.push_back(made.error().text());
+          plan.impossible.push_back(made.error().text());
         } else {
           return tl::unexpected(made.error());
         }
@@ -106,8 +106,8 @@ std::string check(const Selection& s) {
   constexpr std::int64_t max_seeds = 100'000;
   if (s.seeds < 1 || s.seeds > max_seeds)
     problems += "--seeds " + std::to_string(s.seeds) + ": must be 1 to 100000\n";
-  if (s.shard.of < 1 || s.shard.number < 1 || s.shard.number > s.shard.of) {
-    problems += "--shard " + std::to_string(s.shard.number) + "/" + std::to_string(s.shard.of) +
+  if (s.shard.count < 1 || s.shard.number < 1 || s.shard.number > s.shard.count) {
+    problems += "--shard " + std::to_string(s.shard.number) + "/" + std::to_string(s.shard.count) +
                 ": must be I/N with 1 <= I <= N\n";
   }
   for (const std::string& arithmetic : s.arithmetics) {
@@ -152,9 +152,9 @@ supercoil::Result<Plan> make_plan(const Selection& selection) {
   if (!added) return tl::unexpected(added.error());
   std::int64_t index = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(selection.seeds); ++seed) {
-    for (std::size_t of = 0; of < plan.cases.size(); ++of) {
-      if (index++ % selection.shard.of == selection.shard.number - 1)
-        plan.runs.push_back({of, seed});
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+      if (index++ % selection.shard.count == selection.shard.number - 1)
+        plan.runs.push_back({i, seed});
     }
   }
   return plan;

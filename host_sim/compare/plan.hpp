@@ -36,14 +36,14 @@ struct Case {
 };
 
 struct Run {
-  std::size_t of;  ///< which of the plan's cases
+  std::size_t case_index;  ///< in the plan's cases
   std::uint64_t seed;
 };
 
 struct Plan {
   std::vector<Case> cases;
-  std::vector<Run> runs;              ///< of the shard; all cases of a seed before the next seed
-  std::vector<std::string> left_out;  ///< cases that are impossible, and why
+  std::vector<Run> runs;                ///< of the shard; all cases of a seed before the next seed
+  std::vector<std::string> impossible;  ///< cases that are impossible, and why
 };
 
 /// The error lists all problems of the selection, one per line.

@@ -12,15 +12,15 @@ constexpr double plotted_um_per_m = 1e6;
 constexpr double spread = 0.7;
 
 std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
-  const auto there = std::find(names.begin(), names.end(), name);
-  if (there != names.end()) return static_cast<std::size_t>(there - names.begin());
+  const auto entry = std::find(names.begin(), names.end(), name);
+  if (entry != names.end()) return static_cast<std::size_t>(entry - names.begin());
   names.push_back(name);
   return names.size() - 1;
 }
 
 Panel panel_of(const std::vector<TableRow>& table, const std::vector<std::string>& contenders,
                std::size_t measure) {
-  const bool time = measures[measure].how == How::settling;
+  const bool time = measures[measure].kind == MeasureKind::settling;
   Panel panel;
   panel.title = std::string(measures[measure].name) + ": " + std::string(measures[measure].meaning);
   panel.x_label = "";

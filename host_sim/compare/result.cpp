@@ -99,8 +99,8 @@ supercoil::Result<ReadResults> read_results(const std::filesystem::path& path) {
 
 supercoil::Result<void> merge(Results& into, const Results& from, const std::string& name) {
   for (const auto& [key, result] : from) {
-    const auto [there, is_new] = into.try_emplace(key, result);
-    if (!is_new && !there->second.same_as(result)) {
+    const auto [entry, is_new] = into.try_emplace(key, result);
+    if (!is_new && !entry->second.same_as(result)) {
       return failure(name + ": " + described(key) + " gave another result before");
     }
     Key first = key;

@@ -15,8 +15,9 @@ namespace {
 constexpr std::int64_t look_every_ticks = 4096;
 
 /// Empty when it was given up.
-std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::atomic<bool>& stop) {
-  Scenario scenario = of.scenario;
+std::optional<Result> simulate(const Case& planned, std::uint64_t seed,
+                               const std::atomic<bool>& stop) {
+  Scenario scenario = planned.scenario;
   scenario.seed = seed;
   Simulation simulation(scenario);
   Meters meters(scenario);
@@ -28,7 +29,7 @@ std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::at
     if (fault == Fault::none) fault = record.fault;
     if (fault == Fault::none) fault = record.board_fault;
   }
-  return Result{of.definition, fault == Fault::none ? "" : std::string(name(fault)),
+  return Result{planned.definition, fault == Fault::none ? "" : std::string(name(fault)),
                 meters.values()};
 }
 
@@ -40,7 +41,7 @@ void run_plan(const std::vector<Case>& cases, const std::vector<Run>& runs, unsi
       runs.size(), jobs,
       [&](std::size_t number, const std::atomic<bool>& stop) -> batch::Handover {
         const Run& run = runs[number];
-        const auto result = simulate(cases[run.of], run.seed, stop);
+        const auto result = simulate(cases[run.case_index], run.seed, stop);
         if (!result) return {};
         return [&listener, &run, result = *result] { listener.ended(run, result); };
       },

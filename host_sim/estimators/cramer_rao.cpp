@@ -13,13 +13,13 @@ CramerRaoBound::CramerRaoBound(const Experiment& experiment, const Unknown& unkn
 void CramerRaoBound::step() {
   // The power in the middle of the step stands for that of the ticks in it.
   const double middle_s = experiment_.begin_s + (static_cast<double>(steps_) + 0.5) * step_s;
-  const Moved next = moved_with_derivative(state_, experiment_.moving_mass_kg,
-                                           experiment_.power_W(middle_s), step_s);
+  const Propagated next = propagated_with_derivative(state_, experiment_.moving_mass_kg,
+                                                     experiment_.power_W(middle_s), step_s);
   state_ = next.state;
   ++steps_;
   sensitivity_ = (next.derivative * sensitivity_).eval();
-  const State seen = sensitivity_.row(at_position);
-  information_ += seen * seen.transpose() * (step_s / experiment_.noise_density_m2_s);
+  const State output_row = sensitivity_.row(at_position);
+  information_ += output_row * output_row.transpose() * (step_s / experiment_.noise_density_m2_s);
 }
 
 control::Theta CramerRaoBound::until(double time_s) {
@@ -28,8 +28,8 @@ control::Theta CramerRaoBound::until(double time_s) {
     step();
   std::vector<int> unknowns;
   for (int i = 0; i < state_size; ++i) {
-    const bool wanted = i < motion_size ? unknown_.motion : i != at_bias || unknown_.bias;
-    if (wanted) unknowns.push_back(i);
+    const bool is_unknown = i < motion_size ? unknown_.motion : i != at_bias || unknown_.bias;
+    if (is_unknown) unknowns.push_back(i);
   }
   // Scaled so that every information is 1: metres and logarithms differ by 1e10.
   const Eigen::MatrixXd information = information_(unknowns, unknowns);

@@ -78,13 +78,13 @@ std::string honesty_table(const Outcomes& outcomes) {
       "| trial | | θ1 | θ2 | θ3 | θ4 |\n|---|---|---|---|---|---|\n";
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
     for (std::size_t contender = 0; contender < contenders.size(); ++contender) {
-      Theta told = Theta::Zero();
-      Theta seen = Theta::Zero();
+      Theta reported = Theta::Zero();
+      Theta actual = Theta::Zero();
       for (const Outcome& outcome : of_cell(outcomes, trial, contender)) {
-        told += outcome.reported_rms.cwiseAbs2();
-        seen += outcome.steady_rms.cwiseAbs2();
+        reported += outcome.reported_rms.cwiseAbs2();
+        actual += outcome.steady_rms.cwiseAbs2();
       }
-      const Theta ratio = told.cwiseQuotient(seen).cwiseSqrt();
+      const Theta ratio = reported.cwiseQuotient(actual).cwiseSqrt();
       if (!ratio.allFinite()) continue;
       std::array<std::string, 4> cells;
       for (int i = 0; i < 4; ++i)

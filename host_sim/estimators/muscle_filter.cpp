@@ -38,9 +38,9 @@ Covariance MuscleFilter::prior() const {
 
 void MuscleFilter::step(double position_m, double power_W) {
   if (std::isfinite(power_W)) power_W_ = power_W;
-  const bool seen = std::isfinite(position_m);
+  const bool has_reading = std::isfinite(position_m);
   if (!begun_) {
-    if (!seen) return;
+    if (!has_reading) return;
     begun_ = true;
     belief_.mean[at_position] = position_m;
     return;
@@ -50,7 +50,7 @@ void MuscleFilter::step(double position_m, double power_W) {
     belief_.covariance = prior();
   }
   since_s_ += step_s_;
-  if (seen) {
+  if (has_reading) {
     forget();
     correct(position_m);
   }
@@ -82,10 +82,10 @@ void MuscleFilter::forget() {
       std::min(settings_.forgetting_s, std::max(settings_.first_forgetting_s, since_s_));
   belief_.covariance *= std::exp(step_s_ / memory_s);
   // Without excitation it would grow without limit.
-  const double largest =
+  const double max_variance =
       belief_.covariance.diagonal().segment<parameter_size>(at_ln_theta_1).maxCoeff();
-  const double most = settings_.prior_logarithm * settings_.prior_logarithm;
-  if (largest > most) belief_.covariance *= most / largest;
+  const double limit = settings_.prior_logarithm * settings_.prior_logarithm;
+  if (max_variance > limit) belief_.covariance *= limit / max_variance;
 }
 
 void MuscleFilter::detect_change(double normalised_square) {

@@ -30,8 +30,9 @@ control::Theta theta_of(const State& state);
 /// one that carries its derivatives along. The series of the matrix exponential, applied to the
 /// state.
 template <class Scalar>
-control::Vector<Scalar, state_size> moved(const control::Vector<Scalar, state_size>& state,
-                                          double moving_mass_kg, double power_W, double step_s) {
+control::Vector<Scalar, state_size> propagated(const control::Vector<Scalar, state_size>& state,
+                                               double moving_mass_kg, double power_W,
+                                               double step_s) {
   using std::exp;
   // Exact to 1e-9 of the motion while the muscle's rates are below 0.5/step_s.
   constexpr int terms = 9;
@@ -60,11 +61,11 @@ control::Vector<Scalar, state_size> moved(const control::Vector<Scalar, state_si
 }
 
 /// The state a tick later, and its derivative by the state.
-struct Moved {
+struct Propagated {
   State state;
   Covariance derivative;
 };
-Moved moved_with_derivative(const State& state, double moving_mass_kg, double power_W,
-                            double step_s);
+Propagated propagated_with_derivative(const State& state, double moving_mass_kg, double power_W,
+                                      double step_s);
 
 }  // namespace supercoil::host_sim::estimators

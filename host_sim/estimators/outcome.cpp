@@ -9,8 +9,8 @@ using control::Theta;
 
 namespace {
 
-constexpr std::int64_t look_every_ticks = 10;
-constexpr std::int64_t ask_every_ticks = 4096;
+constexpr std::int64_t sample_every_ticks = 10;
+constexpr std::int64_t poll_every_ticks = 4096;
 /// An exit so shortly before the end counts as never within the band.
 constexpr double unsettled_s = 1.0;
 
@@ -19,7 +19,7 @@ class LastExit {
  public:
   LastExit(double band, double from_s, double to_s) : band_(band), from_s_(from_s), to_s_(to_s) {}
 
-  void look(double time_s, const Theta& error) {
+  void observe(double time_s, const Theta& error) {
     // At to_s itself the muscle has already changed.
     if (time_s <= from_s_ || time_s > to_s_ - tick_s / 2.0) return;
     for (int i = 0; i < 4; ++i) {
@@ -44,7 +44,7 @@ class Samples {
  public:
   explicit Samples(double from_s) : from_s_(from_s) {}
 
-  void look(double time_s, const Theta& error) {
+  void observe(double time_s, const Theta& error) {
     const auto& times_s = plotted_s();
     while (squares_.size() < times_s.size() &&
            time_s - from_s_ >= times_s[squares_.size()] - tick_s / 2.0)
@@ -83,30 +83,30 @@ std::optional<Outcome> run(const ContenderKind& kind, const Trial& trial, std::u
   Samples from_rest(0.0);
   Samples after_change(trial.change_at_s);
   Theta squares = Theta::Zero();
-  Theta told = Theta::Zero();
-  double looks = 0.0;
+  Theta variances = Theta::Zero();
+  double samples = 0.0;
   while (!bench.done()) {
-    if (bench.ticks() % ask_every_ticks == 0 && stop) return std::nullopt;
+    if (bench.ticks() % poll_every_ticks == 0 && stop) return std::nullopt;
     const Bench::Tick tick = bench.next();
     contender->step(tick.position_m, tick.power_W);
-    if (bench.ticks() % look_every_ticks != 0) continue;
+    if (bench.ticks() % sample_every_ticks != 0) continue;
     const Theta error = contender->theta().cwiseQuotient(bench.truth()) - Theta::Ones();
-    wide.look(tick.time_s, error);
-    narrow.look(tick.time_s, error);
-    back.look(tick.time_s, error);
-    if (tick.time_s < trial.change_at_s) from_rest.look(tick.time_s, error);
-    if (tick.time_s > trial.change_at_s) after_change.look(tick.time_s, error);
+    wide.observe(tick.time_s, error);
+    narrow.observe(tick.time_s, error);
+    back.observe(tick.time_s, error);
+    if (tick.time_s < trial.change_at_s) from_rest.observe(tick.time_s, error);
+    if (tick.time_s > trial.change_at_s) after_change.observe(tick.time_s, error);
     if (tick.time_s > trial.change_at_s - steady_s && tick.time_s < trial.change_at_s) {
       squares += error.cwiseAbs2();
-      told += contender->standard_deviations().cwiseAbs2();
-      ++looks;
+      variances += contender->standard_deviations().cwiseAbs2();
+      ++samples;
     }
   }
   return Outcome{wide.times_s(),
                  narrow.times_s(),
                  back.times_s(),
-                 (squares / looks).cwiseSqrt(),
-                 (told / looks).cwiseSqrt(),
+                 (squares / samples).cwiseSqrt(),
+                 (variances / samples).cwiseSqrt(),
                  from_rest.squares(),
                  after_change.squares()};
 }

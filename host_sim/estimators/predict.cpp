@@ -7,7 +7,7 @@
 namespace supercoil::host_sim::estimators {
 
 bool predict_extended(Belief& belief, double moving_mass_kg, double power_W, double step_s) {
-  const Moved next = moved_with_derivative(belief.mean, moving_mass_kg, power_W, step_s);
+  const Propagated next = propagated_with_derivative(belief.mean, moving_mass_kg, power_W, step_s);
   belief.mean = next.state;
   belief.covariance = (next.derivative * belief.covariance * next.derivative.transpose()).eval();
   return (belief.covariance.diagonal().array() > 0.0).all() && belief.covariance.allFinite();
@@ -23,12 +23,13 @@ bool predict_unscented(Belief& belief, double moving_mass_kg, double power_W, do
   const Eigen::LLT<Covariance> root(belief.covariance);
   if (root.info() != Eigen::Success) return false;
   const Covariance spread = Covariance(root.matrixL()) * std::sqrt(n_and_kappa);
-  const State centre = moved<double>(belief.mean, moving_mass_kg, power_W, step_s);
+  const State centre = propagated<double>(belief.mean, moving_mass_kg, power_W, step_s);
   control::Matrix<double, state_size, count> points;
   for (int i = 0; i < state_size; ++i) {
-    points.col(i) = moved<double>(belief.mean + spread.col(i), moving_mass_kg, power_W, step_s);
+    points.col(i) =
+        propagated<double>(belief.mean + spread.col(i), moving_mass_kg, power_W, step_s);
     points.col(state_size + i) =
-        moved<double>(belief.mean - spread.col(i), moving_mass_kg, power_W, step_s);
+        propagated<double>(belief.mean - spread.col(i), moving_mass_kg, power_W, step_s);
   }
   belief.mean = weight * points.rowwise().sum() + centre_weight * centre;
   points.colwise() -= centre;

@@ -152,11 +152,11 @@ double damping_identity_error(const control::PowerRange& range) {
         second.step(first.state());
         const double r0 = mrac.r0();
         const control::Vector<double, 6> theta = mrac.theta();
-        const double wanted = mrac.step(in);
+        const double demanded = mrac.step(in);
         const double filtered = second.state()[0];
         largest = std::fmax(largest, std::abs(filtered - theta.dot(mrac.phi()) - r0));
         scale = std::fmax(scale, std::abs(filtered));
-        return wanted;
+        return demanded;
       },
       Target::model, control::wm16_model(), Signal::sine, range, [](const Moment&) {});
   return largest / scale;

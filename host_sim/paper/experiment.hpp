@@ -84,9 +84,9 @@ void run(Law&& law, Target target, const control::ReferenceModelSettings& model_
     in.model = target == Target::model
                    ? model.motion()
                    : control::ModelMotion<double>{in.reference, slope(signal, t), 0.0};
-    const double wanted = law(in);
-    in.applied = range.clip(wanted);
-    in.limited = in.applied != wanted;
+    const double demanded = law(in);
+    in.applied = range.clip(demanded);
+    in.limited = in.applied != demanded;
     observe(Moment{t, in.reference, in.model.position, in.position, in.applied});
     plant.step(in.applied);
   }

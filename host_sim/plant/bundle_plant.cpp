@@ -40,7 +40,7 @@ void BundlePlant::slow_step(std::span<const double> power_W, double load_N) {
   }
   load_.move(all);
   for (MuscleBody& body : bodies_)
-    body.moved(0.5 * (before_m + load_.position_m()));
+    body.step_creep(0.5 * (before_m + load_.position_m()));
 }
 
 }  // namespace supercoil::host_sim

@@ -70,7 +70,7 @@ Motion GuideFriction::step(const Motion& from, const Drive& drive, const Mechani
   const int parts = std::max(1, static_cast<int>(needed));
   const double h = step_s / parts;
   State s{from.position_m, from.velocity_m_per_s, bristle_m_};
-  const auto moved = [&s](const State& slope, double by) {
+  const auto advanced = [&s](const State& slope, double by) {
     return State{s.position_m + by * slope.position_m,
                  s.velocity_m_per_s + by * slope.velocity_m_per_s,
                  s.bristle_m + by * slope.bristle_m};
@@ -85,9 +85,9 @@ Motion GuideFriction::step(const Motion& from, const Drive& drive, const Mechani
     };
     const double middle = at(0.5);
     const State k1 = slope(s, stiffness(at(0.0)), force(at(0.0)));
-    const State k2 = slope(moved(k1, 0.5 * h), stiffness(middle), force(middle));
-    const State k3 = slope(moved(k2, 0.5 * h), stiffness(middle), force(middle));
-    const State k4 = slope(moved(k3, h), stiffness(at(1.0)), force(at(1.0)));
+    const State k2 = slope(advanced(k1, 0.5 * h), stiffness(middle), force(middle));
+    const State k3 = slope(advanced(k2, 0.5 * h), stiffness(middle), force(middle));
+    const State k4 = slope(advanced(k3, h), stiffness(at(1.0)), force(at(1.0)));
     s.position_m +=
         h / 6.0 * (k1.position_m + 2.0 * (k2.position_m + k3.position_m) + k4.position_m);
     s.velocity_m_per_s += h / 6.0 *

@@ -79,7 +79,7 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   move(drives, load_N);
   const double after_m = position_m();
   for (std::size_t i = 0; i < drives.size(); ++i)
-    bodies_[i].moved(0.5 * direction_[i] * (before_m + after_m) + slack_m_[i]);
+    bodies_[i].step_creep(0.5 * direction_[i] * (before_m + after_m) + slack_m_[i]);
 }
 
 JointPlant::Leverage JointPlant::leverage(double reading_m) const {

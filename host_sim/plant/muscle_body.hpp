@@ -24,7 +24,7 @@ class MuscleBody {
   /// the muscle.
   Drive step(double power_W, double load_N, double position_m);
   /// Reports the mass's mean position over that step.
-  void moved(double mean_position_m) { creep_.step(mean_position_m); }
+  void step_creep(double mean_position_m) { creep_.step(mean_position_m); }
 
   double rise_K() const { return heat_.rise_K(); }
   double peak_rise_K() const { return peak_K_; }

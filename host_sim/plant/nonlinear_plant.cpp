@@ -37,7 +37,7 @@ void NonlinearPlant::slow_step(double power_W, double load_N) {
   const double before_m = load_.position_m();
   load_.move(body_.step(power_W, load_N, before_m));
   heat_loss_J_ += body_.heat_loss_J();
-  body_.moved(0.5 * (before_m + load_.position_m()));
+  body_.step_creep(0.5 * (before_m + load_.position_m()));
 }
 
 }  // namespace supercoil::host_sim

@@ -14,7 +14,7 @@ class RunPlot {
  public:
   explicit RunPlot(const Scenario& scenario);
 
-  bool wants(std::int64_t tick) const { return tick % every_ == 0; }
+  bool is_due(std::int64_t tick) const { return tick % every_ == 0; }
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
   Figure figure() const;
 

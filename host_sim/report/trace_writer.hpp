@@ -28,7 +28,7 @@ class TraceWriter {
   virtual ~TraceWriter() = default;
 
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
-  bool wants(std::int64_t tick) const { return tick % every_ == 0; }
+  bool is_due(std::int64_t tick) const { return tick % every_ == 0; }
   /// The error says why the file is not complete.
   Result<void> finish();
 

@@ -328,7 +328,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
       board.channels.push_back(companion_of(scenario, board.channels[0], i, simulated.channels[i]));
     add_bundle(board, {simulated.bundles[0]});
   } else if (c.joint) {
-    channel.joint = turned_by_one(c.joint->plant);
+    channel.joint = single_muscle_place(c.joint->plant);
   }
   // From the sensor's reading to how far the muscles contract there.
   for (ChannelSettings& each : board.channels) {

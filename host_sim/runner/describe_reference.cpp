@@ -59,7 +59,7 @@ std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
 /// When it is infeasible, by how much, and what follows.
 std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) {
   const std::string lasts =
-      f.first_ends ? " for " + in_digits(f.first_lasts_s) + " s until the muscle has caught up"
+      f.first_ends ? " for " + in_digits(f.first_duration_s) + " s until the muscle has caught up"
                    : ", and the muscle does not catch up";
   return "asks for more than the muscle can do, first at " + in_digits(f.first_s) + " s" + lasts +
          ", when " + cause_text(f, c) + "; it falls behind by up to " + in_mm(f.behind_m) +
@@ -77,7 +77,7 @@ std::string end_text(const ReferenceFeasibility& f) {
 /// Shaping does not know of a load that pulls at the muscle, which then gets no more power.
 bool shaping_would_do(const Conditions& c, LimitedBy limited_by) {
   if (c.controller.shape_reference) return false;
-  return !is_of_heat(limited_by) || c.plant.load_N <= 0.0;
+  return !is_thermal(limited_by) || c.plant.load_N <= 0.0;
 }
 
 /// Which motion would be feasible instead of the sines.
@@ -114,7 +114,7 @@ std::string describe_reference(const Scenario& scenario) {
 
 std::string describe_passed(const Scenario& scenario) {
   const auto f = reference_feasibility(scenario);
-  if (!f || !f->passes_little()) return {};
+  if (!f || !f->attenuates()) return {};
   std::string text = "the reference model passes " + in_digits(f->passed_ratio);
   text += " of its amplitude: a muscle that follows the model is " + in_mm(f->off_reference_rms_m);
   text += " rms from the reference itself";
@@ -135,16 +135,16 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
       text.data(), text.size(),
       "the reference asked for more than the muscle can do, first at %.1f s for %.3g s and "
       "in %.1f %% of all ticks that followed it",
-      found.first_s(), found.first_lasts_s(), 100.0 * found.ratio());
+      found.first_s(), found.first_duration_s(), 100.0 * found.ratio());
   std::string line = text.data();
   if (before != nullptr && !before->changes.empty())
     line += ", after the event at " + number_text(before->at_s, 6) + " s (" + before->changes + ")";
-  line += ", mostly limited_by " + std::string(name(found.mostly_by()));
+  line += ", mostly limited_by " + std::string(name(found.main_limit()));
   const Conditions& then = before != nullptr ? before->conditions : scenario.start;
   return line +
-         (is_of_heat(found.mostly_by()) ? ": use a smaller reference"
-                                        : ": use a slower or smaller reference") +
-         (shaping_would_do(then, found.mostly_by()) ? ", or shape_reference = true" : "");
+         (is_thermal(found.main_limit()) ? ": use a smaller reference"
+                                         : ": use a slower or smaller reference") +
+         (shaping_would_do(then, found.main_limit()) ? ", or shape_reference = true" : "");
 }
 
 std::string describe_out_of_range(const Scenario& scenario) {

@@ -31,7 +31,7 @@ double FirstMotionRun::reference_m(double time_s) const {
   return since_s < motion_.end_s() ? motion_.at(since_s) : NAN;
 }
 
-void FirstMotionRun::judge(double time_s, const Snapshot& snapshot) {
+void FirstMotionRun::update(double time_s, const Snapshot& snapshot) {
   const double since_s = time_s - begin_s_;
   ended_ = ended_ || since_s >= motion_.end_s();
   if (ended_ || since_s < motion_.settled_s()) return;

@@ -19,7 +19,7 @@ class FirstMotionRun {
   /// The reference; NaN: the motion is over.
   double reference_m(double time_s) const;
   /// Call after each tick of the motion.
-  void judge(double time_s, const Snapshot& snapshot);
+  void update(double time_s, const Snapshot& snapshot);
 
   /// NaN: the controller's law promises none.
   double promised_rms_m() const { return promised_rms_m_; }

@@ -14,7 +14,7 @@
 namespace supercoil::host_sim {
 
 /// Limits of heat: a muscle known to be colder, or proven further, would get more power.
-constexpr bool is_of_heat(LimitedBy limit) {
+constexpr bool is_thermal(LimitedBy limit) {
   return limit == LimitedBy::temperature || limit == LimitedBy::unproven;
 }
 
@@ -23,10 +23,11 @@ constexpr bool is_of_heat(LimitedBy limit) {
 class InfeasibleTime {
  public:
   void add(LimitedBy limit, double time_s) { add(limit, is_infeasible(limit), time_s); }
-  /// asked: the reference asks for too much, at a limit or not; the infeasible time lasts as long.
-  void add(LimitedBy limit, bool asked, double time_s) {
+  /// excessive: the reference asks for too much, at a limit or not; the infeasible time lasts as
+  /// long.
+  void add(LimitedBy limit, bool excessive, double time_s) {
     ++following_;
-    if (!asked) return interrupt();
+    if (!excessive) return interrupt();
     if (std::isnan(since_s_)) since_s_ = time_s;
     if (!is_infeasible(limit)) return leave_limit();
     if (std::isnan(at_limit_since_s_)) at_limit_since_s_ = time_s;
@@ -53,10 +54,10 @@ class InfeasibleTime {
   /// When the reference first became infeasible; NaN: never.
   double first_s() const { return first_s_; }
   /// From then to the last infeasible tick without a break.
-  double first_lasts_s() const { return first_until_s_ - first_s_; }
+  double first_duration_s() const { return first_until_s_ - first_s_; }
   bool first_ended() const { return since_s_ != first_s_; }
   /// The limit that held for most of the infeasible time.
-  LimitedBy mostly_by() const {
+  LimitedBy main_limit() const {
     return static_cast<LimitedBy>(std::ranges::max_element(counted_) - counted_.begin());
   }
 

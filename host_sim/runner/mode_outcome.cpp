@@ -8,7 +8,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-bool asks_for_mode(const Conditions& c) {
+bool is_mode_request(const Conditions& c) {
   return c.action == OperatorAction::identify || c.action == OperatorAction::calibrate;
 }
 
@@ -22,14 +22,14 @@ std::string describe_mode(const Snapshot& snapshot) {
 }
 
 std::string mode_failed_because(const Scenario& scenario, const Simulation& simulation) {
-  const bool asked =
-      asks_for_mode(scenario.start) || std::ranges::any_of(scenario.events, [](const Event& event) {
-        return asks_for_mode(event.conditions);
-      });
+  const bool requested = is_mode_request(scenario.start) ||
+                         std::ranges::any_of(scenario.events, [](const Event& event) {
+                           return is_mode_request(event.conditions);
+                         });
   const Snapshot& snapshot = simulation.loop().channel(0).snapshot();
   const bool found =
       snapshot.result == ModeResult::found || snapshot.result == ModeResult::not_stored;
-  return asked && !found ? describe_mode(snapshot) : std::string();
+  return requested && !found ? describe_mode(snapshot) : std::string();
 }
 
 }  // namespace supercoil::host_sim

@@ -1,8 +1,8 @@
 // What a reference asks of a muscle over time, whatever the loop does.
 #pragma once
 
-#include "runner/power_left.hpp"
-#include "runner/wanted_motion.hpp"
+#include "runner/available_power.hpp"
+#include "runner/demanded_motion.hpp"
 #include "scenario/scenario.hpp"
 
 namespace supercoil::host_sim {
@@ -11,10 +11,11 @@ namespace supercoil::host_sim {
 /// motion needs.
 class ReferenceDemand {
  public:
-  /// load_N stretches the muscle. left: at the beginning of a scenario. tolerated_ratio: tolerated
-  /// excess beyond a limit over the maximum power, while the muscle is not behind.
+  /// load_N stretches the muscle. available: at the beginning of a scenario. tolerated_ratio:
+  /// tolerated excess beyond a limit over the maximum power, while the muscle is not behind.
   ReferenceDemand(const Conditions& c, const control::PhysicalParameters& muscle, double load_N,
-                  const PowerLeft& left, double step_s, double tolerated_ratio = rounding_ratio);
+                  const AvailablePower& available, double step_s,
+                  double tolerated_ratio = rounding_ratio);
 
   /// The motion begins here, at rest.
   void start_at(double position_m) { motion_.start_at(position_m); }
@@ -29,8 +30,8 @@ class ReferenceDemand {
   /// Over the step that begins now.
   Excess step(double reference_m);
 
-  double asked_m() const { return motion_.asked_m(); }
-  double behind_m() const { return motion_.asked_m() - motion_.shaped_m() + lag_.behind_m(); }
+  double demanded_m() const { return motion_.demanded_m(); }
+  double behind_m() const { return motion_.demanded_m() - motion_.shaped_m() + lag_.behind_m(); }
 
  private:
   static constexpr double rounding_ratio = 1e-9;
@@ -42,10 +43,10 @@ class ReferenceDemand {
   double given_ratio_;  ///< power that arrives over power given
   double gain_m_per_W_;
   double load_W_;
-  WantedMotion motion_;
+  DemandedMotion motion_;
   Lag lag_;
-  PowerLeft left_;
-  PowerLeft::Most cold_;
+  AvailablePower available_;
+  AvailablePower::Limit cold_;
 };
 
 }  // namespace supercoil::host_sim

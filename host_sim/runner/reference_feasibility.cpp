@@ -13,8 +13,8 @@
 
 #include "config/recommended_controller.hpp"
 #include "loop/feasibility.hpp"
+#include "runner/available_power.hpp"
 #include "runner/board_of.hpp"
-#include "runner/power_left.hpp"
 #include "runner/reference_demand.hpp"
 
 namespace supercoil::host_sim {
@@ -47,13 +47,13 @@ std::complex<double> response(const control::ReferenceModelSettings& model,
 }
 
 double passed_ratio(const control::ReferenceModelSettings& model, const Reference& reference) {
-  double asked_m = 0.0;
+  double demanded_m = 0.0;
   double passed_m = 0.0;
   for (const auto& [amplitude_m, angular_frequency_rad_per_s] : reference.terms) {
-    asked_m += std::abs(amplitude_m);
+    demanded_m += std::abs(amplitude_m);
     passed_m += std::abs(amplitude_m) * std::abs(response(model, angular_frequency_rad_per_s));
   }
-  return asked_m > 0.0 ? passed_m / asked_m : 1.0;
+  return demanded_m > 0.0 ? passed_m / demanded_m : 1.0;
 }
 
 double off_reference_rms_m(const control::ReferenceModelSettings& model,
@@ -114,7 +114,7 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
     amplitude_m += std::abs(term.amplitude);
   const double held_ratio = (f.held_m - c.reference.offset) / amplitude_m;
   // However slow the motion is, the muscle stays there for long.
-  const bool too_far = is_of_heat(f.limited_by) && held_ratio < 1.0;
+  const bool too_far = is_thermal(f.limited_by) && held_ratio < 1.0;
   if (too_far) f.feasible_motion_ratio = std::fmin(f.feasible_motion_ratio, held_ratio);
   f.feasible_motion_ratio = std::clamp(f.feasible_motion_ratio, 0.0, 1.0);
   if (f.feasible_motion_ratio < 1.0)
@@ -122,17 +122,17 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
 }
 
 /// Finds when, for how long and by how much it asks too much, how far it leads, and how it ends.
-void find_infeasible(const Conditions& c, double duration_s, double step, const PowerLeft& left,
-                     double saturated_s, ReferenceFeasibility& f) {
+void find_infeasible(const Conditions& c, double duration_s, double step,
+                     const AvailablePower& available, double saturated_s, ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
-  ReferenceDemand demand(c, c.muscle, c.plant.load_N, left, step);
+  ReferenceDemand demand(c, c.muscle, c.plant.load_N, available, step);
   InfeasibleTime found;
   std::array<double, limit_names.size()> excess_W{};
   double met_s = 0.0;  ///< from then on it lacks power
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
     const auto [by, by_W, unmet] = demand.step(c.reference.at(time_s));
-    f.max_m = std::fmax(f.max_m, demand.asked_m());
+    f.max_m = std::fmax(f.max_m, demand.demanded_m());
     f.behind_m = std::fmax(f.behind_m, std::abs(demand.behind_m()));
     found.add(by, time_s);
     double& excess = excess_W.at(static_cast<std::size_t>(by));
@@ -144,9 +144,9 @@ void find_infeasible(const Conditions& c, double duration_s, double step, const 
   f.infeasible_ratio = found.ratio();
   if (!found.found()) return;
   f.first_s = found.first_s();
-  f.first_lasts_s = found.first_lasts_s() + step;
+  f.first_duration_s = found.first_duration_s() + step;
   f.first_ends = found.first_ended();
-  f.limited_by = found.mostly_by();
+  f.limited_by = found.main_limit();
   f.excess_W = excess_W.at(static_cast<std::size_t>(f.limited_by));
 }
 
@@ -175,11 +175,12 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
         passed_ratio(suits.in_place_of(c.controller).model, c.reference);
   }
   const double step = step_s(c.reference);
-  const PowerLeft left(board, c.power.supply_V, step);
+  const AvailablePower available(board, c.power.supply_V, step);
   // An event may change all of it.
   const double end_s = scenario.events.empty() ? scenario.duration_s : scenario.events[0].at_s;
-  find_infeasible(c, end_s, step, left, channel.supervision.saturated_s, f);
-  if (is_periodic(c.reference) && !f.feasible()) find_feasible_motion(c, left.cold().power_W, f);
+  find_infeasible(c, end_s, step, available, channel.supervision.saturated_s, f);
+  if (is_periodic(c.reference) && !f.feasible())
+    find_feasible_motion(c, available.cold().power_W, f);
   return f;
 }
 

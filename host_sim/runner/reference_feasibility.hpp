@@ -17,8 +17,8 @@ struct ReferenceFeasibility {
   /// When it first asks for more than the muscle can do for infeasible_lasts_s or longer without a
   /// break; NaN: never. The muscle has caught up when its heat is what the motion needs.
   double first_s = NAN;
-  double first_lasts_s = NAN;  ///< from then until it has caught up
-  bool first_ends = true;      ///< the muscle catches up within the time examined
+  double first_duration_s = NAN;  ///< from then until it has caught up
+  bool first_ends = true;         ///< the muscle catches up within the time examined
   /// The limit that it exceeds for most of the infeasible time, and the largest excess.
   LimitedBy limited_by = LimitedBy::nothing;
   double excess_W = 0.0;
@@ -42,7 +42,7 @@ struct ReferenceFeasibility {
   double passed_by_recommended_ratio = 1.0;  ///< with the recommended reference model
   double off_reference_rms_m = 0.0;
   /// So little passes that following the model does not mean following the reference.
-  bool passes_little() const { return passed_ratio < 0.9; }
+  bool attenuates() const { return passed_ratio < 0.9; }
 
   bool feasible() const { return std::isnan(first_s); }
   /// The muscle cannot be held as far as the reference leads.

@@ -18,7 +18,7 @@ class ErrorMeter {
   }
   double square_sum() const { return square_sum_; }
   double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
-  double largest() const { return max_; }
+  double max() const { return max_; }
   std::int64_t count() const { return count_; }
 
  private:
@@ -72,8 +72,8 @@ class PowerNoiseMeter {
   void interrupt() { last_s_ = NAN; }
   /// NaN: a position was followed for too short a time.
   double rms_W() const {
-    constexpr std::size_t least_windows = 5;
-    if (windows_W_.size() < least_windows) return NAN;
+    constexpr std::size_t min_windows = 5;
+    if (windows_W_.size() < min_windows) return NAN;
     std::vector<double> sorted = windows_W_;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());

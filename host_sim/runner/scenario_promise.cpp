@@ -27,7 +27,7 @@ std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario) {
   const Sinusoid& sine = reference.terms.front();
   if (sine.amplitude == 0.0 || sine.angular_frequency_rad_per_s == 0.0) return std::nullopt;
   // The muscle is only asked to follow what passes the reference model.
-  const double left_ratio = f->passes_little() ? f->passed_ratio : 1.0;
+  const double left_ratio = f->attenuates() ? f->passed_ratio : 1.0;
   return FirstMotion{reference.offset, left_ratio * std::abs(sine.amplitude),
                      2.0 * std::numbers::pi / std::abs(sine.angular_frequency_rad_per_s)};
 }

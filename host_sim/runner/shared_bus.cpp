@@ -11,9 +11,9 @@ SharedBus::SharedBus(std::vector<Simulation*> boards, Listener listener)
       const hal::Time since_start = frame.received - sender->start();
       for (Simulation* board : boards_) {
         if (board == sender) continue;
-        hal::CanFrame heard = frame;
-        heard.received = since_start + board->start();
-        board->bus()->deliver(heard);
+        hal::CanFrame received = frame;
+        received.received = since_start + board->start();
+        board->bus()->deliver(received);
       }
       listener_(frame, since_start);
     });

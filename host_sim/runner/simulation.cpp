@@ -39,12 +39,12 @@ Simulation::Simulation(const Scenario& scenario)
 }
 
 void Simulation::boot() {
-  const bool wants = arms(conditions_->action);
+  const bool arms_now = arms(conditions_->action);
   boot_for(boot_s);
   const auto waits = [this] {
     return loop_.self_test().passed() && loop_.channel(0).state().state() == State::disarmed;
   };
-  if (wants && waits()) {
+  if (arms_now && waits()) {
     for (int i = 0; i < max_waits && waits(); ++i)
       boot_for(1.0);
     boot_for(boot_s);
@@ -59,8 +59,8 @@ void Simulation::boot_for(double time_s) {
     // Requested at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
-    const bool wants = arms(conditions_->action);
-    if (ready && disarmed && wants) send(Verb::arm);
+    const bool arms_now = arms(conditions_->action);
+    if (ready && disarmed && arms_now) send(Verb::arm);
     executive_.run_tick();
     housekeep();
   }
@@ -126,14 +126,14 @@ void Simulation::change_joint(const Conditions& before) {
   // The user's own board has a range for each channel, which no event changes.
   if (!scenario_->board)
     loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
-  const double wanted_W = antagonist->co_contraction_W;
-  if (wanted_W == before.antagonist()->co_contraction_W) return;
+  const double new_W = antagonist->co_contraction_W;
+  if (new_W == before.antagonist()->co_contraction_W) return;
   // The operator commands it in watts of the antagonist.
   const double gain_ratio =
       firmware_of(*scenario_)
           .joints[0]
           .gain_ratio(loop_.channel(0).dc_gain_m_per_W(), loop_.channel(1).dc_gain_m_per_W());
-  loop_.send({1, Verb::power, wanted_W / gain_ratio});
+  loop_.send({1, Verb::power, new_W / gain_ratio});
 }
 
 void Simulation::change_companions() {
@@ -194,14 +194,14 @@ double Simulation::reference_at(double time_s) {
 }
 
 /// Before a first motion, where a mode is renewed until it ends by itself, and after it.
-void Simulation::ask_for_rest() {
+void Simulation::command_rest() {
   const bool mode =
       last_action_ == OperatorAction::identify || last_action_ == OperatorAction::calibrate;
   if (loop_.channel(0).state().state() == State::active) send(mode ? Verb::renew : Verb::rest);
 }
 
 /// As a master does: renews the command every tick.
-void Simulation::ask(double reference) {
+void Simulation::renew_command(double reference) {
   if (conditions_->injected_faults.commands_stop || conditions_->action == OperatorAction::none)
     return;
   const State state = loop_.channel(0).state().state();
@@ -217,16 +217,16 @@ void Simulation::ask(double reference) {
     case OperatorAction::identify:
     case OperatorAction::calibrate: {
       // Only once: the mode ends by itself and is not requested again.
-      const bool asked = last_action_ == conditions_->action;
+      const bool requested = last_action_ == conditions_->action;
       const Verb verb =
           conditions_->action == OperatorAction::identify ? Verb::identify : Verb::calibrate;
-      if (!asked) send(Verb::rest);
-      if (!asked) send(verb);
-      if (asked && state == State::active) send(Verb::renew);
+      if (!requested) send(Verb::rest);
+      if (!requested) send(verb);
+      if (requested && state == State::active) send(Verb::renew);
       break;
     }
     case OperatorAction::first_motion:
-      if (std::isnan(reference)) return ask_for_rest();
+      if (std::isnan(reference)) return command_rest();
       send(Verb::position, reference);
       break;
     case OperatorAction::rest:
@@ -254,10 +254,10 @@ const TickRecord& Simulation::step() {
     apply_event(scenario_->events[next_event_++]);
   }
   const double reference = reference_at(time_s);
-  ask(reference);
+  renew_command(reference);
   executive_.run_tick();
   housekeep();
-  if (first_motion_) first_motion_->judge(time_s, loop_.channel(0).snapshot());
+  if (first_motion_) first_motion_->update(time_s, loop_.channel(0).snapshot());
   ++tick_;
   record(time_s, reference);
   return record_;
@@ -274,16 +274,16 @@ LimitedBy Simulation::reference_limited_by() {
   if (c.antagonist() != nullptr)
     return is_infeasible(s.limited_by) ? s.limited_by : loop_.channel(1).snapshot().limited_by;
   if (!demand_) {
-    const PowerLeft left(firmware_of(*scenario_), c.power.supply_V, step_s_);
+    const AvailablePower available(firmware_of(*scenario_), c.power.supply_V, step_s_);
     // Noise shifts the start of a model by this much; a shaped model moves along its limit.
     const double tolerated_ratio = c.controller.shape_reference ? 1e-9 : 0.02;
-    demand_.emplace(c, true_muscle(c), c.plant.load_N, left, step_s_, tolerated_ratio);
+    demand_.emplace(c, true_muscle(c), c.plant.load_N, available, step_s_, tolerated_ratio);
     demand_->start_at(s.model_m);
   }
   const LimitedBy by = demand_->step(s.reference).by;
   if (by != LimitedBy::nothing) return by;
   // The board knows the heat better, and which power it could prove.
-  return is_of_heat(s.limited_by) ? s.limited_by : LimitedBy::nothing;
+  return is_thermal(s.limited_by) ? s.limited_by : LimitedBy::nothing;
 }
 
 void Simulation::record(double time_s, double reference) {
@@ -307,8 +307,8 @@ void Simulation::record(double time_s, double reference) {
   r.commands_power = conditions_->controller.kind == control::ControllerKind::power;
   r.state = s.state;
   r.fault = s.fault;
-  const bool told = s.fault != Fault::none && s.margin_selector == s.fault && s.margin.judged;
-  r.fault_margin = told ? s.margin : detectors::Margin{.measured = NAN, .limit = NAN};
+  const bool has_margin = s.fault != Fault::none && s.margin_selector == s.fault && s.margin.judged;
+  r.fault_margin = has_margin ? s.margin : detectors::Margin{.measured = NAN, .limit = NAN};
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
   r.reference_limited_by = reference_limited_by();

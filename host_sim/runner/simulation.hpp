@@ -145,8 +145,8 @@ class Simulation {
   double rise_K(std::size_t channel) const;
   /// The reference at this tick; NaN: none. Begins a first motion when the muscle is armed.
   double reference_at(double time_s);
-  void ask(double reference);
-  void ask_for_rest();
+  void renew_command(double reference);
+  void command_rest();
   void send(Verb verb, double value = 0.0);
   void housekeep();
   void pass_rows();

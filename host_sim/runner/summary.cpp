@@ -57,10 +57,10 @@ ordered_json mode_result_json(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < identify_note_names.size(); ++i) {
     if ((snapshot.identify_notes >> i & 1U) != 0) notes.push_back(identify_note_names.at(i));
   }
-  const std::string told = describe_mode(snapshot);
+  const std::string text = describe_mode(snapshot);
   return {{"result", mode_result_names.at(static_cast<std::size_t>(snapshot.result))},
           {"notes", notes},
-          {"told", told.empty() ? ordered_json() : ordered_json(told)}};
+          {"told", text.empty() ? ordered_json() : ordered_json(text)}};
 }
 
 ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {
@@ -93,7 +93,7 @@ std::string fault_text(Fault fault) {
          "; " + page_of(fault);
 }
 
-std::string Summary::FaultAt::text() const {
+std::string Summary::FaultEvent::text() const {
   std::array<char, 64> at{};
   std::snprintf(at.data(), at.size(), " at %.3f s", time_s);
   std::string line = "fault " + std::to_string(static_cast<int>(fault)) + " ";
@@ -120,8 +120,8 @@ std::string Summary::never_armed_because(const Scenario& scenario,
 
 std::string Summary::did_not_follow_because(const Scenario& scenario) const {
   // A motion that has just begun is small, and its error is largest at the beginning.
-  constexpr double least_s = 10.0;
-  if (static_cast<double>(tracking_.count()) * scenario.step_s() < least_s) return {};
+  constexpr double min_s = 10.0;
+  if (static_cast<double>(tracking_.count()) * scenario.step_s() < min_s) return {};
   const auto promise = scenario_promise(scenario);
   const double limit_m = unfollowed_m(promise, motion_.size_m());
   if (!(tracking_.rms() > limit_m)) return {};
@@ -144,10 +144,10 @@ std::string Summary::did_not_follow_because(const Scenario& scenario) const {
 }
 
 double Summary::limit_cycle_period_s(const Scenario& scenario) const {
-  double longest_s = scenario.start.reference.shortest_s();
+  double max_period_s = scenario.start.reference.min_period_s();
   for (const Event& event : scenario.events)
-    longest_s = std::fmin(longest_s, event.conditions.reference.shortest_s());
-  return limit_cycle_.period_s(longest_s);
+    max_period_s = std::fmin(max_period_s, event.conditions.reference.min_period_s());
+  return limit_cycle_.period_s(max_period_s);
 }
 
 bool Summary::behind_by_reference() const {
@@ -174,7 +174,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["window_s"] = {window_.from_s,
                       std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
-  json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  json["tracking_max_m"] = measured ? finite(tracking_.max()) : nullptr;
   json["off_reference_rms_m"] = measured ? finite(off_reference_.rms()) : nullptr;
   json["tracking_shown_rms_m"] = measured ? finite(shown_.rms()) : nullptr;
   const auto promise = scenario_promise(scenario);
@@ -189,7 +189,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
     const double deg_per_m =
         180.0 / std::numbers::pi / scenario.start.joint->plant.lever.zero_radius_m();
     json["tracking_rms_deg"] = measured ? finite(tracking_.rms() * deg_per_m) : nullptr;
-    json["tracking_max_deg"] = measured ? finite(tracking_.largest() * deg_per_m) : nullptr;
+    json["tracking_max_deg"] = measured ? finite(tracking_.max() * deg_per_m) : nullptr;
   }
   const auto estimate = simulation.estimate();
   json["estimates"] =
@@ -198,7 +198,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   const std::string never_armed = never_armed_because(scenario, simulation);
   json["never_armed_because"] = never_armed.empty() ? ordered_json() : ordered_json(never_armed);
   json["faults"] = ordered_json::array();
-  for (const FaultAt& f : faults_) {
+  for (const FaultEvent& f : faults_) {
     json["faults"].push_back({{"told", f.text()},
                               {"at_s", f.time_s},
                               {"number", static_cast<int>(f.fault)},
@@ -231,7 +231,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   const InfeasibleTime* too_much = infeasible();
   json["infeasible_ratio"] = too_much != nullptr ? finite(too_much->ratio()) : nullptr;
   json["infeasible_from_s"] = too_much != nullptr ? finite(too_much->first_s()) : nullptr;
-  json["infeasible_lasts_s"] = too_much != nullptr ? finite(too_much->first_lasts_s()) : nullptr;
+  json["infeasible_lasts_s"] = too_much != nullptr ? finite(too_much->first_duration_s()) : nullptr;
   json["unasked_limit_ratio"] = finite(unasked_limit_ratio());
   json["limit_cycle_period_s"] = finite(limit_cycle_period_s(scenario));
   json["power_noise_W"] = finite(power_noise_W());

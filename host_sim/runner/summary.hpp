@@ -86,7 +86,7 @@ class Summary {
   /// Ticks at which the muscle, or another one of its joint or bundle, was outside the firmware's
   /// bounds of its temperature.
   std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
-  struct FaultAt {
+  struct FaultEvent {
     Fault fault;
     double time_s;
     detectors::Margin margin;
@@ -94,7 +94,7 @@ class Summary {
     std::string text() const;
   };
   /// In the order in which they latched.
-  const std::vector<FaultAt>& faults() const { return faults_; }
+  const std::vector<FaultEvent>& faults() const { return faults_; }
   std::int64_t ticks() const { return ticks_; }
   const LimitCount& limits() const { return limits_; }
   /// Limits of a joint's other muscle; all 0 without one.
@@ -125,7 +125,7 @@ class Summary {
   }
   /// Whether power_noise_W() shows noise: not if much of the reference was infeasible, because
   /// adaptive laws have then learned wrong.
-  bool tells_noise() const { return !(infeasible_.ratio() > diverged_ratio); }
+  bool has_power_noise() const { return !(infeasible_.ratio() > diverged_ratio); }
   /// When the reference asked for more than the muscle can do, and was shaped or cut. Null:
   /// unknown, because an oscillating loop asks for too much by itself.
   const InfeasibleTime* infeasible() const { return oscillated() ? nullptr : &infeasible_; }
@@ -145,13 +145,13 @@ class Summary {
 
   void add_limit(const TickRecord& record) {
     const auto& other = record.antagonist;
-    const bool others = other && !is_infeasible(record.limited_by);
-    const LimitedBy by = others ? other->limited_by : record.limited_by;
-    const bool asked = is_infeasible(record.reference_limited_by);
-    infeasible_.add(by, asked, record.time_s);
-    unasked_limit_.add(asked || is_of_heat(by) ? LimitedBy::nothing : by, record.time_s);
-    if (!asked) limit_cycle_.add(by, record.time_s);
-    if (asked) return power_noise_.interrupt();
+    const bool by_antagonist = other && !is_infeasible(record.limited_by);
+    const LimitedBy by = by_antagonist ? other->limited_by : record.limited_by;
+    const bool excessive = is_infeasible(record.reference_limited_by);
+    infeasible_.add(by, excessive, record.time_s);
+    unasked_limit_.add(excessive || is_thermal(by) ? LimitedBy::nothing : by, record.time_s);
+    if (!excessive) limit_cycle_.add(by, record.time_s);
+    if (excessive) return power_noise_.interrupt();
     power_noise_.add(record.time_s, record.clipped_power_W);
   }
   /// Whether most of the error arose where the reference asked for too much.
@@ -161,8 +161,9 @@ class Summary {
     if (record.fault != fault_ && record.fault != Fault::none) {
       faults_.push_back({record.fault, record.time_s, record.fault_margin});
     }
-    const bool of_board = record.board_fault != board_fault_ && record.board_fault != Fault::none;
-    if (of_board && record.board_fault != record.fault) {
+    const bool is_board_fault =
+        record.board_fault != board_fault_ && record.board_fault != Fault::none;
+    if (is_board_fault && record.board_fault != record.fault) {
       faults_.push_back({record.board_fault, record.time_s, {.measured = NAN, .limit = NAN}});
     }
     fault_ = record.fault;
@@ -172,7 +173,7 @@ class Summary {
   Window window_;
   Fault fault_ = Fault::none;
   Fault board_fault_ = Fault::none;
-  std::vector<FaultAt> faults_;
+  std::vector<FaultEvent> faults_;
   std::int64_t outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
   ErrorMeter shown_;

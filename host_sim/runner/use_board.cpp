@@ -134,15 +134,15 @@ Result<std::optional<JointSettings>> find_joint(const Conditions& c, const Board
 Result<std::optional<BundleSettings>> find_bundle(const Conditions& c, const BoardSettings& board,
                                                   std::size_t channel) {
   const BundleSettings* found = board.bundle_of(channel);
-  const std::size_t wanted = c.companions.size() + 1;
-  const std::size_t there = found == nullptr ? 1 : found->channels.size();
-  if (wanted == there) return found == nullptr ? std::nullopt : std::optional(*found);
+  const std::size_t expected = c.companions.size() + 1;
+  const std::size_t actual = found == nullptr ? 1 : found->channels.size();
+  if (expected == actual) return found == nullptr ? std::nullopt : std::optional(*found);
   std::ostringstream why;
   why << "channel " << channel + 1 << " of the board's file "
       << (found == nullptr ? "is in no [[bundle]]" : "is in a [[bundle]]");
-  if (found != nullptr) why << " of " << there << " muscles";
-  why << ", but the scenario has " << (wanted == 1 ? "no [bundle]" : "a [bundle]");
-  if (wanted > 1) why << " of " << wanted;
+  if (found != nullptr) why << " of " << actual << " muscles";
+  why << ", but the scenario has " << (expected == 1 ? "no [bundle]" : "a [bundle]");
+  if (expected > 1) why << " of " << expected;
   return failure(why.str());
 }
 

@@ -44,7 +44,7 @@ struct JointConditions {
 };
 
 /// Place in a joint without an antagonist, as on a board that knows of the joint.
-inline PlaceInJoint turned_by_one(const JointPlantSettings& joint) {
+inline PlaceInJoint single_muscle_place(const JointPlantSettings& joint) {
   PlaceInJoint place{.direction = 1, .lever = joint.lever};
   if (joint.spring_pretensions) return place;
   place.weight_Nm = joint.weight_Nm;

@@ -39,7 +39,7 @@ std::vector<PlantSettings> read_companions(const toml::table& document, Diagnost
       if (own.has(key)) own.wrong(key, "applies to the whole bundle: set it in [plant]");
     }
     Diagnostics found(diagnostics.file());
-    companions.push_back(read_plant(laid_over(document, path_of(number), "plant", found)));
+    companions.push_back(read_plant(overlaid(document, path_of(number), "plant", found)));
     add_new(found, diagnostics);
   }
   section.finish();
@@ -53,7 +53,7 @@ control::PhysicalParameters bundle_parameters(const toml::table& document,
   if (section.table() == nullptr) return first;
   const std::size_t muscles = read_number(section);
   for (std::size_t number = 2; number <= muscles; ++number) {
-    Section own = laid_over(document, path_of(number), "plant", elsewhere);
+    Section own = overlaid(document, path_of(number), "plant", elsewhere);
     const control::PhysicalParameters other = read_plant_parameters(own);
     first.stiffness_N_per_m += other.stiffness_N_per_m;
     first.damping_Ns_per_m += other.damping_Ns_per_m;

@@ -19,7 +19,7 @@ using config::Section;
 
 /// A muscle other than the paper's may become longer than it was: its sensor sees some of that.
 constexpr double default_min_ratio = -0.25;
-constexpr double slowest_position_Hz = 20.0;
+constexpr double min_position_rate_Hz = 20.0;
 /// To both sides.
 constexpr double joint_range_m = 0.008;
 constexpr double spring_joint_range_m = 0.011;
@@ -42,7 +42,7 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
     section.wrong("count_m",
                   "cannot be combined with resolution_bits: both set the size of a count");
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
-  if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
+  if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < min_position_rate_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
   double min_m = moves == Moves::paper_load ? 0.0 : default_min_ratio * sensor.range_m;
   if (moves == Moves::joint) min_m = -sensor.range_m;
@@ -247,9 +247,9 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
   }
   check_reach(reference, c);
   const bool follows = c.reference.kind != ReferenceKind::power;
-  const double furthest_m = std::max(c.reference.highest(), -c.reference.lowest());
-  refuse_misfit(controller, control::check_fit(c.controller, step_s, follows ? furthest_m : 0.0,
-                                               c.power.max_W));
+  const double max_reference_m = std::max(c.reference.highest(), -c.reference.lowest());
+  refuse_misfit(controller, control::check_fit(c.controller, step_s,
+                                               follows ? max_reference_m : 0.0, c.power.max_W));
   refuse_misfit(estimator, control::check_fit(c.estimator, step_s, c.power.max_W));
   root.finish();
   return c;

@@ -107,7 +107,7 @@ control::PhysicalParameters along_the_arc(const JointPlantSettings& joint, doubl
     p.stiffness_N_per_m += other_ratio * other_ratio * other->stiffness_N_per_m;
     p.damping_Ns_per_m += other_ratio * other_ratio * other->damping_Ns_per_m;
   }
-  const PlaceInJoint arm = turned_by_one(joint);
+  const PlaceInJoint arm = single_muscle_place(joint);
   if (arm.weighs()) p.stiffness_N_per_m += HangingArm::stiffness_at_zero_N_per_m(arm);
   p.moving_mass_kg = joint.inertia_kg_m2 / lever2;
   return p;
@@ -150,7 +150,7 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
     if (own.table() != nullptr) {
       refuse_keys_of_one_muscle(own);
       Diagnostics found(diagnostics.file());
-      joint.antagonist->plant = read_plant(laid_over(document, "joint.antagonist", "plant", found));
+      joint.antagonist->plant = read_plant(overlaid(document, "joint.antagonist", "plant", found));
       add_new(found, diagnostics);
     }
     section.allow({"co_contraction_W"});  // read once the power limits are known
@@ -186,7 +186,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
     if (elsewhere.empty()) refuse_impossible(believed, "muscle", document, diagnostics);
     return {believed, believed};
   }
-  Section other = laid_over(document, "joint.antagonist", "plant", elsewhere);
+  Section other = overlaid(document, "joint.antagonist", "plant", elsewhere);
   const auto antagonist = read_plant_parameters(other);
 
   const double ratio = lever.antagonist_lever_ratio;
@@ -195,7 +195,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
       config::read_parameters(muscle, along_the_arc(lever, lever_m, agonist, &antagonist, ratio));
   muscle.finish();
   Diagnostics found(diagnostics.file());
-  Section other_muscle = laid_over(document, "joint.antagonist_muscle", "muscle", found);
+  Section other_muscle = overlaid(document, "joint.antagonist_muscle", "muscle", found);
   believed.antagonist = config::read_parameters(
       other_muscle, along_the_arc(lever, ratio * lever_m, antagonist, &agonist, 1.0 / ratio));
   other_muscle.finish();

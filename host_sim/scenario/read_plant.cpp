@@ -49,8 +49,8 @@ PlantSettings read_plant(config::Section section) {
   return plant;
 }
 
-config::Section laid_over(const toml::table& document, const std::string& path, const char* under,
-                          config::Diagnostics& diagnostics) {
+config::Section overlaid(const toml::table& document, const std::string& path, const char* under,
+                         config::Diagnostics& diagnostics) {
   const config::Section own(document.at_path(path).as_table(), path, diagnostics);
   return own.over(document[under].as_table(), under);
 }

@@ -19,8 +19,8 @@ PlantSettings read_plant(config::Section section);
 
 /// A table of the document, such as "joint.antagonist", laid over another of its tables: that one
 /// gives the keys that the first lacks.
-config::Section laid_over(const toml::table& document, const std::string& path, const char* under,
-                          config::Diagnostics& diagnostics);
+config::Section overlaid(const toml::table& document, const std::string& path, const char* under,
+                         config::Diagnostics& diagnostics);
 /// Adds the problems of a table that was laid over another one, except those already reported.
 void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics);
 

@@ -42,15 +42,15 @@ double Reference::highest() const {
   return has_levels(kind) ? *std::max_element(levels.begin(), levels.end()) : offset + reach(terms);
 }
 
-double Reference::shortest_s() const {
+double Reference::min_period_s() const {
   if (kind == ReferenceKind::steps) return hold_s;
-  double shortest_s = INFINITY;
-  if (has_levels(kind)) return shortest_s;
+  double min_s = INFINITY;
+  if (has_levels(kind)) return min_s;
   for (const Sinusoid& term : terms) {
-    const double turn_rad_per_s = std::abs(term.angular_frequency_rad_per_s);
-    shortest_s = std::fmin(shortest_s, 2.0 * std::numbers::pi / turn_rad_per_s);
+    const double angular_frequency = std::abs(term.angular_frequency_rad_per_s);
+    min_s = std::fmin(min_s, 2.0 * std::numbers::pi / angular_frequency);
   }
-  return shortest_s;
+  return min_s;
 }
 
 Reference paper_excitation() {

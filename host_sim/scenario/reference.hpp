@@ -39,7 +39,7 @@ struct Reference {
   double lowest() const;
   double highest() const;
   /// The hold of `steps`, or the shortest period of the terms; infinite for `step`.
-  double shortest_s() const;
+  double min_period_s() const;
 };
 
 /// Eq. (18) of the paper: sin t + sin 0.5t + sin 0.25t + 2.5, in watts.

@@ -30,7 +30,7 @@ void SimulatedConverter::offer(double value, hal::Time now) {
   converted_ = false;
   if (period_ <= hal::Duration{} || now < next_ || faults_.silent) return;
   next_ = now + period_;
-  on_the_way_.push_back({convert(value), now, hal::Status::ok});
+  pending_.push_back({convert(value), now, hal::Status::ok});
 }
 
 hal::Sample SimulatedConverter::latest() {
@@ -41,9 +41,9 @@ hal::Sample SimulatedConverter::latest() {
     last_.status = hal::Status::ok;
     converted_ = true;
   } else {
-    while (!on_the_way_.empty() && on_the_way_.front().taken + latency_ <= now_) {
-      last_ = on_the_way_.front();
-      on_the_way_.pop_front();
+    while (!pending_.empty() && pending_.front().taken + latency_ <= now_) {
+      last_ = pending_.front();
+      pending_.pop_front();
     }
   }
   // Member by member, as it was written: a copy in one piece would wait for the store buffer, which

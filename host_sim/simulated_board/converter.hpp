@@ -78,7 +78,7 @@ class SimulatedConverter final : public hal::AdcChannel {
   bool converted_ = false;  ///< the truth at now_ has been converted
   hal::Time next_{};
   hal::Sample last_;
-  boost::circular_buffer<hal::Sample> on_the_way_{4096};
+  boost::circular_buffer<hal::Sample> pending_{4096};
 };
 
 }  // namespace supercoil::host_sim

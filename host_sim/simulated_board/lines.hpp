@@ -24,7 +24,7 @@ class SimulatedPwm final : public hal::PwmOutput {
     if (step < 0 || step > steps_) return hal::Status::out_of_range;
     set_ = step;
     if (delay_ > hal::Duration{}) {
-      on_the_way_.push_back({*now_ + delay_, step});
+      pending_.push_back({*now_ + delay_, step});
     } else {
       act(step);
     }
@@ -35,9 +35,9 @@ class SimulatedPwm final : public hal::PwmOutput {
 
   /// The duty at the switch at `now`.
   double duty(hal::Time now) {
-    while (!on_the_way_.empty() && on_the_way_.front().first <= now) {
-      act(on_the_way_.front().second);
-      on_the_way_.pop_front();
+    while (!pending_.empty() && pending_.front().first <= now) {
+      act(pending_.front().second);
+      pending_.pop_front();
     }
     return duty_;
   }
@@ -53,7 +53,7 @@ class SimulatedPwm final : public hal::PwmOutput {
   const hal::Time* now_;
   int set_ = 0;
   double duty_ = 0.0;  ///< in effect
-  boost::circular_buffer<std::pair<hal::Time, int>> on_the_way_{4096};
+  boost::circular_buffer<std::pair<hal::Time, int>> pending_{4096};
 };
 
 class SimulatedOutput final : public hal::DigitalOutput {

@@ -44,9 +44,9 @@ class SimulatedCanBus final : public hal::CanBus {
     const double frame_s = telemetry::max_bits(frame.length) / bit_rate_;
     ends_.push_back(begins + hal::duration_from(frame_s));
     wire_->free_from = ends_.back() - start_;
-    hal::CanFrame heard = frame;
-    heard.received = ends_.back();
-    listener(heard);
+    hal::CanFrame received = frame;
+    received.received = ends_.back();
+    listener(received);
     return hal::Status::ok;
   }
   hal::Status receive(hal::CanFrame& frame) override {

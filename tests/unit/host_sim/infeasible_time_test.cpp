@@ -36,7 +36,7 @@ TEST(InfeasibleTime, CountsWhatLastsFromItsBeginningOn) {
   follow(LimitedBy::temperature, 0.4);
   DOUBLES_EQUAL(0.5 / 2.5, found.ratio(), 1e-9);
   DOUBLES_EQUAL(2.0, found.first_s(), 1e-9);
-  CHECK(found.mostly_by() == LimitedBy::temperature);
+  CHECK(found.main_limit() == LimitedBy::temperature);
 }
 
 TEST(InfeasibleTime, EndsWhereNoPositionIsFollowed) {
@@ -78,7 +78,7 @@ TEST(InfeasibleTime, BeginsAndEndsWithTheReference) {
   follow_asked(LimitedBy::maximum, true, 4.0);
   follow_asked(LimitedBy::minimum, false, 5.0);
   DOUBLES_EQUAL(1.0, found.first_s(), 1e-9);
-  DOUBLES_EQUAL(3.0, found.first_lasts_s(), 2.0 * step_s);
+  DOUBLES_EQUAL(3.0, found.first_duration_s(), 2.0 * step_s);
   CHECK_TRUE(found.first_ended());
   DOUBLES_EQUAL(1.9 / 5.0, found.ratio(), 1e-3);
 }

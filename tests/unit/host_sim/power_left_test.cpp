@@ -1,6 +1,4 @@
 // The power that the board's limiter leaves; the forecast computes it as the board itself does.
-#include "runner/power_left.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 
 #include "supercoil/control/thermal/rise_interval_observer.hpp"
 
+#include "runner/available_power.hpp"
 #include "runner/board_of.hpp"
 #include "unit/host_sim/support/scenarios.hpp"
 
@@ -33,7 +32,7 @@ void check_follows_the_boards_interval(const BoardSettings& board) {
   constexpr double forecast_step_s = 5e-3;
   constexpr double measured_supply_V = 12.0;
   const ChannelSettings& channel = board.channels[0];
-  PowerLeft left(board, measured_supply_V, forecast_step_s);
+  AvailablePower left(board, measured_supply_V, forecast_step_s);
   control::RiseIntervalObserver interval(channel.thermal.bounds, forecast_step_s);
   const Limiter limiter(channel.limiter, forecast_step_s);
   const double max_ratio = power_bounds(channel, board).true_over_measured(measured_supply_V).max;
@@ -51,12 +50,12 @@ void check_follows_the_boards_interval(const BoardSettings& board) {
 
 }  // namespace
 
-TEST_GROUP(PowerLeft){};
+TEST_GROUP(AvailablePower){};
 
-TEST(PowerLeft, FollowsTheHotEndOfTheBoardsInterval) {
+TEST(AvailablePower, FollowsTheHotEndOfTheBoardsInterval) {
   check_follows_the_boards_interval(derated(INFINITY));
 }
 
-TEST(PowerLeft, KnowsTheSlowestTimeConstantAsTheBoardDoes) {
+TEST(AvailablePower, KnowsTheSlowestTimeConstantAsTheBoardDoes) {
   check_follows_the_boards_interval(derated(2.0));
 }

@@ -227,7 +227,7 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
   const auto short_run = reference_feasibility(step_for("10.0", "false"));
   const auto long_run = reference_feasibility(step_for("1500.0", "false"));
   CHECK_FALSE(long_run->feasible());
-  DOUBLES_EQUAL(short_run->first_lasts_s, long_run->first_lasts_s, 1e-9);
+  DOUBLES_EQUAL(short_run->first_duration_s, long_run->first_duration_s, 1e-9);
   DOUBLES_EQUAL(short_run->behind_m, long_run->behind_m, 1e-9);
   DOUBLES_EQUAL(150.0, short_run->infeasible_ratio / long_run->infeasible_ratio, 1e-3);
   CHECK_TRUE(long_run->first_ends);
@@ -237,12 +237,12 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
       describe_reference(step_for("1500.0", "false")).c_str());
   const InfeasibleTime ran = found_in_run(step_for("100.0", "false"));
   CHECK_TRUE(ran.found());
-  DOUBLES_EQUAL(long_run->first_lasts_s, ran.first_lasts_s(), 0.5);
+  DOUBLES_EQUAL(long_run->first_duration_s, ran.first_duration_s(), 0.5);
   // If shaped, the reference waits instead.
   const auto shaped = reference_feasibility(step_for("100.0", "true"));
   const InfeasibleTime shaped_ran = found_in_run(step_for("100.0", "true"));
   CHECK_TRUE(shaped_ran.found());
-  DOUBLES_EQUAL(shaped->first_lasts_s, shaped_ran.first_lasts_s(), 0.1);
+  DOUBLES_EQUAL(shaped->first_duration_s, shaped_ran.first_duration_s(), 0.1);
 }
 
 TEST(ReferenceFeasibility, OfStepsItTellsHowOften) {

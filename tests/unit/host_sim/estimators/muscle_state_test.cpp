@@ -19,7 +19,7 @@ TEST(MuscleState, MovesAsThePlantDoes) {
   State state = bench.state();
   for (int i = 0; i < 5000; ++i) {
     const Bench::Tick tick = bench.next();
-    state = moved<double>(state, mass_kg, tick.power_W, tick_s);
+    state = propagated<double>(state, mass_kg, tick.power_W, tick_s);
   }
   const State plant = bench.state();
   CHECK(plant[at_position] > 5e-3);
@@ -33,8 +33,8 @@ TEST(MuscleState, ABiasIsPowerThatDoesNotHeat) {
   biased[at_bias] = 0.5;
   State unbiased = biased;
   unbiased[at_bias] = 0.0;
-  const State a = moved<double>(biased, mass_kg, 2.0, tick_s);
-  const State b = moved<double>(unbiased, mass_kg, 1.5, tick_s);
+  const State a = propagated<double>(biased, mass_kg, 2.0, tick_s);
+  const State b = propagated<double>(unbiased, mass_kg, 1.5, tick_s);
   DOUBLES_EQUAL(b[at_acceleration], a[at_acceleration], 1e-15);
 }
 
@@ -43,17 +43,17 @@ TEST(MuscleState, ItsDerivativeIsThatOfDifferences) {
   for (int i = 0; i < 3000; ++i)
     bench.next();
   const State state = bench.state();
-  const Moved moved_on = moved_with_derivative(state, mass_kg, 3.0, tick_s);
+  const Propagated next = propagated_with_derivative(state, mass_kg, 3.0, tick_s);
   for (int column = 0; column < state_size; ++column) {
     constexpr double apart = 1e-6;
     State more = state;
     State less = state;
     more[column] += apart;
     less[column] -= apart;
-    const State difference =
-        (moved<double>(more, mass_kg, 3.0, tick_s) - moved<double>(less, mass_kg, 3.0, tick_s)) /
-        (2.0 * apart);
+    const State difference = (propagated<double>(more, mass_kg, 3.0, tick_s) -
+                              propagated<double>(less, mass_kg, 3.0, tick_s)) /
+                             (2.0 * apart);
     for (int row = 0; row < state_size; ++row)
-      DOUBLES_EQUAL(difference[row], moved_on.derivative(row, column), 1e-8);
+      DOUBLES_EQUAL(difference[row], next.derivative(row, column), 1e-8);
   }
 }

@@ -102,8 +102,8 @@ TEST(Report, AJointsTraceHasItsAngleAndReferenceByItsLever) {
 
 TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 2);
-  CHECK(writer->wants(0));
-  CHECK_FALSE(writer->wants(1));
+  CHECK(writer->is_due(0));
+  CHECK_FALSE(writer->is_due(1));
   TickRecord record;
   record.time_s = 0.1 + 0.2;
   record.reference = 0.011;

@@ -8,24 +8,24 @@
 namespace supercoil::host_sim {
 
 /// For a board's first channel, from the beginning of a scenario.
-class PowerLeft {
+class AvailablePower {
  public:
-  struct Most {
+  struct Limit {
     double power_W = 0.0;
     LimitedBy by = LimitedBy::nothing;
   };
 
   /// supply_V: the board's supply.
-  PowerLeft(const BoardSettings& board, double supply_V, double step_s);
+  AvailablePower(const BoardSettings& board, double supply_V, double step_s);
 
-  Most now() const { return at(warmest_C_ + hottest_K_); }
+  Limit now() const { return at(warmest_C_ + hottest_K_); }
   /// For a cold muscle.
-  Most cold() const { return at(warmest_C_); }
+  Limit cold() const { return at(warmest_C_); }
   /// Applies this power for a step.
   void step(double power_W) { hottest_K_ = hot_.next_K(hottest_K_, max_power_ratio_ * power_W); }
 
  private:
-  Most at(double hottest_C) const;
+  Limit at(double hottest_C) const;
 
   Limiter limiter_;
   double provable_W_;  ///< infinite: nothing has to be proven

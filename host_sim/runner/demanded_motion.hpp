@@ -25,7 +25,7 @@ class Lag {
                   step_s * (muscle.damping_Ns_per_m + step_s * muscle.stiffness_N_per_m)) {}
 
   /// The power that makes up for the lag within a step.
-  double made_up_by_W() const { return kept_ratio_ * missing_K_ / K_per_W_; }
+  double catch_up_W() const { return kept_ratio_ * missing_K_ / K_per_W_; }
   /// power_W: what the muscle lacks of the power that its motion needs.
   void step(double power_W) {
     missing_K_ = kept_ratio_ * missing_K_ + K_per_W_ * power_W;
@@ -38,9 +38,9 @@ class Lag {
   }
   double behind_m() const { return behind_m_; }
   /// The temperature difference, as the power that would hold it.
-  double off_W() const { return muscle_.heat_transfer_W_per_K * std::abs(missing_K_); }
+  double error_W() const { return muscle_.heat_transfer_W_per_K * std::abs(missing_K_); }
   /// Takes over the lag of a muscle with other parameters.
-  void go_on_from(const Lag& before) {
+  void continue_from(const Lag& before) {
     missing_K_ = before.missing_K_;
     speed_m_per_s_ = before.speed_m_per_s_;
     behind_m_ = before.behind_m_;
@@ -58,47 +58,47 @@ class Lag {
 };
 
 /// The motion that is asked for, and the one that shaping makes of it with the power available.
-class WantedMotion {
+class DemandedMotion {
  public:
-  WantedMotion(const Conditions& c, double step_s)
+  DemandedMotion(const Conditions& c, double step_s)
       : inverse_(c.controller.model, {control::theta_from(c.muscle), {}, c.muscle.moving_mass_kg}),
-        asked_(c.controller.model, step_s),
-        shaped_(asked_),
+        demanded_(c.controller.model, step_s),
+        shaped_(demanded_),
         range_{c.power.min_W, c.power.max_W},
         shapes_(c.controller.shape_reference) {}
 
   /// It begins here, at rest.
   void start_at(double position_m) {
-    asked_.set({position_m, 0.0, 0.0});
-    shaped_ = asked_;
+    demanded_.set({position_m, 0.0, 0.0});
+    shaped_ = demanded_;
   }
   /// Continues a motion under other conditions.
-  void go_on_from(const WantedMotion& before) {
-    asked_.set(before.asked_.motion());
-    shaped_.set(before.made().motion());
+  void continue_from(const DemandedMotion& before) {
+    demanded_.set(before.demanded_.motion());
+    shaped_.set(before.actual().motion());
   }
 
   /// Limits the power from now on.
-  void leave(double max_W) { range_.max_W = max_W; }
+  void set_max_W(double max_W) { range_.max_W = max_W; }
   /// The power that the muscle needs for it from now to the next step.
   double power_W(double reference_m) const {
-    return inverse_.power_W(reference_m, made().motion());
+    return inverse_.power_W(reference_m, actual().motion());
   }
   void step(double reference_m) {
-    asked_.step(reference_m);
+    demanded_.step(reference_m);
     if (shapes_) shaped_.step(inverse_.step(reference_m, shaped_.motion(), range_).reference_m);
   }
   /// The part of the needed power that shaping leaves to the muscle.
-  double left_W(double power_W) const { return shapes_ ? range_.clip(power_W) : power_W; }
-  double asked_m() const { return asked_.motion().position; }
-  double shaped_m() const { return made().motion().position; }
+  double feasible_W(double power_W) const { return shapes_ ? range_.clip(power_W) : power_W; }
+  double demanded_m() const { return demanded_.motion().position; }
+  double shaped_m() const { return actual().motion().position; }
 
  private:
   /// Without shaping both are one, and a step of one model is enough.
-  const control::ReferenceModel<double>& made() const { return shapes_ ? shaped_ : asked_; }
+  const control::ReferenceModel<double>& actual() const { return shapes_ ? shaped_ : demanded_; }
 
   control::ReferenceShaper inverse_;
-  control::ReferenceModel<double> asked_;
+  control::ReferenceModel<double> demanded_;
   control::ReferenceModel<double> shaped_;  ///< not stepped without shaping
   control::PowerRange range_;
   bool shapes_;

@@ -1,4 +1,4 @@
-#include "runner/power_left.hpp"
+#include "runner/available_power.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
 
 }  // namespace
 
-PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
+AvailablePower::AvailablePower(const BoardSettings& board, double supply_V, double step_s)
     : limiter_(board.channels[0].limiter, step_s),
       provable_W_(provable_W(board.channels[0], board)),
       warmest_C_(board.channels[0].thermal.air.warmest_C),
@@ -47,7 +47,7 @@ PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
       hot_(board_hot_end(thermal_bounds(board.channels[0]), step_s)),
       hottest_K_(first_rise_K(board.channels[0], board, thermal_bounds(board.channels[0]))) {}
 
-PowerLeft::Most PowerLeft::at(double hottest_C) const {
+AvailablePower::Limit AvailablePower::at(double hottest_C) const {
   // Two variables: copying a pair at each bound would stall.
   double power_W = limiter_.max_W();
   LimitedBy by = LimitedBy::maximum;

@@ -147,8 +147,9 @@ def refute_both_lower_bounds(paths):
 
 
 def prove_slowest():
-    """With the mass that RiseIntervalObserver::limit_time_constant gives, the hot end is passed by no muscle whose mass over heat
-    transfer is at most tau: at each rise its rate is at least the muscle's, which is what the comparison principle asks."""
+    """With the mass that RiseIntervalObserver::limit_time_constant gives, the hot end is passed by no muscle whose mass
+    over heat transfer is at most tau: at each rise its rate is at least the muscle's, which is what the comparison
+    principle asks."""
     g = GIVEN
     tau, rise, power = z3.Reals("tau rise power")
     bounded = g["transfer_l"] * tau

@@ -53,9 +53,9 @@ Number parse_number(std::string_view text) noexcept {
 Result<Attribute> Attribute::open(const std::string& path, Use use) {
   auto file = open_file(path, flags(use));
   if (!file) return tl::unexpected(file.error());
-  struct stat about {};
-  if (::fstat(file->number(), &about) != 0) return failed_call("cannot examine " + path, errno);
-  if (!S_ISREG(about.st_mode)) return failure(path + " is not a file");
+  struct stat status {};
+  if (::fstat(file->number(), &status) != 0) return failed_call("cannot examine " + path, errno);
+  if (!S_ISREG(status.st_mode)) return failure(path + " is not a file");
   return Attribute(std::move(*file), path);
 }
 
@@ -100,7 +100,7 @@ Result<void> Attribute::set(std::string_view text) const {
   return errno == 0 ? failure(what + ": only part was accepted") : failed_call(what, errno);
 }
 
-Result<std::int64_t> Attribute::whole() const {
+Result<std::int64_t> Attribute::integer() const {
   const auto content = text();
   if (!content) return tl::unexpected(content.error());
   const Number number = parse_number(*content);
@@ -116,9 +116,9 @@ Result<std::string> read_text(const std::string& path) {
   });
 }
 
-Result<std::int64_t> read_whole(const std::string& path) {
+Result<std::int64_t> read_integer(const std::string& path) {
   return Attribute::open(path, Attribute::Use::read).and_then([](const Attribute& attribute) {
-    return attribute.whole();
+    return attribute.integer();
   });
 }
 

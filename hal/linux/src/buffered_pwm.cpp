@@ -9,17 +9,17 @@ BufferedPwm::BufferedPwm(std::unique_ptr<hal::PwmOutput> device)
 
 hal::Status BufferedPwm::set(int step) {
   if (step < 0 || step > steps_) return hal::Status::out_of_range;
-  const Written& last = answers_.newest();
-  unserved_ = last.number == seen_ && asked_.number != seen_ ? unserved_ + 1 : 0;
+  const Written& last = results_.newest();
+  unserved_ = last.number == seen_ && request_.number != seen_ ? unserved_ + 1 : 0;
   seen_ = last.number;
-  asked_ = {step, asked_.number + 1};
-  requests_.put(asked_);
+  request_ = {step, request_.number + 1};
+  requests_.put(request_);
   return unserved_ >= max_unserved ? hal::Status::busy : last.status;
 }
 
 int BufferedPwm::read_back() const {
-  const Written& last = answers_.newest();
-  const bool under_way = last.number != asked_.number;
+  const Written& last = results_.newest();
+  const bool under_way = last.number != request_.number;
   return under_way || last.status != hal::Status::ok ? -1 : last.read_back;
 }
 
@@ -29,7 +29,7 @@ void BufferedPwm::serve() {
   written_.number = request.number;
   written_.status = device_->set(request.step);
   written_.read_back = device_->read_back();
-  answers_.put(written_);
+  results_.put(written_);
 }
 
 }  // namespace supercoil::hal_linux

@@ -33,9 +33,9 @@ Result<std::unique_ptr<DevWatchdog>> DevWatchdog::open(const std::string& path, 
   }
   auto device = open_file(path, O_WRONLY | O_NONBLOCK);
   if (!device) return tl::unexpected(device.error());
-  watchdog_info about{};
-  const bool known = ::ioctl(device->number(), WDIOC_GETSUPPORT, &about) == 0;
-  const bool outlives_program = known && (about.options & WDIOF_MAGICCLOSE) != 0;
+  watchdog_info info{};
+  const bool known = ::ioctl(device->number(), WDIOC_GETSUPPORT, &info) == 0;
+  const bool outlives_program = known && (info.options & WDIOF_MAGICCLOSE) != 0;
   const auto taken_s = set_timeout(*device, static_cast<int>(std::ceil(timeout_s)), path);
   auto watchdog =
       std::make_unique<DevWatchdog>(std::move(*device), taken_s.value_or(0), outlives_program);

@@ -67,7 +67,7 @@ unsigned GpioChip::line_count() const {
   return gpiod_chip_num_lines(handle_->chip);
 }
 
-LineDescription GpioChip::about(unsigned offset) const {
+LineDescription GpioChip::describe(unsigned offset) const {
   gpiod_line* const line = gpiod_chip_get_line(handle_->chip, offset);
   if (line == nullptr) return {};
   return {text_or_empty(gpiod_line_name(line)), text_or_empty(gpiod_line_consumer(line)),

@@ -92,7 +92,7 @@ unsigned GpioChip::line_count() const {
   return static_cast<unsigned>(gpiod_chip_info_get_num_lines(handle_->info));
 }
 
-LineDescription GpioChip::about(unsigned offset) const {
+LineDescription GpioChip::describe(unsigned offset) const {
   const LineInfo info(gpiod_chip_get_line_info(handle_->chip, offset));
   if (!info) return {};
   return {text_or_empty(gpiod_line_info_get_name(info.get())),

@@ -53,7 +53,7 @@ Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
   std::optional<unsigned> found;
   std::vector<std::string> names;
   for (unsigned offset = 0; offset < chip.line_count(); ++offset) {
-    const std::string line = chip.about(offset).name;
+    const std::string line = chip.describe(offset).name;
     if (!line.empty()) names.push_back("'" + line + "'");
     if (line != name || line.empty()) continue;
     if (found) {
@@ -71,7 +71,7 @@ Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
 struct FoundLine {
   GpioChip chip;
   unsigned offset;
-  LineDescription about;
+  LineDescription description;
 };
 
 Result<FoundLine> find(const LineName& name, const std::string& dev) {
@@ -79,16 +79,16 @@ Result<FoundLine> find(const LineName& name, const std::string& dev) {
   if (!chip) return tl::unexpected(chip.error());
   const auto offset = find_line(*chip, name.line);
   if (!offset) return tl::unexpected(offset.error());
-  LineDescription about = chip->about(*offset);
-  return FoundLine{std::move(*chip), *offset, std::move(about)};
+  LineDescription description = chip->describe(*offset);
+  return FoundLine{std::move(*chip), *offset, std::move(description)};
 }
 
 Result<HeldLine> hold(FoundLine&& found, Direction direction) {
   const std::string what =
-      "cannot take line '" + found.about.name + "' of " + described(found.chip);
+      "cannot take line '" + found.description.name + "' of " + described(found.chip);
   auto line = std::move(found.chip).request(found.offset, direction);
   if (line) return line;
-  const std::string& consumer = found.about.consumer;
+  const std::string& consumer = found.description.consumer;
   const bool held = line.error().code == std::errc::device_or_resource_busy && !consumer.empty();
   return failed_call(held ? what + ", which '" + consumer + "' holds" : what,
                      static_cast<int>(line.error().code));
@@ -103,7 +103,7 @@ Result<HeldLine> hold_line(const LineName& name, Direction direction, const std:
 
 Result<UndrivenLine> read_undriven(const LineName& name, const std::string& dev) {
   return find(name, dev).and_then([](FoundLine&& found) {
-    const Bias bias = found.about.bias;
+    const Bias bias = found.description.bias;
     return hold(std::move(found), Direction::input).map([&](HeldLine&& line) {
       return UndrivenLine{line.get(), bias};
     });

@@ -36,7 +36,7 @@ Result<std::unique_ptr<IioAdc>> IioAdc::open(const ConverterLocation& place) {
                    inputs_of(device->folder));
   }
   if (!raw) return tl::unexpected(raw.error());
-  if (const auto first = raw->whole(); !first) return tl::unexpected(first.error());
+  if (const auto first = raw->integer(); !first) return tl::unexpected(first.error());
   return std::make_unique<IioAdc>(std::move(*raw));
 }
 

@@ -42,7 +42,7 @@ Result<void> disable_all(const std::string& elements) {
 Result<ScanElement> enable_element(const std::string& elements, const std::string& name) {
   const std::string path = elements + "/in_" + name;
   return write_text(path + "_en", "1")
-      .and_then([&] { return read_whole(path + "_index"); })
+      .and_then([&] { return read_integer(path + "_index"); })
       .and_then([&](std::int64_t index) -> Result<ScanElement> {
         if (index < 0 || index > std::numeric_limits<int>::max()) {
           return failure(path + "_index is out of range: " + std::to_string(index));

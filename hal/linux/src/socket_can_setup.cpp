@@ -20,8 +20,9 @@ namespace {
 constexpr can_err_mask_t reported_errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 
 /// A value of an interface, as the kernel reports it.
-Result<std::int64_t> told(const std::string& net, const std::string& interface, const char* what) {
-  return read_whole(net + "/" + interface + "/" + what);
+Result<std::int64_t> interface_value(const std::string& net, const std::string& interface,
+                                     const char* what) {
+  return read_integer(net + "/" + interface + "/" + what);
 }
 
 Result<void> check(const CanLocation& place) {
@@ -90,13 +91,13 @@ Result<Descriptor> open_socket(const CanLocation& place, int index) {
 
 Result<CanInterface> open_can_interface(const CanLocation& place) {
   if (auto checked = check(place); !checked) return tl::unexpected(checked.error());
-  const auto type = told(place.net, place.interface, "type");
-  const auto index = told(place.net, place.interface, "ifindex");
+  const auto type = interface_value(place.net, place.interface, "type");
+  const auto index = interface_value(place.net, place.interface, "ifindex");
   if (!type || !index || *type != ARPHRD_CAN) {
     return failed_call("no CAN interface '" + place.interface + "'", ENODEV);
   }
   // Not readable while the interface is down. A controller loses its carrier only by bus-off.
-  const auto carrier = told(place.net, place.interface, "carrier");
+  const auto carrier = interface_value(place.net, place.interface, "carrier");
   if (!carrier) return CanInterface{};
   auto socket = open_socket(place, static_cast<int>(*index));
   if (!socket) return tl::unexpected(socket.error());
@@ -107,7 +108,7 @@ Result<CanInterface> open_can_interface(const CanLocation& place) {
 std::vector<std::string> can_interfaces(const std::string& net) {
   std::vector<std::string> found;
   for (const std::string& name : names_in(net).value_or(std::vector<std::string>{})) {
-    if (told(net, name, "type").value_or(0) == ARPHRD_CAN) found.push_back(name);
+    if (interface_value(net, name, "type").value_or(0) == ARPHRD_CAN) found.push_back(name);
   }
   return found;
 }

@@ -29,7 +29,7 @@ void wait_for_rights(const std::string& folder) {
 }
 
 Result<void> export_output(const DeviceFolder& chip, int number) {
-  const auto count = read_whole(chip.folder + "/npwm");
+  const auto count = read_integer(chip.folder + "/npwm");
   if (!count) return tl::unexpected(count.error());
   if (number < 0 || number >= *count) {
     return failure(chip.describe() + " has " + std::to_string(*count) +
@@ -71,11 +71,11 @@ struct PwmState {
 };
 
 Result<PwmState> state_of(const PwmFiles& files) {
-  const auto period = files.period.whole();
+  const auto period = files.period.integer();
   if (!period) return tl::unexpected(period.error());
-  const auto duty = files.duty.whole();
+  const auto duty = files.duty.integer();
   if (!duty) return tl::unexpected(duty.error());
-  const auto enabled = files.enable.whole();
+  const auto enabled = files.enable.integer();
   if (!enabled) return tl::unexpected(enabled.error());
   const auto polarity = files.polarity.text();
   if (!polarity) return tl::unexpected(polarity.error());

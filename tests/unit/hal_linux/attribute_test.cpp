@@ -129,7 +129,7 @@ TEST(Attribute, NamesPathValueAndCauseInTheSetUp) {
   STRCMP_EQUAL((path + " holds 'many words, more than anybody wants to r'…, "
                        "which is not a whole number")
                    .c_str(),
-               attribute.whole().error().text().c_str());
+               attribute.integer().error().text().c_str());
 }
 
 TEST(Attribute, RefusesWhatIsNotText) {

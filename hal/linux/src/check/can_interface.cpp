@@ -35,7 +35,7 @@ void check_can_interface(const Machine& machine, const std::string& interface,
   const std::string folder = root + "/" + interface;
   const std::string bring_up =
       "ip link set " + interface + " up type can bitrate 500000 restart-ms 100";
-  const auto type = read_whole(folder + "/type");
+  const auto type = read_integer(folder + "/type");
   if (!type) {
     const auto all = names_in(root).value_or(std::vector<std::string>{});
     sink({what, Severity::problem,
@@ -53,12 +53,12 @@ void check_can_interface(const Machine& machine, const std::string& interface,
   }
   if (!is_up(folder)) return sink({what, Severity::problem, "down", bring_up});
   // Not operstate, which follows a second later.
-  if (read_whole(folder + "/carrier").value_or(0) != 1) {
+  if (read_integer(folder + "/carrier").value_or(0) != 1) {
     return sink({what, Severity::problem, "set up, but off the bus (no carrier)",
                  "check the wires, terminations and bit rate; then " + bring_up});
   }
   const auto rate = can_bit_rate(interface);
-  const auto queue = read_whole(folder + "/tx_queue_len");
+  const auto queue = read_integer(folder + "/tx_queue_len");
   const std::string found = "up, " + (rate ? std::to_string(*rate) + " bit/s" : "no bit rate") +
                             ", queue of " +
                             (queue ? std::to_string(*queue) : "an unknown number of") + " frames";

@@ -53,7 +53,7 @@ std::string realtime_package() {
 void check_kernel(const Machine& machine, const hal::FindingSink& sink) {
   const auto release = read_text(machine.proc + "/sys/kernel/osrelease");
   const std::string name = release.value_or("of unknown release");
-  const auto realtime = read_whole(machine.sys + "/kernel/realtime");
+  const auto realtime = read_integer(machine.sys + "/kernel/realtime");
   if (realtime && *realtime == 1) {
     sink({"kernel", Severity::ok, name + ", real-time (PREEMPT_RT)", ""});
     return;
@@ -68,8 +68,8 @@ void check_throttling(const Machine& machine, const hal::FindingSink& sink) {
   constexpr std::int64_t min_percent = 90;
   const std::string what = "real-time share";
   const std::string path = machine.proc + "/sys/kernel/sched_rt_runtime_us";
-  const auto runtime_us = read_whole(path);
-  const auto period_us = read_whole(machine.proc + "/sys/kernel/sched_rt_period_us");
+  const auto runtime_us = read_integer(path);
+  const auto period_us = read_integer(machine.proc + "/sys/kernel/sched_rt_period_us");
   if (!runtime_us || !period_us || *period_us <= 0) {
     const std::string why = runtime_us ? path + " has no period" : runtime_us.error().text();
     sink({what, Severity::warning, "not known: " + why, "use a kernel that reports it"});

@@ -59,15 +59,15 @@ void check_watchdog(const Machine& machine, const std::string& path, bool in_use
   const std::string what = "watchdog";
   const std::string root = machine.sys + "/class/watchdog";
   const auto all = numbered_folders(root, "watchdog").value_or(std::vector<DeviceFolder>{});
-  struct stat about {};
-  if (::stat(path.c_str(), &about) != 0) return print_missing(path, errno, root, all, sink);
-  if (!S_ISCHR(about.st_mode)) return print_missing(path, ENODEV, root, all, sink);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return print_missing(path, errno, root, all, sink);
+  if (!S_ISCHR(status.st_mode)) return print_missing(path, ENODEV, root, all, sink);
   if (::access(path.c_str(), W_OK) != 0) {
     sink({what, Severity::problem, path + ": " + std::generic_category().message(errno),
           "run as root, or let the service's user write to it"});
     return;
   }
-  const auto folder = behind(about, all);
+  const auto folder = behind(status, all);
   if (!folder) {
     sink({what, Severity::warning, path + " exists; " + root + " does not identify it",
           "use a kernel with CONFIG_WATCHDOG_SYSFS, or look at wdctl"});

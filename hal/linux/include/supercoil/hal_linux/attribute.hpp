@@ -39,7 +39,7 @@ class Attribute {
   Result<std::string> text() const;
   /// For set-up: as write() and number(), and the error names the path and what was written.
   Result<void> set(std::string_view text) const;
-  Result<std::int64_t> whole() const;
+  Result<std::int64_t> integer() const;
 
   const std::string& path() const { return path_; }
 
@@ -52,7 +52,7 @@ class Attribute {
 
 /// An attribute that is read once.
 Result<std::string> read_text(const std::string& path);
-Result<std::int64_t> read_whole(const std::string& path);
+Result<std::int64_t> read_integer(const std::string& path);
 /// An attribute that is written once.
 Result<void> write_text(const std::string& path, std::string_view text);
 

@@ -41,12 +41,12 @@ class BufferedPwm final : public hal::PwmOutput, public BusDevice {
 
   std::unique_ptr<hal::PwmOutput> device_;
   int steps_;
-  Request asked_;           ///< the loop's
+  Request request_;         ///< the loop's
   std::uint32_t seen_ = 0;  ///< the loop's: the last write that it knows of
   int unserved_ = 0;        ///< the loop's
   Written written_;         ///< the bus's thread's
   Mailbox<Request> requests_;
-  mutable Mailbox<Written> answers_;
+  mutable Mailbox<Written> results_;
 };
 
 }  // namespace supercoil::hal_linux

@@ -52,7 +52,7 @@ class GpioChip {
   std::string name() const;   ///< gpiochip0
   std::string label() const;  ///< pinctrl-bcm2711
   unsigned line_count() const;
-  LineDescription about(unsigned offset) const;
+  LineDescription describe(unsigned offset) const;
   /// An output is low from the first moment. EBUSY when the line is already held. Consumes the
   /// chip, which the line depends on in libgpiod 1.
   Result<HeldLine> request(unsigned offset, Direction direction) &&;

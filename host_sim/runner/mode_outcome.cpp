@@ -16,7 +16,7 @@ bool is_mode_request(const Conditions& c) {
 
 std::string describe_mode(const Snapshot& snapshot) {
   if (snapshot.result == ModeResult::none) return {};
-  std::string text = told_result(snapshot.result, snapshot.identify_notes);
+  std::string text = result_text(snapshot.result, snapshot.identify_notes);
   if (snapshot.result == ModeResult::running) text += "; give it a longer simulation.duration_s";
   return text + " (docs/running.md#commands)";
 }

@@ -17,7 +17,7 @@ constexpr int all_digits = 17;
 TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer) {
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  return failure(what + ": " + told_answer(what, *answer));
+  return failure(what + ": " + answer_with_reason(what, *answer));
 }
 
 /// Why a value was refused without a nearest one: the kind does not have it, as far as the board

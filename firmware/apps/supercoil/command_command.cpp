@@ -41,7 +41,7 @@ bool is_answer(std::string_view answer) {
 int judged(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
   return fail(is_answer(answer) ? exit_failed : exit_wrong_input,
-              line + ": " + told_answer(line, answer));
+              line + ": " + answer_with_reason(line, answer));
 }
 
 std::optional<double> number_of(std::string_view text) {
@@ -211,7 +211,7 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
     if (!cause.empty()) json["cause"] = cause;
     std::printf("%s\n", json.dump().c_str());
   }
-  const std::string all = line + " ended: " + told_result(result, notes, cause);
+  const std::string all = line + " ended: " + result_text(result, notes, cause);
   const bool has_remedy = result != "interrupted";
   if (result != "found")
     return fail(exit_failed, all + (has_remedy ? "; docs/troubleshooting.md says what to do" : ""));

@@ -87,7 +87,8 @@ int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   const double nearest = out ? node.nearest() : NAN;
   const std::string range =
       out ? range_of_refused(*heard, options.value.value_or(NAN), nearest) : "";
-  return fail(exit_failed, options.name + ": " + told_answer({heard->refusal, nearest}) + range);
+  return fail(exit_failed,
+              options.name + ": " + answer_with_reason({heard->refusal, nearest}) + range);
 }
 
 /// Prints the settings that this node has: the board's own belong to its first node.

@@ -175,7 +175,7 @@ void StorageWorker::watch(const Row& row) {
   if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
     log(Level::warning, "channel " + std::to_string(row.channel + 1) + ": " +
                             recorder::mode_name(before.mode) + " ended, nothing is stored: " +
-                            told_result(static_cast<ModeResult>(row.result), row.identify_notes));
+                            result_text(static_cast<ModeResult>(row.result), row.identify_notes));
   }
   before = row;
 }

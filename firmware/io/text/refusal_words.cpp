@@ -71,16 +71,16 @@ std::string_view refusal_words(Refusal refusal, Verb verb) {
   return found != of_verbs.end() ? found->words : of_all.at(static_cast<std::size_t>(refusal));
 }
 
-std::string told_answer(const Reply& reply, Verb verb) {
+std::string answer_with_reason(const Reply& reply, Verb verb) {
   std::string text = answer_text(reply.refusal, reply.nearest);
   if (reply.refusal == Refusal::none || !std::isnan(reply.nearest)) return text;
   return text + ": " + std::string(refusal_words(reply.refusal, verb));
 }
 
-std::string told_answer(std::string_view line, std::string_view answer) {
+std::string answer_with_reason(std::string_view line, std::string_view answer) {
   const auto reply = parse_answer(answer);
   const bool bare = reply && answer == answer_text(reply->refusal, NAN);
-  return bare ? told_answer(*reply, verb_of(line)) : std::string(answer);
+  return bare ? answer_with_reason(*reply, verb_of(line)) : std::string(answer);
 }
 
 }  // namespace supercoil

@@ -13,10 +13,10 @@ std::string_view refusal_words(Refusal refusal, Verb verb = Verb::none);
 
 /// answer_text() followed by the words: "refused: wrong_state: it has no fault". An answer with a
 /// nearest value gets no words.
-std::string told_answer(const Reply& reply, Verb verb = Verb::none);
+std::string answer_with_reason(const Reply& reply, Verb verb = Verb::none);
 
 /// The same for the text of an answer to a line such as "1 arm". Returns the text unchanged if it
 /// already has a reason or is not a board's answer.
-std::string told_answer(std::string_view line, std::string_view answer);
+std::string answer_with_reason(std::string_view line, std::string_view answer);
 
 }  // namespace supercoil

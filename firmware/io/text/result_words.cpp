@@ -32,7 +32,7 @@ const std::array<std::string_view, identify_note_names.size()> note_words{
     "too little motion",
     "friction takes more than half of a small motion, so less power may be allowed"};
 
-std::string told_result(std::string_view result, std::string_view notes, std::string_view cause) {
+std::string result_text(std::string_view result, std::string_view notes, std::string_view cause) {
   std::string text(result);
   const auto* const found = std::ranges::find(mode_result_names, result);
   const bool has_words =
@@ -56,8 +56,8 @@ std::string told_result(std::string_view result, std::string_view notes, std::st
   return text + others;
 }
 
-std::string told_result(ModeResult result, std::uint8_t notes) {
-  return told_result(mode_result_names.at(static_cast<std::size_t>(result)),
+std::string result_text(ModeResult result, std::uint8_t notes) {
+  return result_text(mode_result_names.at(static_cast<std::size_t>(result)),
                      describe_notes(notes, ","));
 }
 

@@ -19,8 +19,8 @@ extern const std::array<std::string_view, identify_note_names.size()> note_words
 /// "poor_fit: the muscle did not move as the fit predicted, ...; theta2_uncertain". Names are as
 /// the board reports them, with commas between notes. Success needs no explanation, and a note with
 /// the result's own name is left out. cause: of an interruption, "by Ctrl-C"; empty: not known.
-std::string told_result(std::string_view result, std::string_view notes,
+std::string result_text(std::string_view result, std::string_view notes,
                         std::string_view cause = "");
-std::string told_result(ModeResult result, std::uint8_t notes);
+std::string result_text(ModeResult result, std::uint8_t notes);
 
 }  // namespace supercoil

@@ -119,7 +119,7 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
   const std::string notes =
       bits > 0.0 ? describe_notes(static_cast<std::uint8_t>(bits), ",") : std::string();
   if (result != "none" && result != "running" && result != "-")
-    text += ", last identification or calibration: " + told_result(result, notes);
+    text += ", last identification or calibration: " + result_text(result, notes);
   text += '\n';
   if (value(node, "Status", "friction") == 1.0)
     text += "  friction takes more than half of a small motion, so less power may be allowed\n";

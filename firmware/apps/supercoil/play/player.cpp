@@ -65,7 +65,7 @@ Player::Problem Player::take(Node& node, Verb verb, const std::string& what,
                              const MotionLink::Played& played) {
   if (!played) return whose(node) + what + ": " + played.error().text();
   if (played->refusal != Refusal::none)
-    return whose(node) + what + ": " + told_answer(Reply(played->refusal), verb);
+    return whose(node) + what + ": " + answer_with_reason(Reply(played->refusal), verb);
   node.played = *played;
   return std::nullopt;
 }
@@ -76,7 +76,7 @@ Player::Problem Player::go_to_start() {
     const auto answer = node.link->ask(Verb::position, first_m);
     const std::string what = whose(node) + "position " + std::to_string(first_m) + ": ";
     if (!answer) return what + answer.error().text();
-    if (answer->refusal != Refusal::none) return what + told_answer(*answer, Verb::position);
+    if (answer->refusal != Refusal::none) return what + answer_with_reason(*answer, Verb::position);
     node.renewed = Clock::now();
   }
   return std::nullopt;
@@ -88,7 +88,7 @@ Player::Problem Player::renew(Node& node) {
   const auto answer = node.link->ask(Verb::renew, 0.0);
   if (!answer) return whose(node) + answer.error().text();
   if (answer->refusal != Refusal::none)
-    return whose(node) + "the board stopped it (" + told_answer(*answer, Verb::renew) + ")";
+    return whose(node) + "the board stopped it (" + answer_with_reason(*answer, Verb::renew) + ")";
   return take(node, Verb::none, "playback", node.link->playback());
 }
 

@@ -94,7 +94,7 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
-  return failure(mode + " ended: " + told_result(*result, "", fault) +
+  return failure(mode + " ended: " + result_text(*result, "", fault) +
                  (fault.empty() ? "; docs/troubleshooting.md says what to do" : ""));
 }
 
@@ -285,7 +285,7 @@ StepResult Commission::scale() {
     const std::string range =
         refuses(*taken, Refusal::out_of_range) ? told_range(board_, channel_, Verb::scale) : "";
     return failure(with_present_fault(
-        line.substr(channel_.size() + 1) + ": " + told_answer(line, *taken + range), board_,
+        line.substr(channel_.size() + 1) + ": " + answer_with_reason(line, *taken + range), board_,
         channel_));
   }
   const auto known = board_.muscle(channel_);

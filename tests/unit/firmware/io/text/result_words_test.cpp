@@ -51,20 +51,20 @@ TEST(ResultWords, EveryNoteHasSome) {
 TEST(ResultWords, TheyComeBehindTheNameAndNothingTwice) {
   const std::string still =
       "too_little_motion: the muscle moved by less than 1 % of its travel at the maximum power";
-  STRCMP_EQUAL(still.c_str(), told_result("too_little_motion", "too_little_motion").c_str());
+  STRCMP_EQUAL(still.c_str(), result_text("too_little_motion", "too_little_motion").c_str());
   STRCMP_EQUAL((still + "; theta1_kept, friction").c_str(),
-               told_result("too_little_motion", "theta1_kept,too_little_motion,friction").c_str());
+               result_text("too_little_motion", "theta1_kept,too_little_motion,friction").c_str());
   STRCMP_EQUAL("not_cold: the muscle did not cool within two minutes",
-               told_result(ModeResult::not_cold, 0).c_str());
-  STRCMP_EQUAL("found; theta1_kept", told_result(ModeResult::found, note_theta1_kept).c_str());
+               result_text(ModeResult::not_cold, 0).c_str());
+  STRCMP_EQUAL("found; theta1_kept", result_text(ModeResult::found, note_theta1_kept).c_str());
 }
 
 TEST(ResultWords, ACauseThatIsKnownIsToldInTheirPlace) {
-  STRCMP_EQUAL("interrupted, by Ctrl-C", told_result("interrupted", "", "by Ctrl-C").c_str());
+  STRCMP_EQUAL("interrupted, by Ctrl-C", result_text("interrupted", "", "by Ctrl-C").c_str());
   STRCMP_EQUAL("interrupted: ended by a command or a fault",
-               told_result("interrupted", "").c_str());
+               result_text("interrupted", "").c_str());
 }
 
 TEST(ResultWords, AResultOfANewerBoardIsToldByItsName) {
-  STRCMP_EQUAL("12; theta1_kept", told_result("12", "theta1_kept").c_str());
+  STRCMP_EQUAL("12; theta1_kept", result_text("12", "theta1_kept").c_str());
 }

@@ -59,7 +59,7 @@ void warn(const std::string& text) {
 /// A bus that is down is not an error: it may come up later.
 Result<void> join_can(Parts& parts, const config::BoardConfig& config) {
   if (!config.can) return {};
-  const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
+  const auto ids = telemetry::received_ids(*config.can, config.settings.channels.size());
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
   if (!bus) return failure("can: " + bus.error().text());
   parts.can_bus = std::move(*bus);

@@ -99,11 +99,11 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
   if (frame.id != tuning_id(node) || !e2e::intact(frame, message::tuning.length))
     return std::nullopt;
   const can::Reader<message::tuning> m(frame);
-  const bool asked_for = m.get<std::uint8_t>("place") == place.place &&
+  const bool is_answer = m.get<std::uint8_t>("place") == place.place &&
                          m.get<std::uint8_t>("tunable") == place.tunable &&
                          m.get<std::uint8_t>("set") == static_cast<std::uint8_t>(place.set);
   const auto refusal = refusal_in(m.get("refusal"));
-  if (!asked_for || !refusal) return std::nullopt;
+  if (!is_answer || !refusal) return std::nullopt;
   return TunedValue{*refusal, telemetry::shortest_decimal(m.get<float>("value")),
                     m.get<std::uint8_t>("counter")};
 }
@@ -145,32 +145,32 @@ std::uint8_t Master::next_counter() {
 }
 
 hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
-  asked_as_ = opcode == telemetry::lease && session_ == 0 ? name_ : session_;
-  releasing_ = opcode == telemetry::lease && value == telemetry::releases;
+  sent_session_ = opcode == telemetry::lease && session_ == 0 ? name_ : session_;
+  releasing_ = opcode == telemetry::lease && value == telemetry::release_value;
   return can::Encoder<message::command>(node_)
       .set("counter", next_counter())
       .set("opcode", opcode)
-      .set("session", asked_as_)
+      .set("session", sent_session_)
       .set("value", value)
       .protected_frame();
 }
 
 hal::CanFrame Master::claim() {
   return frame(telemetry::lease,
-               session_ == 0 ? static_cast<double>(nonce_) : double{telemetry::claims});
+               session_ == 0 ? static_cast<double>(nonce_) : double{telemetry::claim_value});
 }
 
 hal::CanFrame Master::release() {
-  return frame(telemetry::lease, telemetry::releases);
+  return frame(telemetry::lease, telemetry::release_value);
 }
 
 hal::CanFrame Master::command(Verb verb, double value) {
-  const auto sent = telemetry::sent(verb, value);
+  const auto sent = telemetry::encode_command(verb, value);
   return frame(sent.opcode, sent.value);
 }
 
 hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
-  asked_as_ = session_;
+  sent_session_ = session_;
   return can::Encoder<message::setting_write>(node_)
       .set("counter", next_counter())
       .set("setting", setting)
@@ -180,7 +180,7 @@ hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
 }
 
 hal::CanFrame Master::tuning_write(const TunedPlace& place, double value) {
-  asked_as_ = session_;
+  sent_session_ = session_;
   return can::Encoder<message::tuning_write>(node_)
       .set("counter", next_counter())
       .set("place", place.place)
@@ -192,10 +192,10 @@ hal::CanFrame Master::tuning_write(const TunedPlace& place, double value) {
 
 std::optional<TunedValue> Master::receive_tuning(const TunedPlace& place,
                                                  const hal::CanFrame& frame) {
-  const auto heard = can_client::receive_tuning(node_, place, frame);
-  if (!heard || heard->counter != counter_) return std::nullopt;
-  if (ends_lease(heard->refusal)) session_ = 0;
-  return heard;
+  const auto tuned = can_client::receive_tuning(node_, place, frame);
+  if (!tuned || tuned->counter != counter_) return std::nullopt;
+  if (ends_lease(tuned->refusal)) session_ = 0;
+  return tuned;
 }
 
 std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& frame, bool of_write) {
@@ -203,7 +203,7 @@ std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& fram
     return std::nullopt;
   const can::Reader<message::setting> m(frame);
   const bool mine = !of_write || (m.get<std::uint8_t>("counter") == counter_ &&
-                                  m.get<std::uint16_t>("session_low") == (asked_as_ & 0xFFU));
+                                  m.get<std::uint16_t>("session_low") == (sent_session_ & 0xFFU));
   const auto refusal = refusal_in(m.get("refusal"));
   if (!mine || !refusal) return std::nullopt;
   if (of_write && ends_lease(*refusal)) session_ = 0;
@@ -211,7 +211,7 @@ std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& fram
 }
 
 hal::CanFrame Master::knot(double after_s, double position_m, double velocity_m_per_s) {
-  asked_as_ = session_;
+  sent_session_ = session_;
   return can::Encoder<message::knot>(node_)
       .set("counter", next_counter())
       .set("after_s", after_s)
@@ -221,7 +221,7 @@ hal::CanFrame Master::knot(double after_s, double position_m, double velocity_m_
 }
 
 hal::CanFrame Master::play(double when, std::uint8_t sync, double after_s) {
-  asked_as_ = session_;
+  sent_session_ = session_;
   return can::Encoder<message::play>(node_)
       .set("counter", next_counter())
       .set("when", when)
@@ -249,7 +249,7 @@ std::optional<Played> Master::receive_played(const hal::CanFrame& frame) {
   const can::Reader<message::trajectory> m(frame);
   const bool mine = m.get<std::uint8_t>("answers") != telemetry::nothing &&
                     m.get<std::uint8_t>("counter") == counter_ &&
-                    m.get<std::uint16_t>("session_low") == (asked_as_ & 0xFFU);
+                    m.get<std::uint16_t>("session_low") == (sent_session_ & 0xFFU);
   const auto refusal = refusal_in(m.get("refusal"));
   const auto state = m.get<std::uint8_t>("playback");
   if (!mine || !refusal || state >= playback_state_names.size()) return std::nullopt;
@@ -264,18 +264,18 @@ void Master::receive_lease(Refusal refusal, std::uint16_t granted) {
   if (refusal == Refusal::none) session_ = releasing_ ? 0 : granted;
 }
 
-std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
+std::optional<Master::Acknowledged> Master::receive_acknowledge(const hal::CanFrame& frame) {
   if (frame.id != acknowledge_id(node_) || !e2e::intact(frame, message::acknowledge.length))
     return std::nullopt;
   const can::Reader<message::acknowledge> m(frame);
-  const bool mine =
-      m.get<std::uint8_t>("counter") == counter_ && m.get<std::uint16_t>("session") == asked_as_;
+  const bool mine = m.get<std::uint8_t>("counter") == counter_ &&
+                    m.get<std::uint16_t>("session") == sent_session_;
   const auto refusal = refusal_in(m.get("refusal"));
   if (!mine || !refusal) return std::nullopt;
   const auto opcode = m.get<std::uint8_t>("opcode");
   if (opcode == telemetry::lease) receive_lease(*refusal, m.get<std::uint16_t>("granted"));
   if (ends_lease(*refusal)) session_ = 0;
-  return Heard{opcode, *refusal};
+  return Acknowledged{opcode, *refusal};
 }
 
 }  // namespace supercoil::can_client

@@ -120,13 +120,13 @@ class Master {
   /// Empty: no intact answer to this master's last write, or to anybody's read.
   std::optional<Setting> receive_setting(const hal::CanFrame& frame, bool of_write);
 
-  struct Heard {
+  struct Acknowledged {
     std::uint8_t opcode;  ///< of the answered frame
     Refusal refusal;
   };
   /// Empty: no intact answer to this master's last frame. Also notes whether the lease was granted,
   /// released or refused.
-  std::optional<Heard> hear(const hal::CanFrame& frame);
+  std::optional<Acknowledged> receive_acknowledge(const hal::CanFrame& frame);
 
  private:
   hal::CanFrame frame(std::uint8_t opcode, double value);
@@ -139,8 +139,8 @@ class Master {
   std::uint16_t nonce_ = 0;  ///< that the next claim must repeat; 0: none was received
   bool releasing_ = false;   ///< the last frame released the lease
   std::uint16_t session_ = 0;
-  std::uint16_t asked_as_ = 0;  ///< the session field of the last frame
-  std::uint8_t counter_ = 0;    ///< of the last frame
+  std::uint16_t sent_session_ = 0;  ///< the session field of the last frame
+  std::uint8_t counter_ = 0;        ///< of the last frame
 };
 
 }  // namespace supercoil::can_client

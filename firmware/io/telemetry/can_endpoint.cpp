@@ -22,7 +22,7 @@ static_assert(names_agree(), "what is known of a muscle has the same names over 
 
 }  // namespace
 
-std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
+std::vector<std::uint16_t> received_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
   // Also Status, the heartbeat of every board: it reveals another board with the same node.
   for (const can::MessageInfo& message :
@@ -59,22 +59,22 @@ void CanEndpoint::answer(const Answer& answer) {
   if (answer.refusal != Refusal::out_of_range) return;
   const Command& command = answer.command;
   publisher_.send(refused_value(static_cast<can::Node>(first_node_ + command.channel),
-                                sent(command.verb, command.value).value,
-                                sent(command.verb, answer.nearest).value));
+                                encode_command(command.verb, command.value).value,
+                                encode_command(command.verb, answer.nearest).value));
 }
 
 void CanEndpoint::poll(hal::Time now) {
   loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
   receive(now);
   loop_->health().node_conflict.store(now < conflict_until_, std::memory_order_relaxed);
-  while (const auto news = trajectory_.news())
-    publisher_.send(*news);
-  tell_program(now);
+  while (const auto frame = trajectory_.changed_playback())
+    publisher_.send(*frame);
+  send_boot(now);
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
 }
 
 /// Spread over the period, so that the Boot messages of many channels do not come in a burst.
-void CanEndpoint::tell_program(hal::Time now) {
+void CanEndpoint::send_boot(hal::Time now) {
   if (now < next_boot_ || !loop_runs_) return;
   const auto node = static_cast<can::Node>(first_node_ + boot_channel_);
   publisher_.send(boot(node, program_version()));
@@ -88,7 +88,7 @@ bool CanEndpoint::is_own(const hal::CanFrame& frame) const {
 }
 
 /// The answer to MuscleRead.
-std::optional<hal::CanFrame> CanEndpoint::muscle_asked_for(const hal::CanFrame& frame) const {
+std::optional<hal::CanFrame> CanEndpoint::muscle_answer(const hal::CanFrame& frame) const {
   const can::MessageInfo& asking = can::message::muscle_read;
   const auto channel = can::channel_of(frame, asking, first_node_, leases_.channels());
   if (!channel || frame.length != asking.length) return std::nullopt;
@@ -115,7 +115,7 @@ void CanEndpoint::receive(hal::Time now) {
     const TrajectoryFrames::Taken moved = trajectory_.take(frame, now);
     if (moved.damaged) loop_->send_damaged(*moved.damaged);
     if (moved.answer) publisher_.send(*moved.answer);
-    if (const auto told = muscle_asked_for(frame)) publisher_.send(*told);
+    if (const auto muscle = muscle_answer(frame)) publisher_.send(*muscle);
   }
 }
 

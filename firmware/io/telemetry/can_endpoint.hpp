@@ -10,7 +10,7 @@
 namespace supercoil::telemetry {
 
 /// Identifiers of all frames that a board listens to, for the bus's receive filters.
-std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels);
+std::vector<std::uint16_t> received_ids(const CanSettings& settings, std::size_t channels);
 
 /// Used by one thread: on a board the telemetry thread, never the loop's; in a simulation the
 /// runner, between two ticks. Nothing blocks.
@@ -34,8 +34,8 @@ class CanEndpoint {
 
  private:
   void receive(hal::Time now);
-  void tell_program(hal::Time now);
-  std::optional<hal::CanFrame> muscle_asked_for(const hal::CanFrame& frame) const;
+  void send_boot(hal::Time now);
+  std::optional<hal::CanFrame> muscle_answer(const hal::CanFrame& frame) const;
   /// Whether only this board's nodes send such a frame: the bus never returns a board's own frames.
   bool is_own(const hal::CanFrame& frame) const;
 

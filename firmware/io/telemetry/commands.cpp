@@ -33,7 +33,7 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
     taken.answer = acknowledge(header, checked, leases_->nonce(*channel));
   } else if (checked != Refusal::none && !stop) {
     taken.answer = acknowledge(header, checked);
-  } else if (header.opcode == Opcode::lease && value == releases) {
+  } else if (header.opcode == Opcode::lease && value == release_value) {
     leases_->release(*channel);
     taken.answer = acknowledge(header, Refusal::none);
   } else if (header.opcode == Opcode::lease) {
@@ -41,7 +41,7 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
   } else if (waiting_.full()) {
     taken.answer = acknowledge(header, Refusal::queue_full);
   } else {
-    taken.command = meant(header.opcode, static_cast<double>(value));
+    taken.command = decode_command(header.opcode, static_cast<double>(value));
     taken.command->channel = *channel;
     taken.command->source = Source::can;
     taken.command->id = waiting_.add(header);
@@ -53,14 +53,15 @@ Refusal Commands::check(const CommandHeader& header, float value, hal::Time now)
   const bool known = header.opcode != Opcode::claim_of_version_3;
   const bool holder =
       leases_->held(header.channel, now) && header.session == leases_->session(header.channel);
-  if (known && header.opcode == Opcode::lease && value != releases && !holder)
+  if (known && header.opcode == Opcode::lease && value != release_value && !holder)
     return leases_->claim(header.channel, header.session, value, header.counter, now);
   const Refusal checked = leases_->check(header.channel, header.session, header.counter, now);
   // The holder's counter advances even with a frame that means nothing: otherwise a frame that was
   // heard before it would be obeyed again.
   if (!known && checked != Refusal::wrong_counter) return Refusal::protocol_mismatch;
-  const bool meant = header.opcode != Opcode::lease || value == claims || value == releases;
-  return meant || checked != Refusal::none ? checked : Refusal::out_of_range;
+  const bool is_valid =
+      header.opcode != Opcode::lease || value == claim_value || value == release_value;
+  return is_valid || checked != Refusal::none ? checked : Refusal::out_of_range;
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {

@@ -20,43 +20,43 @@ inline constexpr std::uint8_t protocol_version = 5;
 enum Opcode : std::uint8_t { compare = 0, claim_of_version_3 = 14, lease = 15 };
 
 /// Values of a lease command, besides the nonce that claim_again gave.
-inline constexpr float claims = 0.0F;
-inline constexpr float releases = -1.0F;
+inline constexpr float claim_value = 0.0F;
+inline constexpr float release_value = -1.0F;
 
 inline constexpr std::size_t opcodes = 16;
 
 /// A rise of 0 K is sent as this value; no supply has that many volts.
-inline constexpr double rises_from = 1000.0;
+inline constexpr double rise_offset = 1000.0;
 
 /// Verb::tune is sent as `controller`, with this added to the controller's place.
-inline constexpr double tunes_from = 1000.0;
+inline constexpr double tune_offset = 1000.0;
 
 /// A command as it is sent.
-struct Sent {
+struct EncodedCommand {
   std::uint8_t opcode;
   double value;
 };
-constexpr Sent sent(Verb verb, double value) {
+constexpr EncodedCommand encode_command(Verb verb, double value) {
   // A meter's value with the wrong sign must not be taken for the other sense's.
   constexpr double nonsense = std::numeric_limits<double>::quiet_NaN();
   if (verb == Verb::compare_supply) {
-    const bool volts = value >= 0.0 && value < rises_from;
+    const bool volts = value >= 0.0 && value < rise_offset;
     return {compare, volts ? value : nonsense};
   }
   if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
-  if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rises_from + value : nonsense};
+  if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rise_offset + value : nonsense};
   if (verb == Verb::tune) {
     return {static_cast<std::uint8_t>(Verb::controller),
-            value >= 0.0 ? tunes_from + value : nonsense};
+            value >= 0.0 ? tune_offset + value : nonsense};
   }
   return {static_cast<std::uint8_t>(verb), value};
 }
 /// The command that was sent; opcode: not the lease's. NaN is not taken for a current.
-constexpr Command meant(std::uint8_t opcode, double value) {
-  if (opcode == static_cast<std::uint8_t>(Verb::controller) && value >= tunes_from)
-    return {0, Verb::tune, value - tunes_from};
+constexpr Command decode_command(std::uint8_t opcode, double value) {
+  if (opcode == static_cast<std::uint8_t>(Verb::controller) && value >= tune_offset)
+    return {0, Verb::tune, value - tune_offset};
   if (opcode != compare) return {0, static_cast<Verb>(opcode), value};
-  if (value >= rises_from) return {0, Verb::compare_rise, value - rises_from};
+  if (value >= rise_offset) return {0, Verb::compare_rise, value - rise_offset};
   return value < 0.0 ? Command{0, Verb::compare_current, -value}
                      : Command{0, Verb::compare_supply, value};
 }

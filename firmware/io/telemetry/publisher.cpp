@@ -102,8 +102,8 @@ hal::CanFrame Publisher::next_of_joint(can::Node node, Channel& agonist) const {
   agonist.joint_part = static_cast<std::uint8_t>((agonist.joint_part + 1) %
                                                  joint_parts(agonist.antagonist.has_value()));
   const Channel* const antagonist = agonist.antagonist ? &channels_[*agonist.antagonist] : nullptr;
-  const bool told = antagonist != nullptr && antagonist->known;
-  return joint(node, part, agonist.lever, agonist.row, told ? &antagonist->row : nullptr);
+  const bool has_antagonist = antagonist != nullptr && antagonist->known;
+  return joint(node, part, agonist.lever, agonist.row, has_antagonist ? &antagonist->row : nullptr);
 }
 
 BoardTiming Publisher::take_timing() {

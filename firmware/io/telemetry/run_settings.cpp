@@ -51,7 +51,9 @@ TakenWrite RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
   if (!channel || frame.length != message::setting_read.length) return {};
   const auto setting = can::Reader<message::setting_read>(frame).get<std::uint8_t>("setting");
   const bool known = !std::isnan(value_of(*channel, setting));
-  return {{}, told(*channel, setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
+  return {{},
+          setting_frame(*channel, setting, known ? Refusal::none : Refusal::out_of_range, 0, 0),
+          {}};
 }
 
 TakenWrite RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
@@ -66,7 +68,7 @@ TakenWrite RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& fr
   Refusal refusal = leases_->check(channel, session, counter, now);
   if (refusal == Refusal::wrong_counter) taken.damaged = channel;
   if (refusal == Refusal::none) refusal = set(channel, setting, value);
-  taken.answer = told(channel, setting, refusal, counter, session);
+  taken.answer = setting_frame(channel, setting, refusal, counter, session);
   if (refusal == Refusal::out_of_range) {
     const auto node = static_cast<can::Node>(can_.first_node + channel);
     taken.refused_value = refused_value(node, value, nearest(channel, setting, value));
@@ -110,8 +112,9 @@ double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
   return publisher_->rates_Hz()[channel][setting - 1U];
 }
 
-hal::CanFrame RunSettings::told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
-                                std::uint8_t counter, std::uint16_t session) const {
+hal::CanFrame RunSettings::setting_frame(std::uint8_t channel, std::uint8_t setting,
+                                         Refusal refusal, std::uint8_t counter,
+                                         std::uint16_t session) const {
   return can::Encoder<message::setting>(static_cast<can::Node>(can_.first_node + channel))
       .set("counter", counter)
       .set("setting", setting)

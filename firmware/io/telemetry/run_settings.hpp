@@ -50,8 +50,8 @@ class RunSettings {
   double value_of(std::uint8_t channel, std::uint8_t setting) const;
   /// The allowed value of a setting that is nearest to this one. NaN: not known.
   double nearest(std::uint8_t channel, std::uint8_t setting, double value) const;
-  hal::CanFrame told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
-                     std::uint8_t counter, std::uint16_t session) const;
+  hal::CanFrame setting_frame(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
+                              std::uint8_t counter, std::uint16_t session) const;
 
   CanSettings can_;
   double tick_Hz_;

@@ -56,7 +56,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
   Taken taken;
   if (checked == Refusal::wrong_counter) taken.damaged = channel;
   if (checked != Refusal::none) {
-    taken.answer = told(header, checked);
+    taken.answer = trajectory_frame(header, checked);
     return taken;
   }
   Command command{channel, Verb::knot, m.get("position_m"), Source::can};
@@ -80,7 +80,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
   const auto when = m.get<std::uint8_t>("when");
   if (checked == Refusal::none && when > never) checked = Refusal::out_of_range;
   if (checked != Refusal::none || when == never) {
-    taken.answer = told(header, checked);
+    taken.answer = trajectory_frame(header, checked);
     return taken;
   }
   const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
@@ -95,7 +95,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
     taken.answer = start(asked, *sync);
   } else {
     channels_[channel].start = asked;
-    taken.answer = told(header, Refusal::none);
+    taken.answer = trajectory_frame(header, Refusal::none);
   }
   return taken;
 }
@@ -129,29 +129,29 @@ std::optional<hal::CanFrame> TrajectoryFrames::start(const Start& start,
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::hand_on(const Header& header, Command command) {
-  if (waiting_.full()) return told(header, Refusal::queue_full);
+  if (waiting_.full()) return trajectory_frame(header, Refusal::queue_full);
   command.id = waiting_.add(header);
-  if (!loop_->send(command)) return told(waiting_.take_back(), Refusal::queue_full);
+  if (!loop_->send(command)) return trajectory_frame(waiting_.take_back(), Refusal::queue_full);
   return std::nullopt;
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::answered(const Answer& answer) {
   const auto header = waiting_.answered(answer.command.id);
   if (!header) return std::nullopt;
-  return told(*header, answer.refusal);
+  return trajectory_frame(*header, answer.refusal);
 }
 
-std::optional<hal::CanFrame> TrajectoryFrames::news() {
+std::optional<hal::CanFrame> TrajectoryFrames::changed_playback() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const PlaybackState now = loop_->channel(i).playback().state;
-    if (now == channels_[i].told) continue;
-    channels_[i].told = now;
-    return told({static_cast<std::uint8_t>(i), nothing, 0, 0}, Refusal::none);
+    if (now == channels_[i].reported) continue;
+    channels_[i].reported = now;
+    return trajectory_frame({static_cast<std::uint8_t>(i), nothing, 0, 0}, Refusal::none);
   }
   return std::nullopt;
 }
 
-hal::CanFrame TrajectoryFrames::told(const Header& header, Refusal refusal) const {
+hal::CanFrame TrajectoryFrames::trajectory_frame(const Header& header, Refusal refusal) const {
   const PlaybackStatus status = static_cast<const Loop*>(loop_)->channel(header.channel).playback();
   return can::Encoder<message::trajectory>(static_cast<can::Node>(first_node_ + header.channel))
       .set("counter", header.counter)

@@ -42,7 +42,7 @@ class TrajectoryFrames {
   /// The frame that answers a trajectory command; empty: the command did not come over CAN.
   std::optional<hal::CanFrame> answered(const Answer& answer);
   /// The next frame of a channel whose playback state changed; empty: none has changed.
-  std::optional<hal::CanFrame> news();
+  std::optional<hal::CanFrame> changed_playback();
 
  private:
   /// The part of a frame that its answer repeats.
@@ -60,7 +60,7 @@ class TrajectoryFrames {
   struct Channel {
     std::optional<Start> start;            ///< waits for its Sync
     std::optional<BusClock::Sync> anchor;  ///< the Sync of the last start
-    PlaybackState told = PlaybackState::empty;
+    PlaybackState reported = PlaybackState::empty;
   };
 
   Taken take_knot(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
@@ -69,7 +69,7 @@ class TrajectoryFrames {
   /// Empty: the loop has taken it, and will answer.
   std::optional<hal::CanFrame> hand_on(const Header& header, Command command);
   std::optional<hal::CanFrame> start(const Start& start, const BusClock::Sync& sync);
-  hal::CanFrame told(const Header& header, Refusal refusal) const;
+  hal::CanFrame trajectory_frame(const Header& header, Refusal refusal) const;
 
   can::Node first_node_;
   Leases* leases_;

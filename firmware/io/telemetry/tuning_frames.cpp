@@ -37,7 +37,7 @@ TakenWrite TuningFrames::take(const hal::CanFrame& frame, hal::Time now) {
   const auto set = static_cast<TuningSet>(m.get<std::uint8_t>("set"));
   const bool known = !std::isnan(loop_->channel(*channel).tuner().value(set, place, tunable));
   const Refusal refusal = known ? Refusal::none : Refusal::out_of_range;
-  return {{}, told(*channel, set, place, tunable, refusal, 0), {}};
+  return {{}, tuning_frame(*channel, set, place, tunable, refusal, 0), {}};
 }
 
 TakenWrite TuningFrames::take_write(std::uint8_t channel, const hal::CanFrame& frame,
@@ -54,7 +54,7 @@ TakenWrite TuningFrames::take_write(std::uint8_t channel, const hal::CanFrame& f
   Reply reply = leases_->check(channel, holder ? session : 0, counter, now);
   if (reply.refusal == Refusal::wrong_counter) taken.damaged = channel;
   if (reply.refusal == Refusal::none) reply = prepare(channel, place, tunable, value);
-  taken.answer = told(channel, TuningSet::prepared, place, tunable, reply.refusal, counter);
+  taken.answer = tuning_frame(channel, TuningSet::prepared, place, tunable, reply.refusal, counter);
   if (reply.refusal == Refusal::out_of_range) {
     taken.refused_value =
         refused_value(static_cast<can::Node>(first_node_ + channel), value, reply.nearest);
@@ -72,9 +72,9 @@ Reply TuningFrames::prepare(std::uint8_t channel, std::uint8_t place, std::uint8
   return done ? Refusal::none : Refusal::out_of_range;
 }
 
-hal::CanFrame TuningFrames::told(std::uint8_t channel, TuningSet set, std::uint8_t place,
-                                 std::uint8_t tunable, Refusal refusal,
-                                 std::uint8_t counter) const {
+hal::CanFrame TuningFrames::tuning_frame(std::uint8_t channel, TuningSet set, std::uint8_t place,
+                                         std::uint8_t tunable, Refusal refusal,
+                                         std::uint8_t counter) const {
   const Tuner& tuner = static_cast<const Loop*>(loop_)->channel(channel).tuner();
   return can::Encoder<message::tuning>(static_cast<can::Node>(first_node_ + channel))
       .set("counter", counter)

@@ -26,8 +26,8 @@ class TuningFrames {
  private:
   TakenWrite take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Reply prepare(std::uint8_t channel, std::uint8_t place, std::uint8_t tunable, float value);
-  hal::CanFrame told(std::uint8_t channel, TuningSet set, std::uint8_t place, std::uint8_t tunable,
-                     Refusal refusal, std::uint8_t counter) const;
+  hal::CanFrame tuning_frame(std::uint8_t channel, TuningSet set, std::uint8_t place,
+                             std::uint8_t tunable, Refusal refusal, std::uint8_t counter) const;
 
   can::Node first_node_;
   Leases* leases_;

@@ -74,7 +74,7 @@ class CanRig {
   }
   Refusal claim(Master& who) {
     who.session = who.name;
-    Refusal refusal = command(who, telemetry::Opcode::lease, telemetry::claims);
+    Refusal refusal = command(who, telemetry::Opcode::lease, telemetry::claim_value);
     if (refusal == Refusal::claim_again)
       refusal = command(who, telemetry::Opcode::lease, static_cast<float>(answers.back().granted));
     if (!answers.empty()) who.session = answers.back().granted;

@@ -93,7 +93,7 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
   follow();
 
   // One that holds only the agonist's does not; both muscles rest together.
-  CHECK(joint.command(antagonist_master, telemetry::Opcode::lease, telemetry::releases) ==
+  CHECK(joint.command(antagonist_master, telemetry::Opcode::lease, telemetry::release_value) ==
         Refusal::none);
   CHECK(joint.claim(stranger) == Refusal::none);
   follow();

@@ -294,7 +294,7 @@ TEST(OverCan, ARecordedSessionGetsNoLeaseAndNoHeat) {
   rig.run(16.0);
   for (int claims = 0; claims < 2; ++claims) {
     const float nonce =
-        claims == 0 ? telemetry::claims : static_cast<float>(rig.answers.back().granted);
+        claims == 0 ? telemetry::claim_value : static_cast<float>(rig.answers.back().granted);
     recording.session = recording.name;
     recorded.push_back(recording.frame(telemetry::Opcode::lease, nonce));
     rig.answers.clear();

@@ -291,14 +291,14 @@ TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
   // Its session enters the checksum alone, so to the board the frame is damaged.
   CHECK(ask(other, knot_frame(other, 1.0, 0.005)) == Refusal::no_such_channel);
   CHECK(ask(other, play_frame(other, start_at_once, 0, 0.1)) == Refusal::not_lease_holder);
-  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::release_value) == Refusal::none);
   CHECK(ask(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
 }
 
 TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
   load(master);
   Master replaced = master;
-  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::release_value) == Refusal::none);
   master.name = 0x3333;
   CHECK(rig.claim(master) == Refusal::none);
   CHECK(rig.claim(master) == Refusal::none);  // as if the first answer had been lost

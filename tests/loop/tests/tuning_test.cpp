@@ -56,7 +56,7 @@ struct TuningRig : CanRig {
     return static_cast<double>(ask(read_frame(place, tunable(name), set)).value);
   }
   Refusal tune(Master& master, std::uint8_t place) {
-    const auto sent = telemetry::sent(Verb::tune, place);
+    const auto sent = telemetry::encode_command(Verb::tune, place);
     return command(master, sent.opcode, static_cast<float>(sent.value));
   }
   board::Learned stored() {

@@ -69,7 +69,7 @@ Result<Heard> Commander::exchange(
 Commander::Answer Commander::exchange(const hal::CanFrame& frame,
                                       std::chrono::milliseconds within) {
   const auto hear = [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
-    const auto answer = master_.hear(heard);
+    const auto answer = master_.receive_acknowledge(heard);
     if (!answer) return std::nullopt;
     return answer->refusal;
   };

@@ -131,7 +131,7 @@ TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
   const BoardSocket socket = client();
   test::Master master;
   master.session = master.name;
-  float nonce = telemetry::claims;
+  float nonce = telemetry::claim_value;
   for (const std::size_t claims : {1U, 2U}) {
     bus.order(master.frame(telemetry::Opcode::lease, nonce));
     until([&] { return bus.heard(acknowledge).size() == claims; });

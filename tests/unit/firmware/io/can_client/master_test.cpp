@@ -57,7 +57,8 @@ TEST_GROUP(MasterAnswers) {
   Master master{node, 0x1234};
 
   static void claim(Master & who, Refusal refusal, std::uint16_t told) {
-    const auto heard = who.hear(answer(who.claim(), telemetry::lease, 0x1234, refusal, told));
+    const auto heard =
+        who.receive_acknowledge(answer(who.claim(), telemetry::lease, 0x1234, refusal, told));
     CHECK(heard && heard->refusal == refusal);
   }
   void setup() override {
@@ -71,7 +72,8 @@ TEST_GROUP(MasterAnswers) {
 TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNameOnly) {
   Master other{node, 0x4321};
   const auto claim = other.claim();
-  CHECK_FALSE(other.hear(answer(claim, telemetry::lease, 0x1234, Refusal::none)).has_value());
+  CHECK_FALSE(other.receive_acknowledge(answer(claim, telemetry::lease, 0x1234, Refusal::none))
+                  .has_value());
   CHECK_FALSE(other.holds_lease());
 }
 
@@ -86,7 +88,8 @@ TEST(MasterAnswers, ASecondClaimRepeatsTheNonceAndOneOfAHolderNone) {
 TEST(MasterAnswers, LeaseIsGoneWhenItWasGivenBack) {
   const auto asked = master.release();
   DOUBLES_EQUAL(-1.0, value_of(asked), 0.0);
-  CHECK(master.hear(answer(asked, telemetry::lease, granted, Refusal::none, 0)).has_value());
+  CHECK(master.receive_acknowledge(answer(asked, telemetry::lease, granted, Refusal::none, 0))
+            .has_value());
   CHECK_FALSE(master.holds_lease());
 }
 
@@ -95,14 +98,14 @@ TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {
     Master holder = master;
     const auto asked = holder.command(Verb::rest, 0.0);
     const auto verb = static_cast<std::uint8_t>(Verb::rest);
-    CHECK(holder.hear(answer(asked, verb, granted, refusal)).has_value());
+    CHECK(holder.receive_acknowledge(answer(asked, verb, granted, refusal)).has_value());
     CHECK_FALSE(holder.holds_lease());
   }
 }
 
 TEST(MasterAnswers, LeaseOutlivesRefusalsThatAreNotAboutIt) {
   const auto asked = master.command(Verb::position, 1.0);
-  const auto heard = master.hear(
+  const auto heard = master.receive_acknowledge(
       answer(asked, static_cast<std::uint8_t>(Verb::position), granted, Refusal::out_of_range));
   CHECK(heard && heard->refusal == Refusal::out_of_range);
   CHECK_TRUE(master.holds_lease());
@@ -129,6 +132,6 @@ TEST(MasterAnswers, DamagedAnswerIsNone) {
   const auto asked = master.command(Verb::rest, 0.0);
   auto damaged = answer(asked, static_cast<std::uint8_t>(Verb::rest), granted, Refusal::no_lease);
   damaged.data[2] ^= 0x10U;
-  CHECK_FALSE(master.hear(damaged).has_value());
+  CHECK_FALSE(master.receive_acknowledge(damaged).has_value());
   CHECK_TRUE(master.holds_lease());
 }

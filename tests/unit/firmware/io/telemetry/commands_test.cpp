@@ -49,7 +49,7 @@ TEST_GROUP(CanCommands) {
 
 TEST(CanCommands, AreHeardForEachChannelAndTheSyncOfAllBoards) {
   settings.first_node = 3;
-  const auto ids = telemetry::heard_ids(settings, 2);
+  const auto ids = telemetry::received_ids(settings, 2);
   const std::set<std::uint16_t> heard(ids.begin(), ids.end());
   for (const can::Node node : {can::Node{2}, can::Node{3}, can::Node{4}, can::Node{5}}) {
     const bool is_own = node == 3 || node == 4;
@@ -121,7 +121,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   // A frame from the earlier session.
   Master earlier = gone;
   CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_lease_holder);
-  CHECK(refusal_of(next.frame(Opcode::lease, releases)) == Refusal::none);
+  CHECK(refusal_of(next.frame(Opcode::lease, release_value)) == Refusal::none);
   CHECK_FALSE(leases.held(0, now));
 }
 
@@ -155,7 +155,7 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
       CHECK(refusal_of(frame) == Refusal::not_lease_holder);
     sessions.insert(each.session);
     earlier.push_back(each.frame(Verb::position, 0.01F));
-    refusal_of(each.frame(Opcode::lease, releases));
+    refusal_of(each.frame(Opcode::lease, release_value));
   }
   CHECK(sessions.size() > 95);
 }

@@ -12,10 +12,10 @@ TEST_GROUP(Opcodes){};
 TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
   for (std::size_t i = 1; i < plain_verb_names.size(); ++i) {
     const auto verb = static_cast<Verb>(i);
-    const Sent on_the_wire = sent(verb, 0.25);
+    const EncodedCommand on_the_wire = encode_command(verb, 0.25);
     CHECK(on_the_wire.opcode < Opcode::claim_of_version_3);
-    CHECK(meant(on_the_wire.opcode, on_the_wire.value).verb == verb);
-    DOUBLES_EQUAL(0.25, meant(on_the_wire.opcode, on_the_wire.value).value, 0.0);
+    CHECK(decode_command(on_the_wire.opcode, on_the_wire.value).verb == verb);
+    DOUBLES_EQUAL(0.25, decode_command(on_the_wire.opcode, on_the_wire.value).value, 0.0);
   }
 }
 
@@ -29,12 +29,12 @@ TEST(Opcodes, HaveTheNamesOfTheProtocol) {
 
 TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
   for (const Verb verb : {Verb::compare_supply, Verb::compare_current, Verb::compare_rise})
-    CHECK(std::isnan(sent(verb, -0.25).value));
+    CHECK(std::isnan(encode_command(verb, -0.25).value));
   // A current of 0 A does not forget the comparison, but 0 V does.
-  CHECK(std::isnan(sent(Verb::compare_current, 0.0).value));
-  DOUBLES_EQUAL(0.0, sent(Verb::compare_supply, 0.0).value, 0.0);
+  CHECK(std::isnan(encode_command(Verb::compare_current, 0.0).value));
+  DOUBLES_EQUAL(0.0, encode_command(Verb::compare_supply, 0.0).value, 0.0);
   // Volts are never taken for a rise.
-  CHECK(std::isnan(sent(Verb::compare_supply, 1000.0).value));
-  CHECK(meant(Opcode::compare, 1037.5).verb == Verb::compare_rise);
-  DOUBLES_EQUAL(37.5, meant(Opcode::compare, 1037.5).value, 0.0);
+  CHECK(std::isnan(encode_command(Verb::compare_supply, 1000.0).value));
+  CHECK(decode_command(Opcode::compare, 1037.5).verb == Verb::compare_rise);
+  DOUBLES_EQUAL(37.5, decode_command(Opcode::compare, 1037.5).value, 0.0);
 }

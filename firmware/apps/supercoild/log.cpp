@@ -49,7 +49,7 @@ int fail(std::string_view why) {
 
 void log_steps(const std::vector<hal_linux::SetupStep>& steps) {
   for (const hal_linux::SetupStep& step : steps) {
-    if (step.worked) {
+    if (step.succeeded) {
       log(Level::info, step.step);
     } else {
       log(Level::warning, "not " + step.step + ": " + step.reason + "; " + step.remedy);

@@ -35,8 +35,8 @@ bool is_text(char c) {
 }
 
 std::string excerpt(const std::string& text) {
-  constexpr std::size_t most = 40;
-  return text.size() <= most ? "'" + text + "'" : "'" + text.substr(0, most) + "'…";
+  constexpr std::size_t max_bytes = 40;
+  return text.size() <= max_bytes ? "'" + text + "'" : "'" + text.substr(0, max_bytes) + "'…";
 }
 
 }  // namespace

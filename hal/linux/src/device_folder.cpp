@@ -17,7 +17,7 @@ bool ends_with_path(std::string_view path, std::string_view end) {
          path[path.size() - end.size() - 1] == '/';
 }
 
-bool is_meant(const DeviceFolder& device, std::string_view wanted) {
+bool matches(const DeviceFolder& device, std::string_view wanted) {
   if (wanted.empty()) return false;
   if (wanted.find('/') != std::string_view::npos) return ends_with_path(device.device_path, wanted);
   return std::find(device.names.begin(), device.names.end(), wanted) != device.names.end();
@@ -61,7 +61,7 @@ Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_vi
                             std::string_view kind, const std::string& root) {
   std::vector<DeviceFolder> meant;
   std::copy_if(all.begin(), all.end(), std::back_inserter(meant),
-               [&](const DeviceFolder& device) { return is_meant(device, wanted); });
+               [&](const DeviceFolder& device) { return matches(device, wanted); });
   if (meant.size() == 1) return meant.front();
   const std::string by =
       wanted.find('/') == std::string_view::npos ? " with the name '" : " whose path ends with '";
@@ -90,12 +90,13 @@ std::string parent_of(const std::string& path) {
 }
 
 std::string listed(const std::vector<std::string>& items) {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t max_items = 12;
   std::string text;
-  for (std::size_t i = 0; i < std::min(items.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(items.size(), max_items); ++i) {
     text += (i == 0 ? "" : ", ") + items[i];
   }
-  if (items.size() > most) text += " and " + std::to_string(items.size() - most) + " more";
+  if (items.size() > max_items)
+    text += " and " + std::to_string(items.size() - max_items) + " more";
   return text;
 }
 

@@ -20,8 +20,8 @@ std::string message(int error) {
 }
 
 SetupStep outcome(std::string step, const std::string& reason, const std::string& remedy) {
-  const bool worked = reason.empty();
-  return {std::move(step), worked, reason, worked ? std::string{} : remedy};
+  const bool succeeded = reason.empty();
+  return {std::move(step), succeeded, reason, succeeded ? std::string{} : remedy};
 }
 
 std::string limit_text(__rlimit_resource resource) {

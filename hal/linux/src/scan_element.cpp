@@ -19,7 +19,7 @@ class Parts {
     rest_.remove_prefix(part.size());
     return true;
   }
-  void must(std::string_view part) { good_ = take(part); }
+  void expect(std::string_view part) { good_ = take(part); }
   int number() {
     int value = 0;
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
@@ -52,14 +52,14 @@ Result<ScanType> parse_scan_type(std::string_view text) {
   Parts parts(text);
   ScanType type;
   type.big_endian = parts.take("be:");
-  if (!type.big_endian) parts.must("le:");
+  if (!type.big_endian) parts.expect("le:");
   type.is_signed = parts.take("s");
-  if (!type.is_signed) parts.must("u");
+  if (!type.is_signed) parts.expect("u");
   type.bits = parts.number();
-  parts.must("/");
+  parts.expect("/");
   type.storage_bits = parts.number();
   const bool single = !parts.take("X") || parts.number() == 1;
-  parts.must(">>");
+  parts.expect(">>");
   type.shift = parts.number();
   if (single && parts.whole() && possible(type)) return type;
   return failure("'" + std::string(text) + "' is not a scan type such as le:s12/16>>4");
@@ -67,7 +67,7 @@ Result<ScanType> parse_scan_type(std::string_view text) {
 
 std::int64_t value_of(const ScanType& type, const std::byte* bytes) noexcept {
   constexpr int bits_of_a_byte = 8;
-  constexpr int widest = 64;
+  constexpr int max_bits = 64;
   std::uint64_t stored = 0;
   const std::size_t count = type.bytes();
   for (std::size_t i = 0; i < count; ++i) {
@@ -75,7 +75,7 @@ std::int64_t value_of(const ScanType& type, const std::byte* bytes) noexcept {
     stored = stored << bits_of_a_byte | std::to_integer<std::uint64_t>(next);
   }
   // The bits to the top, and down again: the second shift extends the sign.
-  const int spare = widest - type.bits;
+  const int spare = max_bits - type.bits;
   const std::uint64_t at_top = stored >> type.shift << spare;
   return type.is_signed ? static_cast<std::int64_t>(at_top) >> spare
                         : static_cast<std::int64_t>(at_top >> spare);
@@ -85,13 +85,13 @@ std::size_t lay_out(std::vector<ScanElement>& elements) {
   std::sort(elements.begin(), elements.end(),
             [](const ScanElement& a, const ScanElement& b) { return a.index < b.index; });
   std::size_t end = 0;
-  std::size_t largest = 1;
+  std::size_t alignment = 1;
   for (ScanElement& element : elements) {
     element.offset = aligned(end, element.type.bytes());
     end = element.offset + element.type.bytes();
-    largest = std::max(largest, element.type.bytes());
+    alignment = std::max(alignment, element.type.bytes());
   }
-  return aligned(end, largest);
+  return aligned(end, alignment);
 }
 
 }  // namespace supercoil::hal_linux

@@ -80,7 +80,7 @@ int main(int count, char** arguments) {
   hal_linux::CpuLatencyRequest cpus;
   for (const auto& step : {hal_linux::lock_memory(),
                            hal_linux::set_fifo_priority(::pthread_self(), priority), cpus.hold()})
-    if (!step.worked) std::printf("not %s: %s\n", step.step.c_str(), step.reason.c_str());
+    if (!step.succeeded) std::printf("not %s: %s\n", step.step.c_str(), step.reason.c_str());
 
   const board::Devices devices = (*board)->devices();
   Loop loop(config->settings, devices);

@@ -18,13 +18,13 @@ using namespace supercoil::test;
 namespace {
 
 void check_failed(const SetupStep& step, const std::string& reason) {
-  CHECK_FALSE(step.worked);
+  CHECK_FALSE(step.succeeded);
   STRCMP_CONTAINS(reason.c_str(), step.reason.c_str());
   CHECK_FALSE(step.remedy.empty());
 }
 
 void check_worked(const SetupStep& step) {
-  CHECK_TEXT(step.worked, step.reason.c_str());
+  CHECK_TEXT(step.succeeded, step.reason.c_str());
   CHECK(step.reason.empty());
   CHECK(step.remedy.empty());
 }
@@ -136,5 +136,5 @@ TEST(Realtime, AsksForThePriorityThatIsWanted) {
   }
   // Not every program may have it, but 1 is a valid priority.
   CHECK(step.reason.find("Invalid argument") == std::string::npos);
-  if (step.worked) LONGS_EQUAL(1, priority);
+  if (step.succeeded) LONGS_EQUAL(1, priority);
 }

@@ -67,7 +67,7 @@ std::string in_us(hal::Duration duration) {
 CallTime time_calls(const std::function<void()>& call, int priority) {
   CallTime time;
   const auto body = [&] {
-    const bool real_time = hal_linux::set_fifo_priority(::pthread_self(), priority).worked;
+    const bool real_time = hal_linux::set_fifo_priority(::pthread_self(), priority).succeeded;
     time = measured(call);
     time.real_time = real_time;
   };

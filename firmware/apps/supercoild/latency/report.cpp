@@ -122,7 +122,7 @@ std::string latency_json(const Latency& latency, const LatencyConditions& condit
   json["priority"] = conditions.priority;
   json["set_up"] = ordered_json::array();
   for (const hal_linux::SetupStep& step : conditions.steps)
-    json["set_up"].push_back({{"step", step.step}, {"worked", step.worked}});
+    json["set_up"].push_back({{"step", step.step}, {"worked", step.succeeded}});
   json["ticks"] = latency.late.count();
   json["overruns"] = latency.overruns;
   json["late"] = json_of(latency.late);

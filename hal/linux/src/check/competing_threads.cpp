@@ -42,15 +42,15 @@ void note(const ThreadStat& thread, const LoopThreadSettings& settings,
   if (thread.of_kernel) {
     ++competing.of_kernel;
   } else {
-    const std::string how =
+    const std::string priority_text =
         thread.policy == deadline ? "deadline" : std::to_string(thread.priority);
-    ++competing.programs[thread.name + " (" + how + ")"];
+    ++competing.programs[thread.name + " (" + priority_text + ")"];
   }
 }
 
 /// tasks: /proc/PID/task
-void look_at(const std::string& tasks, const LoopThreadSettings& settings,
-             CompetingThreads& competing) {
+void note_tasks(const std::string& tasks, const LoopThreadSettings& settings,
+                CompetingThreads& competing) {
   for (std::string path : names_in(tasks).value_or(std::vector<std::string>{})) {
     path.insert(0, tasks + "/").append("/stat");
     // One that cannot be read ended in the meantime.
@@ -99,8 +99,8 @@ void check_competing_threads(const Machine& machine, const LoopThreadSettings& s
   CompetingThreads competing;
   for (const std::string& process : *processes) {
     if (!is_number(process)) continue;
-    look_at(std::string(machine.proc).append("/").append(process).append("/task"), settings,
-            competing);
+    note_tasks(std::string(machine.proc).append("/").append(process).append("/task"), settings,
+               competing);
   }
   const std::string above = " above priority " + std::to_string(settings.priority);
   const std::string kernel = counted(competing.of_kernel, "kernel thread");

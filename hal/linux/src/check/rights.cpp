@@ -43,7 +43,7 @@ std::optional<bool> has_capability(const Machine& machine, int capability) {
 }
 
 Finding finding(const std::string& what, const SetupStep& step) {
-  if (step.worked) return {what, Severity::ok, step.step, ""};
+  if (step.succeeded) return {what, Severity::ok, step.step, ""};
   return {what, Severity::warning, "not " + step.step + ": " + step.reason, step.remedy};
 }
 
@@ -57,7 +57,7 @@ void check_priority(const Machine& machine, const LoopThreadSettings& settings,
                      }).map([](Thread&&) {});
   if (!tried) step = {"a thread", false, tried.error().text(), "free memory"};
   Finding result = finding("priority", step);
-  if (!step.worked && has_capability(machine, CAP_SYS_NICE).value_or(false)) {
+  if (!step.succeeded && has_capability(machine, CAP_SYS_NICE).value_or(false)) {
     result.found += ", despite CAP_SYS_NICE";
     result.remedy =
         "the control group has no real-time share (CONFIG_RT_GROUP_SCHED): give it one in "

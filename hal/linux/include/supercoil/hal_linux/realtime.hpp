@@ -12,9 +12,9 @@ namespace supercoil::hal_linux {
 /// One step of the set-up. A step that fails leaves the firmware working, only less punctual.
 struct SetupStep {
   std::string step;  ///< what was tried, e.g. "priority 80 of SCHED_FIFO"
-  bool worked = false;
-  std::string reason;  ///< empty when it worked
-  std::string remedy;  ///< empty when it worked
+  bool succeeded = false;
+  std::string reason;  ///< empty when it succeeded
+  std::string remedy;  ///< empty when it succeeded
 };
 
 /// Keeps the process's present and future memory in RAM. Call it before threads are started: their

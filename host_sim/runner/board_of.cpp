@@ -321,7 +321,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
                         .stiffness_ratio = stiffness_ratios_of(simulated)};
     joint.max_co_contraction_W =
         std::max(max_co_contraction_W(scenario),
-                 JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));
+                 JointSettings::default_limit_ratio * feasible_co_contraction_W(board, joint));
     add_joint(board, joint);
   } else if (!c.companions.empty()) {
     for (std::size_t i = 1; i <= c.companions.size(); ++i)

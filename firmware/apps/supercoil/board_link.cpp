@@ -10,7 +10,7 @@ namespace {
 Result<std::string> antagonist_of(BoardLink& board, const std::string& channel) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
-  const PlaceInJoint joint = told_joint(*known);
+  const PlaceInJoint joint = joint_from(*known);
   if (joint.direction < 1 || !joint.has_other()) return "";
   return std::to_string(std::stol(channel) + std::lround(joint.other_channel_offset));
 }

@@ -284,7 +284,7 @@ int take_joint(BoardLink& board, CommandOptions& options) {
   if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
   if (!muscle) return refused(options, exit_failed, muscle.error().text());
-  options.joint = told_joint(*muscle);
+  options.joint = joint_from(*muscle);
   if (options.joint.direction == 0) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": channel " + options.words[0] +

@@ -24,7 +24,7 @@ class Air {
  public:
   Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
       : settings_(settings),
-        stays_(std::exp(-step_s / control::max_time_constant_s(bounds))),
+        decay_(std::exp(-step_s / control::max_time_constant_s(bounds))),
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 
@@ -38,8 +38,8 @@ class Air {
     const double coldest_C = reading.present && reading.value <= settings_.warmest_C
                                  ? reading.value - settings_.error_K
                                  : settings_.coldest_C;
-    warmest_C_ = std::max(warmest_C, warmest_C + stays_ * (warmest_C_ - warmest_C));
-    coldest_C_ = std::min(coldest_C, coldest_C + stays_ * (coldest_C_ - coldest_C));
+    warmest_C_ = std::max(warmest_C, warmest_C + decay_ * (warmest_C_ - warmest_C));
+    coldest_C_ = std::min(coldest_C, coldest_C + decay_ * (coldest_C_ - coldest_C));
   }
 
   double warmest_C() const { return warmest_C_; }
@@ -49,7 +49,7 @@ class Air {
 
  private:
   AirSettings settings_;
-  double stays_;  ///< fraction of a difference left after a tick
+  double decay_;  ///< fraction of a difference left after a tick
   double warmest_C_;
   double coldest_C_;
 };

@@ -29,7 +29,7 @@ class Heat {
         expected_{control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s),
                   control::ThermalObserver(settings.bounds.min_mass_J_per_K, step_s),
                   control::ThermalObserver(settings.bounds.max_mass_J_per_K, step_s)} {
-    believe(muscle);
+    set_muscle(muscle);
     interval_.reset(settings.boot_rise_K);
     by_reading_.reset(settings.boot_rise_K);
     const control::ThermalBounds& b = settings.bounds;
@@ -53,9 +53,9 @@ class Heat {
     has_reading_ = facts.has_reading();
   }
 
-  /// The power since the last tick lies between min_W and max_W; probably_W is the likely value.
+  /// The power since the last tick lies between min_W and max_W; likely_W is the likely value.
   /// sensed: the bounds are those of the measurement and its error.
-  void step(double min_W, double max_W, double probably_W, bool sensed = true) {
+  void step(double min_W, double max_W, double likely_W, bool sensed = true) {
     interval_.step(min_W, max_W);
     if (has_reading_) {
       by_reading_.step(min_W / true_over_measured_.min,
@@ -63,7 +63,7 @@ class Heat {
     }
     learned_.step(max_W);
     for (control::ThermalObserver& expected : expected_)
-      expected.step(probably_W);
+      expected.step(likely_W);
   }
   /// Called at each tick with the board's air sensor, in °C; never without a sensor.
   void follow_air(const Measured& reading) { air_.step(reading); }
@@ -76,7 +76,7 @@ class Heat {
   }
 
   /// Expected positions are those of this muscle from now on, starting cold.
-  void believe(const control::PhysicalParameters& muscle) {
+  void set_muscle(const control::PhysicalParameters& muscle) {
     expected_[0] = control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s_);
     expected_[0].learn(muscle.thermal_pole_rad_per_s());
     metres_per_K_ = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;

@@ -40,16 +40,17 @@ struct KnownThermalBounds {
 
   std::span<const control::TransferSpan> known() const { return {spans.data(), count}; }
   double min_heat_transfer_W_per_K(double rise_K) const {
-    double lowest = bounds.min_transfer_W_per_K;
+    double min_W_per_K = bounds.min_transfer_W_per_K;
     for (const control::TransferSpan& span : known())
-      lowest = std::max(lowest, std::min(span.min_at(rise_K), bounds.max_transfer_W_per_K));
-    return lowest;
+      min_W_per_K =
+          std::max(min_W_per_K, std::min(span.min_at(rise_K), bounds.max_transfer_W_per_K));
+    return min_W_per_K;
   }
   double max_heat_transfer_W_per_K(double rise_K) const {
-    double highest = bounds.max_transfer_W_per_K;
+    double max_W_per_K = bounds.max_transfer_W_per_K;
     for (const control::TransferSpan& span : known())
-      highest = std::min(highest, span.max_at(rise_K));
-    return std::max(highest, bounds.min_transfer_W_per_K);
+      max_W_per_K = std::min(max_W_per_K, span.max_at(rise_K));
+    return std::max(max_W_per_K, bounds.min_transfer_W_per_K);
   }
 };
 
@@ -90,10 +91,11 @@ inline bool is_possible(const KnownThermalBounds& known, const board::ThermalFac
                         const PowerBounds::Interval& true_over_measured) {
   const double rise_K = read.steady_rise_K;
   const double error_K = read.steady_error_K;
-  const double least = read.steady_min_W * true_over_measured.min / (rise_K + error_K);
-  const double most = read.steady_max_W * true_over_measured.max / std::max(rise_K - error_K, 1e-3);
-  return most >= known.min_heat_transfer_W_per_K(rise_K) &&
-         least <= known.max_heat_transfer_W_per_K(rise_K);
+  const double min_W_per_K = read.steady_min_W * true_over_measured.min / (rise_K + error_K);
+  const double max_W_per_K =
+      read.steady_max_W * true_over_measured.max / std::max(rise_K - error_K, 1e-3);
+  return max_W_per_K >= known.min_heat_transfer_W_per_K(rise_K) &&
+         min_W_per_K <= known.max_heat_transfer_W_per_K(rise_K);
 }
 
 /// In power as measured by compared senses: all quantities are divided by true over measured power.

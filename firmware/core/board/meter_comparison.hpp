@@ -100,9 +100,9 @@ class MeterComparison {
 
   struct Reading {
     double meter = 0.0;  ///< 0: none yet
-    double told = 0.0;
-    bool is_there() const { return meter > 0.0; }
-    double gain() const { return meter / told; }
+    double sensed = 0.0;
+    bool is_present() const { return meter > 0.0; }
+    double gain() const { return meter / sensed; }
   };
   struct Level {
     double duty = 0.0;
@@ -118,7 +118,7 @@ class MeterComparison {
     if (sense == supply &&
         !(r.meter >= settings_.min_supply_V && r.meter <= settings_.max_supply_V))
       return false;
-    return r.told > 0.0 && r.gain() >= min_gain && r.gain() <= max_gain;
+    return r.sensed > 0.0 && r.gain() >= min_gain && r.gain() <= max_gain;
   }
   /// Which of the two powers acts; empty: neither the first nor far enough above it.
   std::optional<std::size_t> level_here() const {
@@ -133,15 +133,15 @@ class MeterComparison {
   /// Also finds volts and amperes that were swapped.
   bool fits(const Level& level, const PowerBounds::Interval& resistance_Ohm) const {
     const auto& [volts, amperes] = level.readings;
-    if (!volts.is_there() || !amperes.is_there()) return true;
+    if (!volts.is_present() || !amperes.is_present()) return true;
     const double meter_Ohm = level.duty * volts.meter / amperes.meter;
-    const double part = settings_.resistance_tolerance_ratio;
-    return meter_Ohm >= resistance_Ohm.min * (1.0 - part) &&
-           meter_Ohm <= resistance_Ohm.max * (1.0 + part);
+    const double tolerance = settings_.resistance_tolerance_ratio;
+    return meter_Ohm >= resistance_Ohm.min * (1.0 - tolerance) &&
+           meter_Ohm <= resistance_Ohm.max * (1.0 + tolerance);
   }
   bool is_complete() const {
     return std::all_of(levels_.begin(), levels_.end(), [](const Level& level) {
-      return level.readings[supply].is_there() && level.readings[current].is_there();
+      return level.readings[supply].is_present() && level.readings[current].is_present();
     });
   }
   double mean_gain(Sense sense) const {
@@ -150,7 +150,7 @@ class MeterComparison {
   double spread_ratio(Sense sense) const {
     const Reading& first = levels_[0].readings[sense];
     const Reading& second = levels_[1].readings[sense];
-    if (!first.is_there() || !second.is_there()) return 0.0;
+    if (!first.is_present() || !second.is_present()) return 0.0;
     return std::abs(first.gain() - second.gain()) / mean_gain(sense);
   }
   double step_of(Sense sense) const {
@@ -159,7 +159,7 @@ class MeterComparison {
   /// One count of the converter over the smaller reading.
   double count_ratio(Sense sense) const {
     return step_of(sense) /
-           std::min(levels_[0].readings[sense].told, levels_[1].readings[sense].told);
+           std::min(levels_[0].readings[sense].sensed, levels_[1].readings[sense].sensed);
   }
   /// Max difference between two correct gains if each reading is half a count off. The remaining
   /// error includes a count, so it covers a typing error that small.
@@ -167,7 +167,7 @@ class MeterComparison {
     double ratio = 0.0;
     for (const Level& level : levels_) {
       const Reading& r = level.readings[sense];
-      if (r.is_there()) ratio += 0.5 * step_of(sense) / r.told;
+      if (r.is_present()) ratio += 0.5 * step_of(sense) / r.sensed;
     }
     return ratio;
   }

@@ -83,16 +83,16 @@ class PowerBounds {
   /// minimum resistance can draw.
   double min_set_A(double duty, double supply_V, const Interval& resistance_Ohm) const {
     const Interval supply = true_over_measured_supply(supply_V);
-    const double part = settings_.resistance_tolerance_ratio;
-    if (!compared_) return duty * supply_V * supply.min / (resistance_Ohm.max * (1.0 + part));
-    const double min_warm_Ohm = resistance_Ohm.min * std::max(0.1, 1.0 - part);
+    const double tolerance = settings_.resistance_tolerance_ratio;
+    if (!compared_) return duty * supply_V * supply.min / (resistance_Ohm.max * (1.0 + tolerance));
+    const double min_warm_Ohm = resistance_Ohm.min * std::max(0.1, 1.0 - tolerance);
     return duty * supply_V * supply.min / min_warm_Ohm;
   }
   /// Of two senses that were never compared, only their ratio, the resistance, is checked.
   Interval true_over_measured_current(const Interval& supply) const {
     if (compared_) return supply;
-    const double unseen = 1.0 + settings_.resistance_tolerance_ratio;
-    return {supply.min / unseen, supply.max * unseen};
+    const double max_gain_error = 1.0 + settings_.resistance_tolerance_ratio;
+    return {supply.min / max_gain_error, supply.max * max_gain_error};
   }
 
   Settings settings_;

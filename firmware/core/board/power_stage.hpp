@@ -32,15 +32,15 @@ class PowerStage {
         std::isfinite(full_W) && full_W > 0.0 && resistance_Ohm > 0.0 && supply_V > 0.0;
     if (!usable || !(demanded_W > 0.0)) return off(demanded_W > 0.0 || std::isnan(demanded_W));
     const double steps_per_W = settings_.steps / full_W;
-    const double exact = demanded_W * steps_per_W + rest_;
-    const int most = whole(max_W * steps_per_W);
-    const int step = std::min(whole(exact + 0.5), most);
-    rest_ = settings_.error_feedback ? std::clamp(exact - step, -1.0, 1.0) : 0.0;
+    const double exact = demanded_W * steps_per_W + remainder_;
+    const int max_step = whole(max_W * steps_per_W);
+    const int step = std::min(whole(exact + 0.5), max_step);
+    remainder_ = settings_.error_feedback ? std::clamp(exact - step, -1.0, 1.0) : 0.0;
     const double duty = static_cast<double>(step) / settings_.steps;
     return {step, duty, duty * full_W, demanded_W > full_W};
   }
 
-  void reset() { rest_ = 0.0; }
+  void reset() { remainder_ = 0.0; }
 
  private:
   /// Rounded down and limited to 0 to `steps`; 0 for NaN. (std::floor would be a call.)
@@ -49,12 +49,12 @@ class PowerStage {
                        : 0;
   }
   Output off(bool clipped) {
-    rest_ = 0.0;
+    remainder_ = 0.0;
     return {0, 0.0, 0.0, clipped};
   }
 
   Settings settings_;
-  double rest_ = 0.0;
+  double remainder_ = 0.0;
 };
 
 }  // namespace supercoil::board

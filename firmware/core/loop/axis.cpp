@@ -26,11 +26,11 @@ control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
 /// indicate a temperature must be that of a cold muscle, whatever holds it.
 modes::Calibrate::Settings calibrate_settings(const ChannelSettings& channel) {
   modes::Calibrate::Settings s;
-  constexpr double still_K = 20.0, left_ratio = 1e-3;
+  constexpr double still_K = 20.0, remaining_ratio = 1e-3;
   if (!channel.joint.has_other() && !channel.bundle.bundled &&
       channel.heater.temperature_coefficient_per_K == 0.0)
     s.still_K = still_K;
-  s.max_left_m = left_ratio * channel.supervision.max_travel_m;
+  s.max_remaining_m = remaining_ratio * channel.supervision.max_travel_m;
   s.count_m = std::abs(channel.position.scaling.per_count);
   return s;
 }
@@ -129,7 +129,7 @@ void Axis::limit(double share_W, double max_W) {
       lowered_by = limit_W < limiter.max_W() ? LimitedBy::temperature : LimitedBy::maximum;
     }
   }
-  heater_.limit(state_, proof_.added_to(share_W, limit_W), proof_.max_W(), lowered_by);
+  heater_.limit(state_, proof_.with_dither_W(share_W, limit_W), proof_.max_W(), lowered_by);
 }
 
 double Axis::held_W() const {
@@ -149,13 +149,13 @@ Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
   return {
       gain_ratio * acting.power_W, acting.limited, {gain_ratio * own.min_W, gain_ratio * own.max_W},
       gain_ratio * held_W(),       expected_m,     heater_.heat().hottest_K(),
-      inputs_.expected_anew};
+      inputs_.expected_jumped};
 }
 
 void Axis::lead(const WholeBundle& whole) {
-  const bool anew = !bundle_ || bundle_->max_power_ratio != whole.max_power_ratio;
+  const bool replan = !bundle_ || bundle_->max_power_ratio != whole.max_power_ratio;
   bundle_ = whole;
-  if (anew) plan_proof();
+  if (replan) plan_proof();
 }
 
 /// With the widest power bounds.

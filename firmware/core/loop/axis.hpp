@@ -38,8 +38,8 @@ struct Opposition {
   double held_W = 0.0;                  ///< of power_W, as Axis::held_W()
   /// How far its heat moves the joint against this muscle, as in HeaterInputs::expected_m.
   detectors::NotResponding::Expected expected_m{};
-  double hottest_K = 0.0;      ///< above the air
-  bool expected_anew = false;  ///< as in AxisInputs
+  double hottest_K = 0.0;        ///< above the air
+  bool expected_jumped = false;  ///< as in AxisInputs
 };
 
 /// What all muscles of a bundle can do together, for the leader's axis.
@@ -65,7 +65,7 @@ class Axis {
   void oppose(const Opposition& other) {
     other_ = other;
     inputs_.in_joint = true;
-    inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
+    inputs_.expected_jumped = inputs_.expected_jumped || other.expected_jumped;
   }
   /// For a bundle's leader: likewise for the whole bundle.
   void lead(const WholeBundle& whole);
@@ -78,7 +78,7 @@ class Axis {
   void judged() {
     inputs_.position_elapsed_s = 0.0;
     inputs_.recalibrated.reset();
-    inputs_.expected_anew = false;
+    inputs_.expected_jumped = false;
   }
   /// A healthy sensor cannot give this position.
   void reject_position() { inputs_.position.present = false; }
@@ -270,8 +270,8 @@ class Axis {
   double unexplained_ratio_;  ///< by that muscle, if identify found it; 0: not measured
   board::Identification identification_;  ///< without a date: found since the start
   board::StoredTuning stored_tuning_;
-  std::uint32_t knowledge_ = 0;     ///< counts changes of what is known of the motion
-  std::uint32_t knows_from_ = -1U;  ///< the leader's knowledge_ when it was taken over
+  std::uint32_t knowledge_ = 0;           ///< counts changes of what is known of the motion
+  std::uint32_t leader_knowledge_ = -1U;  ///< the leader's knowledge_ when it was taken over
   PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 

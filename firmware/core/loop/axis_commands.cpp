@@ -180,7 +180,7 @@ void Axis::follow_comparisons() {
   const bool sensed = current.present && heater_.supply_V() > 0.0;
   if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
   // A probe pulse is not part of the power at which the meter is read.
-  if (!heater_.probe_felt())
+  if (!heater_.probe_settling())
     comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
   if (heater_.senses().compared()) {
     steady_state_.step(heater_.measured_power_W(), heater_.heat().hottest_K());

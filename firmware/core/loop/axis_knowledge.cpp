@@ -68,16 +68,16 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
 
 /// At the latest when the next tick is judged. The cold resistance remains this heater's own.
 void Axis::follow_knowledge(const Axis& leader) {
-  if (knows_from_ == leader.knowledge_) return;
-  knows_from_ = leader.knowledge_;
-  if (!(muscle_ == leader.muscle_)) heater_.believe(leader.muscle_);
+  if (leader_knowledge_ == leader.knowledge_) return;
+  leader_knowledge_ = leader.knowledge_;
+  if (!(muscle_ == leader.muscle_)) heater_.set_muscle(leader.muscle_);
   muscle_ = leader.muscle_;
   board::Calibration found = leader.calibration_;
   found.cold_resistance_Ohm = calibration_.cold_resistance_Ohm;
   calibrate(found);
   inputs_.position.value = calibrated(inputs_.sensor_m);
   inputs_.recalibrated = leader.inputs_.recalibrated;
-  inputs_.expected_anew = leader.inputs_.expected_anew;
+  inputs_.expected_jumped = leader.inputs_.expected_jumped;
 }
 
 /// Keeps a muscle together with how well it was fitted.

@@ -10,11 +10,11 @@ namespace {
 
 /// Without a date, which is added when it is stored.
 board::Identification identification_of(const modes::Identify::Quality& quality) {
-  constexpr double most = 10.0;
+  constexpr double max_ratio = 10.0;
   board::Identification of;
   for (std::size_t i = 0; i < of.deviation_ratio.size(); ++i) {
     const double ratio = quality.deviation_ratio[static_cast<Eigen::Index>(i)];
-    of.deviation_ratio[i] = std::isnan(ratio) ? 0.0 : std::fmin(ratio, most);
+    of.deviation_ratio[i] = std::isnan(ratio) ? 0.0 : std::fmin(ratio, max_ratio);
   }
   return of;
 }
@@ -62,8 +62,8 @@ ModeResult Axis::keep_identified() {
   const ModeResult kept =
       keep_fitted(identify_.found(), quality.unexplained_ratio, identification_of(quality));
   if (kept == ModeResult::found || kept == ModeResult::not_stored) {
-    heater_.believe(muscle_);
-    inputs_.expected_anew = true;
+    heater_.set_muscle(muscle_);
+    inputs_.expected_jumped = true;
   }
   return kept;
 }

@@ -52,12 +52,12 @@ void Bundle::limit() {
            axis.allowed_range().max_W <= range.max_W;
   };
   leader_.limit(is_cut_by(leader_) ? demanded_W : std::min(demanded_W, range.max_W), range.max_W);
-  const double leaders_W = leader_.heater().allowed().power_W;
+  const double leader_W = leader_.heater().allowed().power_W;
   for (Axis* const follower : followers_) {
     if (!is_led(follower->mode())) {
       follower->follow_power(0.0, 0.0);
     } else {
-      follower->follow_power(demanded_W, is_cut_by(*follower) ? demanded_W : leaders_W);
+      follower->follow_power(demanded_W, is_cut_by(*follower) ? demanded_W : leader_W);
     }
   }
 }

@@ -48,11 +48,11 @@ void Estimation::publish(std::uint32_t selector, Snapshot& s) const {
   s.deviation = e.deviation.unaryExpr([](double each) { return nan_if_infinite(each); });
   s.bias_deviation_W = nan_if_infinite(e.bias_deviation_W);
   // No bias without a standard deviation.
-  const bool told = !std::isnan(s.bias_deviation_W);
-  s.bias_W = told ? e.bias_W : s.bias_deviation_W;
+  const bool has_bias = !std::isnan(s.bias_deviation_W);
+  s.bias_W = has_bias ? e.bias_W : s.bias_deviation_W;
   constexpr std::uint64_t multiplexed = multiplexed_names.size() - 1;
   s.multiplexed_selector =
-      told ? static_cast<std::uint8_t>(1 + (selector * multiplexed >> 32U)) : std::uint8_t{0};
+      has_bias ? static_cast<std::uint8_t>(1 + (selector * multiplexed >> 32U)) : std::uint8_t{0};
 }
 
 }  // namespace supercoil

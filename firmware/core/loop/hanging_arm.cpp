@@ -13,9 +13,9 @@ double weight_N(const PlaceInJoint& joint, double position_m) {
 }
 
 double weight_N_per_m(const PlaceInJoint& joint, double position_m) {
-  constexpr double apart_m = 1e-7;
-  return (weight_N(joint, position_m + apart_m) - weight_N(joint, position_m - apart_m)) /
-         (2.0 * apart_m);
+  constexpr double delta_m = 1e-7;
+  return (weight_N(joint, position_m + delta_m) - weight_N(joint, position_m - delta_m)) /
+         (2.0 * delta_m);
 }
 
 /// The position up to which, from 0 on, all are good.

@@ -77,7 +77,7 @@ class Heater {
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
   /// Takes the muscle's thermal pole from a trusted estimate.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
-  void believe(const control::PhysicalParameters& muscle) { heat_.believe(muscle); }
+  void set_muscle(const control::PhysicalParameters& muscle) { heat_.set_muscle(muscle); }
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
   /// From any thread. Limits the power to max_W and the configured maximum.
   void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }
@@ -96,7 +96,7 @@ class Heater {
   }
   bool probing() const { return probe_.running(); }
   /// The current sense's reading still contains a probe.
-  bool probe_felt() const { return felt_ticks_ > 0; }
+  bool probe_settling() const { return settling_ticks_ > 0; }
   double resistance_age_s() const { return resistance_.age_s(); }
   /// Whether a probe ended in this tick. probed_Ohm(): its result, or 0.
   bool probe_ended() const { return probed_ || probe_failed_; }
@@ -153,8 +153,8 @@ class Heater {
   board::Probe probe_;
   bool probed_ = false;
   bool probe_failed_ = false;
-  int sense_ticks_;     ///< until the current sense has settled after a probe
-  int felt_ticks_ = 0;  ///< how many of them are left
+  int sense_ticks_;         ///< until the current sense has settled after a probe
+  int settling_ticks_ = 0;  ///< how many of them are left
   std::atomic<double> max_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;

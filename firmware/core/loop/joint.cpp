@@ -10,7 +10,7 @@ Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, dou
     : settings_(settings),
       agonist_(agonist),
       antagonist_(antagonist),
-      first_W_(settings.co_contraction_W),
+      initial_W_(settings.co_contraction_W),
       max_W_(settings.max_co_contraction_W),
       lag_ratio_(step_s / co_contraction_lag_s),
       inverse_lever_ratio_(1.0 / settings.antagonist_lever_ratio),
@@ -55,17 +55,18 @@ double Joint::taut_W(double gain_ratio) const {
 /// The antagonist's reference is its power while the joint asks for no effort.
 void Joint::follow_co_contraction(bool active, double gain_ratio) {
   if (!active) {
-    nearly_W_ = co_contraction_W_ = 0.0;
+    filtered_W_ = co_contraction_W_ = 0.0;
   } else if (!was_active_) {
-    antagonist_.pull_with(std::min(first_W_ / gain_ratio, antagonist_.heater().limiter().max_W()));
+    antagonist_.pull_with(
+        std::min(initial_W_ / gain_ratio, antagonist_.heater().limiter().max_W()));
   }
   was_active_ = active;
   if (!active) return;
   // A command may exceed the limit once the muscles are known better.
   const double wanted_W =
       std::min(std::max(gain_ratio * antagonist_.reference(), taut_W(gain_ratio)), max_W_);
-  nearly_W_ += lag_ratio_ * (wanted_W - nearly_W_);
-  co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
+  filtered_W_ += lag_ratio_ * (wanted_W - filtered_W_);
+  co_contraction_W_ += lag_ratio_ * (filtered_W_ - co_contraction_W_);
 }
 
 /// For muscles that are driven separately. A command may exceed the limit once the muscles are

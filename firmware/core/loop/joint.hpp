@@ -44,7 +44,7 @@ class Joint {
   JointSettings settings_;
   Axis& agonist_;
   Axis& antagonist_;
-  double first_W_;    ///< initial co-contraction, in the agonist's watts as all members here
+  double initial_W_;  ///< initial co-contraction, in the agonist's watts as all members here
   double max_W_;      ///< of co-contraction
   double lag_ratio_;  ///< a tick over co_contraction_lag_s
   double inverse_lever_ratio_;
@@ -52,7 +52,7 @@ class Joint {
   std::array<std::uint32_t, 2> knowledge_;
   Gains gains_;
   bool was_active_ = false;
-  double nearly_W_ = 0.0;
+  double filtered_W_ = 0.0;
   double co_contraction_W_ = 0.0;  ///< through two low-passes, so that its rate does not jump
 };
 

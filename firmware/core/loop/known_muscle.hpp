@@ -90,7 +90,7 @@ inline ConfiguredMuscle configured_muscle(const ChannelSettings& c, double min_s
           c.thermal.bounds};
 }
 
-inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
+inline void set_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   const control::Lever& lever = joint.lever;
   std::fill(known.begin() + known_lever_first, known.begin() + known_bundle_leader_node_offset,
             NAN);
@@ -102,8 +102,8 @@ inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   std::ranges::copy(lever.radii_m(), known.begin() + known_lever_points);
 }
 
-/// Inverts tell_lever(), also for invalid values; direction 0: the muscle turns no joint.
-inline PlaceInJoint told_joint(const KnownMuscle& known) {
+/// Inverts set_lever(), also for invalid values; direction 0: the muscle turns no joint.
+inline PlaceInJoint joint_from(const KnownMuscle& known) {
   PlaceInJoint joint;
   const double lever_m = known[known_joint_lever];
   if (!(std::abs(lever_m) > 0.0)) return joint;
@@ -127,7 +127,7 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                                 const board::Identification& identification,
                                 const ConfiguredMuscle& configured) {
   const control::PhysicalParameters& file = configured.muscle;
-  const auto told = [](double value) { return value > 0.0 ? value : NAN; };
+  const auto positive_or_nan = [](double value) { return value > 0.0 ? value : NAN; };
   KnownMuscle known{m.thermal_mass_J_per_K,
                     m.heat_transfer_W_per_K,
                     m.stiffness_N_per_m,
@@ -138,11 +138,11 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                     c.position_offset_m,
                     c.position_scale,
                     response_ratio,
-                    told(identification.deviation_ratio[0]),
-                    told(identification.deviation_ratio[1]),
-                    told(identification.deviation_ratio[2]),
-                    told(identification.deviation_ratio[3]),
-                    told(unexplained_ratio),
+                    positive_or_nan(identification.deviation_ratio[0]),
+                    positive_or_nan(identification.deviation_ratio[1]),
+                    positive_or_nan(identification.deviation_ratio[2]),
+                    positive_or_nan(identification.deviation_ratio[3]),
+                    positive_or_nan(unexplained_ratio),
                     file.thermal_mass_J_per_K,
                     file.heat_transfer_W_per_K,
                     file.stiffness_N_per_m,
@@ -152,11 +152,11 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                     configured.cold_resistance_Ohm,
                     NAN,
                     configured.joint.other_channel_offset};
-  tell_lever(configured.joint, known);
+  set_lever(configured.joint, known);
   known[known_bundle_leader_node_offset] = configured.bundle.leader_offset;
   known[known_min_set_point] = configured.min_set_point_m;
   known[known_max_set_point] = configured.max_set_point_m;
-  known[known_identified] = told(identification.identified_s);
+  known[known_identified] = positive_or_nan(identification.identified_s);
   const control::ThermalBounds& b = configured.bounds;
   const double slowest_s = std::isfinite(b.max_time_constant_s) ? b.max_time_constant_s : NAN;
   const std::array limits{configured.max_W,   configured.trip_C,      b.min_mass_J_per_K,

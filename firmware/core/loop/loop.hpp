@@ -48,9 +48,9 @@ struct LoopTiming {
   }
 
  private:
-  static void raise(std::atomic<std::int64_t>& largest, std::int64_t value) {
-    if (value > largest.load(std::memory_order_relaxed))
-      largest.store(value, std::memory_order_relaxed);
+  static void raise(std::atomic<std::int64_t>& maximum, std::int64_t value) {
+    if (value > maximum.load(std::memory_order_relaxed))
+      maximum.store(value, std::memory_order_relaxed);
   }
 };
 

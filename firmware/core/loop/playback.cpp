@@ -6,33 +6,33 @@
 namespace supercoil {
 
 /// P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x, as in ReferenceShaper, averaged over each part of the piece.
-bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able) {
+bool Playback::is_feasible(const control::QuinticPiece& piece, const Capability& capability) {
   constexpr double max_parts = 8.0;
   const auto parts = static_cast<int>(std::clamp(piece.duration_s() / smoothed_s, 1.0, max_parts));
   const double part_s = piece.duration_s() / parts;
-  const double margin_W = margin_ratio * able.range.max_W;
+  const double margin_W = margin_ratio * capability.range.max_W;
   control::ModelMotion<double> from = piece.at(piece.begins_s()).motion;
   for (int i = 1; i <= parts; ++i) {
     const control::ModelMotion<double> to = piece.at(piece.begins_s() + i * part_s).motion;
-    const double needed_W = able.theta[0] * able.moving_mass_kg *
+    const double needed_W = capability.theta[0] * capability.moving_mass_kg *
                                 (to.acceleration - from.acceleration) /
                                 std::max(part_s, smoothed_s) +
-                            able.theta[1] * (to.velocity - from.velocity) / part_s +
-                            able.theta[2] * (to.position - from.position) / part_s +
-                            able.theta[3] * 0.5 * (from.position + to.position);
-    const bool possible = needed_W >= able.range.min_W - margin_W &&
-                          needed_W <= able.range.max_W + margin_W &&
-                          to.position >= -float_rounding * able.max_reverse_travel_m &&
-                          to.position <= float_rounding * able.max_travel_m;
+                            capability.theta[1] * (to.velocity - from.velocity) / part_s +
+                            capability.theta[2] * (to.position - from.position) / part_s +
+                            capability.theta[3] * 0.5 * (from.position + to.position);
+    const bool possible = needed_W >= capability.range.min_W - margin_W &&
+                          needed_W <= capability.range.max_W + margin_W &&
+                          to.position >= -float_rounding * capability.max_reverse_travel_m &&
+                          to.position <= float_rounding * capability.max_travel_m;
     if (!possible) return false;  // also for NaN
     from = to;
   }
   return true;
 }
 
-Reply Playback::add(const Command& command, const Able& able) {
-  const double min_m = -float_rounding * able.max_reverse_travel_m;
-  const double max_m = float_rounding * able.max_travel_m;
+Reply Playback::add(const Command& command, const Capability& capability) {
+  const double min_m = -float_rounding * capability.max_reverse_travel_m;
+  const double max_m = float_rounding * capability.max_travel_m;
   const auto velocity = static_cast<double>(command.velocity_m_per_s);
   const auto after_s = static_cast<double>(command.after_s);
   if (!(command.value >= min_m && command.value <= max_m))
@@ -47,7 +47,7 @@ Reply Playback::add(const Command& command, const Able& able) {
   if (trajectory_.room() == 0) return Refusal::queue_full;
   const auto preview = trajectory_.preview(next);
   for (std::size_t i = preview.first; i < preview.pieces.size(); ++i) {
-    if (!is_feasible(preview.pieces[i], able)) return Refusal::infeasible;
+    if (!is_feasible(preview.pieces[i], capability)) return Refusal::infeasible;
   }
   trajectory_.add(next);
   publish();
@@ -68,7 +68,8 @@ Reply Playback::start(hal::Time at, hal::Time now, double reference_m, Source so
   if (state_ != PlaybackState::loaded) return Refusal::wrong_state;
   if (at < now) return Refusal::out_of_range;
   if (hal::seconds(at - now) > max_ahead_s) return Refusal::out_of_range;
-  if (std::abs(reference_m - trajectory_.passed().position_m) > same_m) return Refusal::not_ready;
+  if (std::abs(reference_m - trajectory_.passed().position_m) > max_gap_m)
+    return Refusal::not_ready;
   wanted_ahead_s_.store(0.0, std::memory_order_relaxed);
   aligns_ = source == Source::can;
   starts_ = at;

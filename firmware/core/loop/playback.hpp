@@ -38,7 +38,7 @@ struct alignas(8) PlaybackStatus {
 class Playback {
  public:
   /// What the muscle can do, by its linear model.
-  struct Able {
+  struct Capability {
     control::Theta theta;
     double moving_mass_kg;
     double max_reverse_travel_m;  ///< below rest
@@ -48,7 +48,7 @@ class Playback {
 
   /// Adds the knot of `command`. A time of 0 s after the last makes it the first of a new
   /// trajectory, at rest.
-  Reply add(const Command& command, const Able& able);
+  Reply add(const Command& command, const Capability& capability);
   /// Starts at a time of the board's clock, from the position that is followed now. source: a start
   /// from the board itself keeps to the board's clock and ignores a bus's master.
   Reply start(hal::Time at, hal::Time now, double reference_m, Source source);
@@ -73,7 +73,7 @@ class Playback {
   static constexpr double max_after_s = 60.0;
   static constexpr double hold_dry_s = 1.0;
   /// Tolerance for the resolution of a 24-bit position and of a reference that was read.
-  static constexpr double same_m = 2e-6;
+  static constexpr double max_gap_m = 2e-6;
   /// A larger difference comes from another clock.
   static constexpr double max_align_s = 0.01;
   /// How much faster or slower time runs while it is aligned.
@@ -85,7 +85,7 @@ class Playback {
   static constexpr double margin_ratio = 0.05;
 
   Reply begin(double position_m, double velocity_m_per_s);
-  static bool is_feasible(const control::QuinticPiece& piece, const Able& able);
+  static bool is_feasible(const control::QuinticPiece& piece, const Capability& capability);
   bool runs() const { return state_ >= PlaybackState::playing; }
   void publish();
 

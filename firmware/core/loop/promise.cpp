@@ -28,14 +28,14 @@ constexpr double allowance = 1.8;
 /// Effect of each tick's white noise in a loop of this bandwidth, including what its damping adds.
 constexpr double noise_gain = 2.5;
 /// Ratio of motion faster than a drift to sensor noise above which no dither is needed.
-constexpr double telling_deviations = 20.0;
+constexpr double min_snr_without_dither = 20.0;
 /// Below, expect ringing (docs/control.md).
 constexpr double ringing_margin = 0.3;
 /// As in dither_for.
 constexpr double max_dither_m = 20e-6;
 /// Used until identify has measured what the linear model leaves unexplained: four of five random
 /// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
-constexpr double usual_unexplained_ratio = 0.015;
+constexpr double default_unexplained_ratio = 0.015;
 
 /// Ripple of power that is rounded to the PWM's steps. With error feedback the next tick returns
 /// what one took; without it a rounding lasts until the controller notices.
@@ -55,7 +55,7 @@ double unexplained_ratio(const ChannelSettings& channel) {
   if (channel.unexplained_ratio > 0.0) return channel.unexplained_ratio;
   if (channel.simulated.linear) return 0.0;
   return channel.muscle_identified ? modes::Identify::Settings{}.max_unexplained
-                                   : usual_unexplained_ratio;
+                                   : default_unexplained_ratio;
 }
 
 /// Amplitude over that of the widest sine; a faster one has its power swing, P = (x + τẋ)/gain.
@@ -125,8 +125,9 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
     p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
 
   // If the motion itself shows too little, a dither tests whether the muscle still responds.
-  const double quick_m = motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
-  if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
+  const double fast_motion_m =
+      motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
+  if (channel.supervision.proof_of_response && fast_motion_m < min_snr_without_dither * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
 
   p.delay_m = motion.amplitude_m / std::numbers::sqrt2 * turn * channel.heater.delay_s *

@@ -54,7 +54,7 @@ class SelfTest {
       ++count_;
     }
     pulse_elapsed_s_ = before.pulse ? pulse_elapsed_s_ + step_s_ : 0.0;
-    over_s_ = !(current_A <= far_more * idle_A) ? over_s_ + step_s_ : 0.0;
+    over_s_ = !(current_A <= fast_trip_ratio * idle_A) ? over_s_ + step_s_ : 0.0;
     const bool pulse_ends = before.pulse && !lines().pulse;
     const bool mean_over = pulse_ends && !(count_ > 0 && sum_A_ <= idle_A * count_);
     if (mean_over || over_s_ > 0.3 * settings_.pulse_s) {
@@ -82,7 +82,7 @@ class SelfTest {
   }
 
  private:
-  static constexpr double far_more = 4.0;
+  static constexpr double fast_trip_ratio = 4.0;
 
   bool within(double from_s) const {
     return elapsed_s_ >= from_s && elapsed_s_ < from_s + settings_.pulse_s;

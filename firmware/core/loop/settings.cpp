@@ -79,7 +79,7 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
 }
 
 /// A setting that the bundle's leader determines for all: travel, proof and ramps are the bundle's.
-struct GoesByLeader {
+struct SharedSetting {
   const char* key;
   double leaders;
   double followers;
@@ -90,9 +90,9 @@ struct GoesByLeader {
 std::string contradiction(const ChannelSettings& leader, const ChannelSettings& follower) {
   const control::ThermalBounds& of_leader = leader.thermal.bounds;
   const control::ThermalBounds& of_follower = follower.thermal.bounds;
-  for (const GoesByLeader& one :
-       {GoesByLeader{"limits.max_travel_m", leader.supervision.max_travel_m,
-                     follower.supervision.max_travel_m, true},
+  for (const SharedSetting& one :
+       {SharedSetting{"limits.max_travel_m", leader.supervision.max_travel_m,
+                      follower.supervision.max_travel_m, true},
         {"limits.trip_C", leader.supervision.trip_C, follower.supervision.trip_C, true},
         {"limits.derate_from_C", leader.limiter.derate_from_C, follower.limiter.derate_from_C,
          true},
@@ -222,7 +222,7 @@ board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSetti
 
 ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& board) {
   ProofSettings s;
-  s.wanted = c.supervision.proof_of_response;
+  s.enabled = c.supervision.proof_of_response;
   s.thermal = c.thermal;
   s.max_power_ratio = power_bounds(c, board).true_over_measured().max;
   s.max_W = c.limiter.max_W;

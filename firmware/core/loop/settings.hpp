@@ -135,7 +135,7 @@ struct JointSettings {
   double co_contraction_W = 1.0;
   /// Default of max_co_contraction_W over what both heaters can give: with half of it the joint can
   /// still be asked for every effort.
-  static constexpr double usual_limit_ratio = 0.5;
+  static constexpr double default_limit_ratio = 0.5;
   /// The maximum that may be commanded, also in watts of the agonist.
   double max_co_contraction_W = std::numeric_limits<double>::infinity();
   double antagonist_lever_ratio = 1.0;  ///< of its lever to the agonist's, at every angle

@@ -115,7 +115,7 @@ void Tuner::add_to(Command& command, const control::PhysicalParameters& muscle) 
 }
 
 template <class Settings>
-bool Tuner::suits(const Settings& wanted) {
+bool Tuner::passes_check(const Settings& wanted) {
   const auto problem = check(wanted, channel_, step_s_);
   if (problem) problem_ = problem->key + " " + problem->message;
   return !problem;
@@ -124,7 +124,7 @@ bool Tuner::suits(const Settings& wanted) {
 void Tuner::build(std::size_t place, Command& command) {
   if (place < controllers_.size()) {
     const control::ControllerSettings& wanted = controllers_[place].prepared;
-    if (built_controllers_.size() == max_built || !suits(wanted)) return;
+    if (built_controllers_.size() == max_built || !passes_check(wanted)) return;
     using One = Built<control::ControllerSettings, control::Controller>;
     built_controllers_.push_back(
         std::make_unique<One>(One{place, wanted, control::Controller(wanted, step_s_)}));
@@ -134,7 +134,7 @@ void Tuner::build(std::size_t place, Command& command) {
   const std::size_t estimator = place - first_estimator_place;
   if (place < first_estimator_place || estimator >= estimators_.size()) return;
   const control::EstimatorSettings& wanted = estimators_[estimator].prepared;
-  if (built_estimators_.size() == max_built || !suits(wanted)) return;
+  if (built_estimators_.size() == max_built || !passes_check(wanted)) return;
   control::EstimatorSettings begins = wanted;
   begins.begin_at(channel_.muscle);
   using One = Built<control::EstimatorSettings, control::Estimator>;

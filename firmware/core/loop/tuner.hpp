@@ -69,7 +69,7 @@ class Tuner {
   static bool at(Self& self, std::size_t place, Function function);
   void build(std::size_t place, Command& command);
   template <class Settings>
-  bool suits(const Settings& wanted);
+  bool passes_check(const Settings& wanted);
   template <class Settings, class Running>
   static void conclude(AllBuilt<Settings, Running>& built, std::vector<Place<Settings>>& places,
                        const Running* tuned, bool taken);

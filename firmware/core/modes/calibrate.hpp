@@ -17,9 +17,9 @@ class Calibrate {
  public:
   struct Settings {
     double cold_K = 1.0;
-    double still_K = cold_K;  ///< cold if it is still; a jammed muscle may be this hot
-    double max_left_m = 0.0;  ///< max remaining motion when cold by stillness
-    double count_m = 0.0;     ///< resolution of the position
+    double still_K = cold_K;       ///< cold if it is still; a jammed muscle may be this hot
+    double max_remaining_m = 0.0;  ///< max remaining motion when cold by stillness
+    double count_m = 0.0;          ///< resolution of the position
     double max_wait_s = 120.0;
     double mean_s = 1.0;
     double max_motion_m = 100e-6;  ///< between the two halves of the mean
@@ -40,7 +40,7 @@ class Calibrate {
 
   /// One tick of waiting and averaging.
   ModeResult step(double hottest_K, double position_m, double step_s) {
-    if (elapsed_s_ == 0.0) begins_K_ = hottest_K;
+    if (elapsed_s_ == 0.0) initial_K_ = hottest_K;
     elapsed_s_ += step_s;
     if (count_ == 0) stillness_.step(hottest_K, position_m, step_s);
     if (count_ == 0 && !is_cold(hottest_K)) {
@@ -71,13 +71,13 @@ class Calibrate {
 
  private:
   bool is_cold(double hottest_K) const {
-    return hottest_K <= settings_.cold_K ||
-           (hottest_K <= settings_.still_K && stillness_.left_m() <= settings_.max_left_m);
+    return hottest_K <= settings_.cold_K || (hottest_K <= settings_.still_K &&
+                                             stillness_.remaining_m() <= settings_.max_remaining_m);
   }
   /// From the start until it must be cold, by the cooling so far; infinity without any.
   double cooling_s(double hottest_K) const {
     const double ends_K = hottest_K > settings_.still_K ? settings_.still_K : settings_.cold_K;
-    const double cooled = std::log(begins_K_ / hottest_K) / std::log(begins_K_ / ends_K);
+    const double cooled = std::log(initial_K_ / hottest_K) / std::log(initial_K_ / ends_K);
     return cooled > 0.0 ? std::fmin(elapsed_s_ / cooled, settings_.max_wait_s)
                         : std::numeric_limits<double>::infinity();
   }
@@ -89,7 +89,7 @@ class Calibrate {
 
   Settings settings_;
   Stillness stillness_;
-  double begins_K_ = 0.0;
+  double initial_K_ = 0.0;
   double elapsed_s_ = 0.0;
   double cold_after_s_ = 0.0;
   double sum_m_ = 0.0;

@@ -39,10 +39,10 @@ double Excitation::cooling_W() const {
 double Excitation::next_W(double position_m, double max_W) {
   time_s_ += settings_.step_s;
   phase_s_ += settings_.step_s;
-  const double part = std::min(1.0, settings_.step_s / smoothing_s);
+  const double gain = std::min(1.0, settings_.step_s / smoothing_s);
   const double before_m = position_m_;
-  position_m_ += part * (position_m - position_m_);
-  speed_m_per_s_ += part * ((position_m_ - before_m) / settings_.step_s - speed_m_per_s_);
+  position_m_ += gain * (position_m - position_m_);
+  speed_m_per_s_ += gain * ((position_m_ - before_m) / settings_.step_s - speed_m_per_s_);
   const double ahead_m = position_m_ + lag_s * speed_m_per_s_;
   const bool still = stalled();
   switch (phase_) {

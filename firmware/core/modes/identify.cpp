@@ -99,15 +99,15 @@ ModeResult Identify::judge() {
   return ModeResult::found;
 }
 
-ModeResult Identify::shorten(ModeResult because) {
+ModeResult Identify::shorten(ModeResult reason) {
   if (shortened_ == 0) {
     full_strokes_ = fit_.experiment();
     full_theta_ = theta_;
-    full_result_ = because;
+    full_result_ = reason;
     full_notes_ = notes_;
   }
   ++shortened_;
-  ++again_;
+  ++repeats_;
   excitation_.start_shorter();
   fit_.restart();
   return go_on();
@@ -121,7 +121,7 @@ ModeResult Identify::conclude(bool ends) {
   if (result == ModeResult::poor_fit && can_shorten) return shorten(result);
   if (!ends) return go_on();
   if (result == ModeResult::uncertain && in_time && excitation_.go_on()) {
-    ++again_;
+    ++repeats_;
     return go_on();
   }
   if (shortened_ == 0 && result != ModeResult::uncertain) return result;

@@ -67,7 +67,7 @@ class Identify {
     notes_ = 0;
     power_W_ = 0.0;
     shortened_ = 0;
-    again_ = 0;
+    repeats_ = 0;
     excitation_.start(position_m);
     fit_.start(position_m);
   }
@@ -92,7 +92,7 @@ class Identify {
   double power_W() const { return power_W_; }
   /// 0 to 1. Repeats are not known beforehand, so each counts as half of what was left.
   float progress() const {
-    return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(again_));
+    return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(repeats_));
   }
   /// The full strokes did not fit, or left the muscle uncertain.
   bool shortened() const { return shortened_ > 0; }
@@ -119,7 +119,7 @@ class Identify {
     notes_ = 0;
     return ModeResult::running;
   }
-  ModeResult shorten(ModeResult because);
+  ModeResult shorten(ModeResult reason);
   bool knows(const control::BatchLeastSquares::Fit& fit, int i) const;
   bool usable_theta2(const control::BatchLeastSquares::Fit& fit) const;
   bool plausible(double theta, double believed) const;
@@ -131,7 +131,7 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
-  std::uint8_t again_ = 0;      ///< times excited again after the first
+  std::uint8_t repeats_ = 0;    ///< times excited again after the first
   std::uint8_t shortened_ = 0;  ///< of these, times with shorter strokes
   /// Of the full strokes, once they are shortened: what they showed, and how they ended.
   control::BatchLeastSquares::Sums full_strokes_;

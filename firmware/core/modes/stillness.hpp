@@ -36,7 +36,7 @@ class Stillness {
   }
 
   /// How far the muscle may still move as it cools; infinity: not known yet.
-  double left_m() const {
+  double remaining_m() const {
     const double cooled = first_.hottest_K / last_.hottest_K - 1.0;
     if (!begun_ || !(cooled > 0.0)) return std::numeric_limits<double>::infinity();
     constexpr double deviations = 4.0;

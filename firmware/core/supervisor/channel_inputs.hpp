@@ -23,7 +23,7 @@ struct AxisInputs {
   bool unanswered = false;       ///< the muscle had to prove that it answers, and did not
   detectors::Margin answer;      ///< of that proof
   std::optional<detectors::Recalibration> recalibrated;  ///< a calibration shifted the positions
-  bool expected_anew = false;                            ///< the expected positions jumped
+  bool expected_jumped = false;                          ///< the expected positions jumped
 };
 
 /// The heater at this tick.

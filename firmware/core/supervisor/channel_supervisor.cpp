@@ -102,9 +102,9 @@ void ChannelSupervisor::judge_heater(const HeaterInputs& e) {
 void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
   if (axis.recalibrated) not_responding_.recalibrate(*axis.recalibrated);
-  if (axis.expected_anew) not_responding_.reset();
-  if (axis.recalibrated || axis.expected_anew) loose_.reset();
-  if (axis.answered) not_responding_.count_anew();
+  if (axis.expected_jumped) not_responding_.reset();
+  if (axis.recalibrated || axis.expected_jumped) loose_.reset();
+  if (axis.answered) not_responding_.restart_range();
   if (!heater.current.present) return;
   if (axis.position.present) {
     const auto motions = detectors::NotResponding::possible(

@@ -9,7 +9,7 @@ namespace {
 /// Worst-case fraction of the minimum heat transfer: a muscle that is wrapped, or off its sensor
 /// and in still air.
 constexpr double worst_cooling_ratio = 0.25;
-constexpr double wanted_step_s = 0.01;
+constexpr double target_step_s = 0.01;
 /// A closed loop cancels part of the dither.
 constexpr double loop_ratio = 1.3;
 /// Of the time to the limit: a dither begins early enough to be decided by the first; without a
@@ -30,7 +30,7 @@ constexpr double above_safe_ratio = 1.05;
 constexpr double release_ratio = 2.0;
 
 std::int64_t ticks_of_step(double rate_Hz) {
-  return std::max<std::int64_t>(1, std::llround(rate_Hz * wanted_step_s));
+  return std::max<std::int64_t>(1, std::llround(rate_Hz * target_step_s));
 }
 
 SensorStep sensor_of(const ProofSettings& s, double rate_Hz) {
@@ -94,7 +94,7 @@ double steps_s(double rate_Hz) {
 
 }  // namespace
 
-void ProofPlan::for_air(const ProofSettings& s, double warmer_K) {
+void ProofPlan::adjust_for_air(const ProofSettings& s, double warmer_K) {
   safe_W = supercoil::safe_W(s, warmer_K);
   provable_W = supercoil::provable_W(s, dither, warmer_K);
 }
@@ -106,7 +106,7 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
       decided_ratio / loop_ratio * time_to_limit_s(s, s.max_W, hot_end_K(s, s.max_W));
   const ExpectedMotion motion(muscle, steps_s(rate_Hz), s.response_ratio);
   plan.dither = dither_for(motion, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
-  plan.for_air(s, 0.0);
+  plan.adjust_for_air(s, 0.0);
   return plan;
 }
 
@@ -115,10 +115,10 @@ SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         double rate_Hz) {
   constexpr double time_constants = 5.0;
   constexpr double max_settle_s = 45.0;
-  ProofSettings all_arrives = settings;
-  all_arrives.response_ratio = 1.0;
+  ProofSettings full_response = settings;
+  full_response.response_ratio = 1.0;
   SmallSignal::Settings s;
-  s.dither = plan_proof(all_arrives, muscle, rate_Hz).dither;
+  s.dither = plan_proof(full_response, muscle, rate_Hz).dither;
   // Both halves of the dither need room.
   s.hold_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
   s.settle_s = std::min(max_settle_s, -time_constants / muscle.thermal_pole_rad_per_s());
@@ -153,7 +153,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double response_rat
   known_ = true;
   settings_.response_ratio = response_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
-  plan_.for_air(settings_, warmer_air_K_);
+  plan_.adjust_for_air(settings_, warmer_air_K_);
   const ExpectedMotion before = all_.motion;
   all_ = match_for(muscle, motion_corner_rad_per_s);
   dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, response_ratio);
@@ -166,7 +166,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double response_rat
 void Proof::plan(double max_power_ratio, const control::PhysicalParameters& muscle) {
   settings_.max_power_ratio = max_power_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
-  plan_.for_air(settings_, warmer_air_K_);
+  plan_.adjust_for_air(settings_, warmer_air_K_);
   stop_dither();  // its halves may differ in the new plan
   dither_ = match_for(muscle, plan_.dither.corner_rad_per_s, settings_.response_ratio);
   settled_ = false;
@@ -212,7 +212,7 @@ void Proof::end_step(const Input& in) {
   dither_.expect(sums_.dither_W / ticks);
   if (in.warmer_air_K != warmer_air_K_) {
     warmer_air_K_ = in.warmer_air_K;
-    plan_.for_air(settings_, warmer_air_K_);
+    plan_.adjust_for_air(settings_, warmer_air_K_);
     allow();
   }
   const double hottest_K = in.hottest_K + in.warmer_air_K;
@@ -282,7 +282,7 @@ void Proof::judge(double power_W, double hottest_K) {
     enter(Stage::released);
   } else {
     // Only the clock restarts: the heat that was used still counts.
-    if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) unproven_s_ = 0.0;
+    if (all_.answer.moved(loud_ratio * settings_.obvious_m)) unproven_s_ = 0.0;
     if (above_safe && is_used(overdue_ratio, 0.0, hottest_K)) {
       if (stage_ == Stage::watching) {
         enter(Stage::overdue);

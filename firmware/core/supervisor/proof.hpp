@@ -12,7 +12,7 @@ namespace supercoil {
 
 /// Settings of a proof. Powers and temperatures are those of the channel's limits.
 struct ProofSettings {
-  bool wanted = true;  ///< proof_of_response
+  bool enabled = true;  ///< proof_of_response
   board::ThermalSettings thermal;
   double max_power_ratio = 1.0;  ///< true over measured power
   double max_W = 0.0;
@@ -33,7 +33,7 @@ struct ProofPlan {
   double provable_W = 0.0;
 
   /// Computes both powers for air warmer_K above the warmest configured, with the same dither.
-  void for_air(const ProofSettings& settings, double warmer_K);
+  void adjust_for_air(const ProofSettings& settings, double warmer_K);
 };
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
@@ -87,11 +87,12 @@ class Proof {
   double dither_W() const { return dither_W_; }
   /// Demand and dither together, at most max_W. Near the maximum the demand is lowered, so that
   /// both halves of a dither fit.
-  double added_to(double demanded_W, double max_W = std::numeric_limits<double>::infinity()) const {
+  double with_dither_W(double demanded_W,
+                       double max_W = std::numeric_limits<double>::infinity()) const {
     if (dither_W_ == 0.0) return demanded_W;
     return (lowers(demanded_W, max_W) ? room_W(max_W) : demanded_W) + dither_W_;
   }
-  /// Whether added_to() lowers this demand: less power acts than was demanded.
+  /// Whether with_dither_W() lowers this demand: less power acts than was demanded.
   bool lowers(double demanded_W, double max_W) const {
     return dither_W_ != 0.0 && demanded_W > room_W(max_W);
   }
@@ -169,7 +170,7 @@ class Proof {
   void end_block();
   void drive_dither(double power_W, double hottest_K);
   void stop_dither();
-  bool active() const { return settings_.wanted && known_; }
+  bool active() const { return settings_.enabled && known_; }
   /// The demand to which a dither can be added.
   double room_W(double max_W) const {
     return std::fmin(std::fmin(settings_.max_W, max_W_), max_W) - plan_.dither.amplitude_W;

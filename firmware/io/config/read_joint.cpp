@@ -33,7 +33,7 @@ void read_co_contraction(Section& section, const BoardSettings& board, JointSett
   // What a channel lacks is reported there.
   if (!(both_W > 0.0)) return;
   joint.max_co_contraction_W = section.number(
-      "max_co_contraction_W", JointSettings::usual_limit_ratio * both_W, {0.0, both_W});
+      "max_co_contraction_W", JointSettings::default_limit_ratio * both_W, {0.0, both_W});
   joint.co_contraction_W = section.number(
       "co_contraction_W", std::min(usual_co_contraction_ratio * both_W, joint.max_co_contraction_W),
       {0.0, both_W});
@@ -55,8 +55,8 @@ JointReader::JointReader(std::vector<Section> sections, std::size_t channels) {
 
 std::optional<std::size_t> JointReader::read_place(Section& section, const char* key,
                                                    std::size_t channels) {
-  const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, channels));
-  const std::int64_t number = section.required_integer(key, 1, most);
+  const auto max_number = static_cast<std::int64_t>(std::max<std::size_t>(1, channels));
+  const std::int64_t number = section.required_integer(key, 1, max_number);
   // Missing, or reported as wrong.
   if (!section.has(key) || (*section.table())[key].value<std::int64_t>() != number)
     return std::nullopt;

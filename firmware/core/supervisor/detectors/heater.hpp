@@ -130,17 +130,17 @@ class NotResponding final : public Detector {
     std::size_t count = alone;
 
     /// The minimum rise of any motion. Four rows side by side: a single one would wait for itself.
-    double least_above(const Motions& low) const {
-      std::array<double, 4> least{};
-      least.fill(m[0] - low.m[0]);
+    double min_rise_above(const Motions& low) const {
+      std::array<double, 4> min_rise{};
+      min_rise.fill(m[0] - low.m[0]);
       std::size_t i = 0;
-      for (; i + least.size() <= count; i += least.size()) {
-        for (std::size_t row = 0; row < least.size(); ++row)
-          least[row] = std::min(least[row], m[i + row] - low.m[i + row]);
+      for (; i + min_rise.size() <= count; i += min_rise.size()) {
+        for (std::size_t row = 0; row < min_rise.size(); ++row)
+          min_rise[row] = std::min(min_rise[row], m[i + row] - low.m[i + row]);
       }
       for (; i < count; ++i)
-        least[0] = std::min(least[0], m[i] - low.m[i]);
-      return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+        min_rise[0] = std::min(min_rise[0], m[i] - low.m[i]);
+      return std::min(std::min(min_rise[0], min_rise[1]), std::min(min_rise[2], min_rise[3]));
     }
   };
 
@@ -164,10 +164,10 @@ class NotResponding final : public Detector {
   }
 
   bool step(double position_m, const Motions& motions) {
-    if (elapsed_s_ == 0.0 || counts_anew_) {
+    if (elapsed_s_ == 0.0 || range_restarts_) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = motions;
-      counts_anew_ = false;
+      range_restarts_ = false;
     }
     elapsed_s_ += step_s_;
     low_ = std::min(low_, position_m);
@@ -189,7 +189,7 @@ class NotResponding final : public Detector {
   void reset() { elapsed_s_ = 0.0; }
   /// The muscle was proven to live: earlier expectations and motions in this window no longer
   /// count. A muscle in a draught needs more power to stand still, which no model expects.
-  void count_anew() { counts_anew_ = true; }
+  void restart_range() { range_restarts_ = true; }
   /// Converts the positions so far. A new calibration is not motion, and it must not restart the
   /// window: repeated calibration would prevent any judgement.
   void recalibrate(const Recalibration& change) {
@@ -199,7 +199,7 @@ class NotResponding final : public Detector {
   }
   /// Of the window so far.
   Margin margin() const override {
-    const double expected = expected_high_.least_above(expected_low_);
+    const double expected = expected_high_.min_rise_above(expected_low_);
     const bool judged = expected >= settings_.min_expected_m;
     return {high_ - low_, settings_.min_ratio * expected, true, judged};
   }
@@ -218,7 +218,7 @@ class NotResponding final : public Detector {
   Settings settings_;
   double step_s_;
   double elapsed_s_ = 0.0;
-  bool counts_anew_ = false;
+  bool range_restarts_ = false;
   double low_ = 0.0;
   double high_ = 0.0;
   Motions expected_low_{};

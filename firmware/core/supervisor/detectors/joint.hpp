@@ -23,7 +23,7 @@ class MovesAway {
       from_m_ = position_m;
       expected_from_m_ = motions_m;
     }
-    const double expected_m = motions_m.least_above(expected_from_m_);
+    const double expected_m = motions_m.min_rise_above(expected_from_m_);
     if (expected_m >= expected_each_m_) {
       begins_ = true;
       margin_ = {from_m_ - position_m, min_ratio_ * expected_m, false, true};

@@ -10,7 +10,7 @@ namespace supercoil::detectors {
 /// Trips at `most` events in a row (periods left out; damaged commands).
 class ConsecutiveCount final : public Detector {
  public:
-  explicit ConsecutiveCount(int most) : max_count_(most) {}
+  explicit ConsecutiveCount(int max_count) : max_count_(max_count) {}
 
   bool step(bool happened) { return step(std::int64_t{happened}); }
   /// Several events at once; 0 ends the row.
@@ -66,21 +66,21 @@ class CommandTimeout final : public Detector {
 /// without a gap: the controller is lost.
 class ControllerSaturated final : public Detector {
  public:
-  ControllerSaturated(double max_s, double step_s) : more_(max_s, step_s) {}
+  ControllerSaturated(double max_s, double step_s) : unmet_(max_s, step_s) {}
 
   /// unmet_demand: the controller demanded more than it got since the last tick.
   bool step(double demanded_W, bool unmet_demand) {
     demanded_W_ = demanded_W;
-    const bool lost = more_.step(unmet_demand);
+    const bool lost = unmet_.step(unmet_demand);
     return !std::isfinite(demanded_W) || lost;
   }
-  void reset() { more_.reset(); }
+  void reset() { unmet_.reset(); }
   Margin margin() const override {
-    return std::isfinite(demanded_W_) ? more_.margin() : rising(demanded_W_, 1.0);
+    return std::isfinite(demanded_W_) ? unmet_.margin() : rising(demanded_W_, 1.0);
   }
 
  private:
-  TimedFlag more_;
+  TimedFlag unmet_;
   double demanded_W_ = 0.0;
 };
 

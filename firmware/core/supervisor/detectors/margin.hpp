@@ -49,15 +49,15 @@ class Detector {
 /// Tells whether a condition has held for a given time.
 class HoldTimer {
  public:
-  /// hold_s: 0 means at once. forgets: how fast the held time decays during a gap, relative to its
-  /// build-up; by default any gap ends it. Below 1, an intermittent condition adds up.
-  HoldTimer(double hold_s, double step_s, double forgets = 1e12)
-      : hold_s_(hold_s), step_s_(step_s), forgets_s_(forgets * step_s) {}
+  /// hold_s: 0 means at once. recovery_ratio: how fast the held time decays during a gap, relative
+  /// to its build-up; by default any gap ends it. Below 1, an intermittent condition adds up.
+  HoldTimer(double hold_s, double step_s, double recovery_ratio = 1e12)
+      : hold_s_(hold_s), step_s_(step_s), recovery_s_(recovery_ratio * step_s) {}
 
   /// One tick. True from the tick at which it has held for hold_s.
   bool step(bool holds) {
     if (!holds && held_s_ == 0.0) return false;
-    held_s_ = holds ? held_s_ + step_s_ : std::max(0.0, held_s_ - forgets_s_);
+    held_s_ = holds ? held_s_ + step_s_ : std::max(0.0, held_s_ - recovery_s_);
     // Half a step of tolerance: sums of steps are not exact.
     return holds && held_s_ + 0.5 * step_s_ > hold_s_;
   }
@@ -67,7 +67,7 @@ class HoldTimer {
  private:
   double hold_s_;
   double step_s_;
-  double forgets_s_;
+  double recovery_s_;
   double held_s_ = 0.0;
 };
 

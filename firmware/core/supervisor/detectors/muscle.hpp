@@ -14,10 +14,10 @@ class EnergyBudget final : public Detector {
     double window_s;
   };
   EnergyBudget(const Settings& settings, double step_s)
-      : settings_(settings), step_s_(step_s), forgotten_(step_s / settings.window_s) {}
+      : settings_(settings), step_s_(step_s), decay_(step_s / settings.window_s) {}
 
   bool step(double power_W) {
-    spent_J_ += power_W * step_s_ - spent_J_ * forgotten_;
+    spent_J_ += power_W * step_s_ - spent_J_ * decay_;
     return !(spent_J_ <= settings_.energy_J);
   }
   Margin margin() const override { return rising(spent_J_, settings_.energy_J); }
@@ -25,7 +25,7 @@ class EnergyBudget final : public Detector {
  private:
   Settings settings_;
   double step_s_;
-  double forgotten_;  ///< fraction forgotten per step
+  double decay_;  ///< fraction forgotten per step
   double spent_J_ = 0.0;
 };
 
@@ -35,7 +35,7 @@ class EnergyBudget final : public Detector {
 class ResistanceDrift final : public Detector {
  public:
   struct Settings {
-    double part;
+    double tolerance_ratio;
     double hold_s;
   };
   ResistanceDrift(const Settings& settings, double step_s)
@@ -44,8 +44,8 @@ class ResistanceDrift final : public Detector {
   /// min_warm_Ohm and max_warm_Ohm: bounds for a muscle that is as it was calibrated.
   bool step(double measured_Ohm, double min_warm_Ohm, double max_warm_Ohm, bool probed) {
     measured_Ohm_ = measured_Ohm;
-    low_Ohm_ = min_warm_Ohm * (1.0 - settings_.part);
-    high_Ohm_ = max_warm_Ohm * (1.0 + settings_.part);
+    low_Ohm_ = min_warm_Ohm * (1.0 - settings_.tolerance_ratio);
+    high_Ohm_ = max_warm_Ohm * (1.0 + settings_.tolerance_ratio);
     falls_ = measured_Ohm < min_warm_Ohm;
     const bool outside = !(measured_Ohm >= low_Ohm_ && measured_Ohm <= high_Ohm_);
     return held_.step(outside) || (probed && outside);

@@ -12,13 +12,13 @@ namespace supercoil::detectors {
 class HighPass {
  public:
   HighPass(double corner_rad_per_s, double step_s)
-      : taken_(-std::expm1(-corner_rad_per_s * step_s)) {}
+      : gain_(-std::expm1(-corner_rad_per_s * step_s)) {}
 
   double step(double value) {
-    first_ += taken_ * (value - first_);
-    const double once = value - first_;
-    second_ += taken_ * (once - second_);
-    return once - second_;
+    first_ += gain_ * (value - first_);
+    const double filtered_once = value - first_;
+    second_ += gain_ * (filtered_once - second_);
+    return filtered_once - second_;
   }
   /// As after a long time at this value.
   void settle(double value) {
@@ -27,7 +27,7 @@ class HighPass {
   }
 
  private:
-  double taken_;
+  double gain_;
   double first_ = 0.0;
   double second_ = 0.0;
 };
@@ -67,7 +67,7 @@ class Response {
     return certain ? Result::answered : Result::open;
   }
   /// Whether the position moved by more than this, rms over the block, for whatever reason.
-  bool moved_m(double rms_m) const { return measured_ > square(rms_m) * (count_ + min_count); }
+  bool moved(double rms_m) const { return measured_ > square(rms_m) * (count_ + min_count); }
   /// Measured over expected motion in this block; 0 before anything was expected.
   double ratio() const { return expected_ > 0.0 ? shared_ / expected_ : 0.0; }
 

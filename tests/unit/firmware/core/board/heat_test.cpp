@@ -85,7 +85,7 @@ TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
   found.thermal_mass_J_per_K = 0.15;
   found.heat_transfer_W_per_K = 0.1;
   found.stiffness_N_per_m = 40.0;
-  heat.believe(found);
+  heat.set_muscle(found);
   for (int i = 0; i < 120'000; ++i)
     heat.step(1.0, 3.0, 2.0);
   const double metres_per_K = found.force_per_kelvin_N_per_K / found.stiffness_N_per_m;
@@ -94,7 +94,7 @@ TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
   DOUBLES_EQUAL(2.0 / settings.bounds.max_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
                 1e-5);
   // With the muscle's own mass: halfway after ln 2 times its time constant.
-  heat.believe(found);
+  heat.set_muscle(found);
   for (int i = 0; i < static_cast<int>(std::lround(1.5 * std::log(2.0) / tick_s)); ++i)
     heat.step(1.0, 3.0, 2.0);
   DOUBLES_EQUAL(found.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);

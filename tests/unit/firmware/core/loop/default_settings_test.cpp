@@ -112,7 +112,7 @@ TEST(DefaultSettings, OfTheNoiseOfACurrentSense) {
 
 TEST(DefaultSettings, OfAProof) {
   const ProofSettings proof;
-  CHECK_TRUE(proof.wanted);
+  CHECK_TRUE(proof.enabled);
   DOUBLES_EQUAL(1.0, proof.max_power_ratio, 0.0);
   DOUBLES_EQUAL(1.0, proof.response_ratio, 0.0);
   DOUBLES_EQUAL(ChannelSupervision{}.responding_min_m, proof.obvious_m, 0.0);

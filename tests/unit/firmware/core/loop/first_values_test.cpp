@@ -58,7 +58,7 @@ TEST(FirstValues, OfWhatAChannelIsJudgedByAccuseNobody) {
   const AxisInputs axis;
   check_absent(axis.position);
   check_all_0({axis.sensor_m, axis.position_elapsed_s, axis.demanded_W, axis.from_position_K});
-  CHECK_FALSE(axis.unanswered || axis.recalibrated || axis.expected_anew);
+  CHECK_FALSE(axis.unanswered || axis.recalibrated || axis.expected_jumped);
   const HeaterInputs heater;
   check_absent(heater.current);
   check_all_0({heater.supply_V, heater.duty, heater.hottest_C, heater.applied_W, heater.measured_W,

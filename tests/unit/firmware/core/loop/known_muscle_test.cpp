@@ -118,24 +118,24 @@ TEST(ToldJoint, IsTheOneThatItsBoardHas) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   for (const control::Lever& lever : {control::Lever(0.02), control::Lever(-0.5, 0.25, radii_m)}) {
     for (const int direction : {1, -1}) {
-      const PlaceInJoint told = told_joint(known_in({direction, lever, 2.0}));
+      const PlaceInJoint told = joint_from(known_in({direction, lever, 2.0}));
       LONGS_EQUAL(direction, told.direction);
       DOUBLES_EQUAL(2.0, told.other_channel_offset, 0.0);
       for (const double angle_rad : {-1.0, -0.2, 0.0, 0.1, 2.0})
         DOUBLES_EQUAL(direction * lever.arc_m(angle_rad), told.position_m(angle_rad), 1e-15);
     }
   }
-  LONGS_EQUAL(0, told_joint(known_in({})).direction);
+  LONGS_EQUAL(0, joint_from(known_in({})).direction);
 }
 
 TEST(ToldJoint, ATableThatCannotBeIsLeftOut) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   const KnownMuscle right = known_in({1, control::Lever(-0.5, 0.5, radii_m), 1.0});
-  CHECK_FALSE(told_joint(right).lever.is_constant());
+  CHECK_FALSE(joint_from(right).lever.is_constant());
   const auto with = [&right](std::size_t place, double value) {
     KnownMuscle wrong = right;
     wrong[place] = value;
-    return told_joint(wrong);
+    return joint_from(wrong);
   };
   for (const double wrong : {static_cast<double>(NAN), 0.1, static_cast<double>(-INFINITY)})
     CHECK(with(known_lever_first, wrong).lever == control::Lever(0.014));

@@ -12,11 +12,11 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(Playback) {
   const control::PhysicalParameters muscle{};
-  Playback::Able able{.theta = control::theta_from(muscle),
-                      .moving_mass_kg = muscle.moving_mass_kg,
-                      .max_reverse_travel_m = 0.020,
-                      .max_travel_m = 0.025,
-                      .range = {0.0, 4.5}};
+  Playback::Capability capability{.theta = control::theta_from(muscle),
+                                  .moving_mass_kg = muscle.moving_mass_kg,
+                                  .max_reverse_travel_m = 0.020,
+                                  .max_travel_m = 0.025,
+                                  .range = {0.0, 4.5}};
   supercoil::Playback playback;
   hal::Time now = 100s;
 
@@ -24,7 +24,7 @@ TEST_GROUP(Playback) {
     Command knot{0, Verb::knot, position_m};
     knot.after_s = static_cast<float>(after_s);
     knot.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
-    return playback.add(knot, able).refusal;
+    return playback.add(knot, capability).refusal;
   }
   /// From 5 mm to 6 mm in 2 s.
   void load() {
@@ -124,16 +124,16 @@ TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
 }
 
 TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
-  const double hold_W = able.theta[3] * 0.006;  // to hold 6 mm permanently
-  able.range.max_W = hold_W / 1.04;
+  const double hold_W = capability.theta[3] * 0.006;  // to hold 6 mm permanently
+  capability.range.max_W = hold_W / 1.04;
   CHECK(add(0.0, 0.006) == Refusal::none);
   CHECK(add(5.0, 0.006) == Refusal::none);
-  able.range.max_W = hold_W / 1.06;
+  capability.range.max_W = hold_W / 1.06;
   CHECK(add(5.0, 0.006) == Refusal::infeasible);
 }
 
 TEST(Playback, RefusesAWayThatLeavesTheTravelBetweenItsKnots) {
-  able.range = {-9.0, 9.0};  // for a joint
+  capability.range = {-9.0, 9.0};  // for a joint
   CHECK(add(0.0, 0.0229) == Refusal::none);
   CHECK(add(2.0, 0.0249, 0.001) == Refusal::none);
   CHECK(add(2.0, 0.0249, -0.001) == Refusal::infeasible);

@@ -305,7 +305,7 @@ TEST(AppliedSettings, TheProofRestsOnWhatIsConfiguredOfTheChannel) {
   channel.thermal.boot_rise_K = 99.0;
   channel.senses.error_ratio = 0.02;
   ProofSettings s = proof_settings(channel, board);
-  CHECK_FALSE(s.wanted);
+  CHECK_FALSE(s.enabled);
   DOUBLES_EQUAL(3.5, s.max_W, 0.0);
   DOUBLES_EQUAL(110.0, s.derate_from_C, 0.0);
   DOUBLES_EQUAL(150.0, s.trip_C, 0.0);

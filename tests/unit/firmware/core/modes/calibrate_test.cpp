@@ -61,7 +61,7 @@ namespace {
 struct Resting {
   double begins_K = 135.0;
   double noise_rms_m = 10e-6;
-  Calibrate::Settings settings{.still_K = 20.0, .max_left_m = 20e-6, .count_m = 1e-6};
+  Calibrate::Settings settings{.still_K = 20.0, .max_remaining_m = 20e-6, .count_m = 1e-6};
 
   /// The hottest that it may be when the zero is taken, if the position moves like this over time.
   template <typename PositionOf>
@@ -105,8 +105,8 @@ TEST(CalibrateStillness, OneThatStillCoolsIsWaitedFor) {
     const double hottest_K = Resting{}.hottest_K_at_zero(position_m);
     CHECK_COMPARE(hottest_K, <, 15.0);
     // The motion, without noise, that was still to come when the mean began.
-    const double left_m = position_m(zero_s - Calibrate::Settings{}.mean_s);
-    if (hottest_K > 1.0) CHECK_COMPARE(left_m, <, 20e-6);
+    const double remaining_m = position_m(zero_s - Calibrate::Settings{}.mean_s);
+    if (hottest_K > 1.0) CHECK_COMPARE(remaining_m, <, 20e-6);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(CalibrateStillness, WhatASensorDoesNotShowIsNoRest) {
 }
 
 TEST(CalibrateStillness, BoundsThatDoNotFallTellNothing) {
-  Calibrate calibrate({.still_K = 20.0, .max_left_m = 20e-6});
+  Calibrate calibrate({.still_K = 20.0, .max_remaining_m = 20e-6});
   for (int i = 0; i < 6000; ++i)
     calibrate.step(15.0, 0.0, step_s);
   CHECK_FALSE(calibrate.knows_zero());

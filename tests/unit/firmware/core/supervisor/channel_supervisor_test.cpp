@@ -322,7 +322,7 @@ TEST(ChannelSupervisor, ALooseMuscleIsJudgedAnewAfterACalibrationAndWhereMoreIsK
                 if (tick % every == 0) e.axis.recalibrated = {here_m, here_m, 1.0};
               }));
   check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
-                e.axis.expected_anew = tick % every == 0;
+                e.axis.expected_jumped = tick % every == 0;
               }));
 }
 
@@ -365,7 +365,7 @@ TEST(ChannelSupervisor, ANewCalibrationForgetsNoMotionOfTheWindow) {
     channel.step();
     DOUBLES_EQUAL(std::abs(ratio) * 0.0005, channel.moved_m(), 10e-6);
     // A different muscle is expected: the window starts again.
-    channel.inputs.axis.expected_anew = true;
+    channel.inputs.axis.expected_jumped = true;
     channel.step();
     DOUBLES_EQUAL(0.0, channel.moved_m(), 10e-6);
   }

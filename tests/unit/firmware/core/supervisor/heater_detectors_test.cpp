@@ -194,13 +194,13 @@ TEST(HeaterDetectors, NotRespondingCountsAnewFromAnAnswerToTheSameEnd) {
   };
   // In a draught more power held it still; it answered, and nothing more is expected after that.
   const auto in_draught = [&](int tick) {
-    if (tick == 10000) detector.count_anew();
+    if (tick == 10000) detector.restart_range();
     return step(0.011 + 0.002 * std::min(tick, 10000) / 10000.0);
   };
   LONGS_EQUAL(-1, ticks_until(in_draught, 20000));
   // A muscle lost after it has answered is found at the end of the window.
   LONGS_EQUAL(20000, ticks_until([&](int tick) {
-                if (tick == 10000) detector.count_anew();
+                if (tick == 10000) detector.restart_range();
                 return step(0.011 + 0.004 * tick / 20000.0);
               }));
 }

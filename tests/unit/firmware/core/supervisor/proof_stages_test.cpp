@@ -62,7 +62,7 @@ TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
 TEST(ProofStages, InWarmAirAMuscleIsAtItsLimitSooner) {
   constexpr double hotter_K = 55.0, warmer_K = 30.0;  // each alone leaves a second
   ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
-  plan.for_air(paper_proof(), warmer_K);
+  plan.adjust_for_air(paper_proof(), warmer_K);
   HeldMuscle muscle(paper_proof());
   muscle.run(5.0);
   muscle.hotter_K = hotter_K;

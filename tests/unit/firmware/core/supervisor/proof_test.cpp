@@ -82,7 +82,7 @@ TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {
 
 TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
   ProofSettings off = paper_proof();
-  off.wanted = false;
+  off.enabled = false;
   for (const bool known : {false, true}) {
     HeldMuscle muscle(known ? off : paper_proof(), known);
     muscle.run(20.0);
@@ -117,9 +117,9 @@ TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
   ProofPlan plan = plan_proof(strong, {}, 1000.0);
   const double provable_W = plan.provable_W;
   CHECK_COMPARE(provable_W, <, strong.max_W);
-  plan.for_air(strong, 0.25 * limit_K);
+  plan.adjust_for_air(strong, 0.25 * limit_K);
   DOUBLES_EQUAL(0.75 * provable_W, plan.provable_W, 1e-9);
-  plan.for_air(strong, 2.0 * limit_K);
+  plan.adjust_for_air(strong, 2.0 * limit_K);
   DOUBLES_EQUAL(0.0, plan.provable_W, 0.0);
 
   HeldMuscle muscle(strong);

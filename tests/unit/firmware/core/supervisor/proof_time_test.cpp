@@ -111,7 +111,7 @@ TEST(ProofTime, WhatTheHotEndWasWhileItWasHeatedIsNotForgotten) {
 TEST(ProofTime, WarmAirIsPartOfWhatAMuscleMayHaveBecome) {
   for (const double warmer_K : {0.0, 30.0}) {
     ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
-    plan.for_air(paper_proof(), warmer_K);
+    plan.adjust_for_air(paper_proof(), warmer_K);
     HeldMuscle muscle(paper_proof());
     muscle.warmer_air_K = warmer_K;
     muscle.off_sensor = true;

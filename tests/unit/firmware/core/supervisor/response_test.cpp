@@ -100,8 +100,8 @@ TEST(Response, TellsMotionByItsRmsOverTheBlock) {
   detectors::Response answer(step_noise_m);
   for (int i = 0; i < 1000; ++i)
     answer.step(0.0, i % 2 == 0 ? 100e-6 : -100e-6);
-  CHECK(answer.moved_m(98e-6));
-  CHECK_FALSE(answer.moved_m(102e-6));
+  CHECK(answer.moved(98e-6));
+  CHECK_FALSE(answer.moved(102e-6));
 }
 
 TEST(Response, FoundElsewhereIsReportedWithItsMargin) {

@@ -64,7 +64,7 @@ class HeldMuscle {
     proof.step({power_W_, dither_W_, 1, present, position_m, heat_.max_K() + hotter_K, heating,
                 warmer_air_K});
     unanswered = unanswered || proof.unanswered();
-    const double asked_W = proof.added_to(demanded_W);
+    const double asked_W = proof.with_dither_W(demanded_W);
     power_W_ = obeys ? std::min(asked_W, proof.max_W()) : asked_W;
     dither_W_ = power_W_ < asked_W ? 0.0 : proof.dither_W();
     dither_ticks += dither_W_ != 0.0 ? 1 : 0;

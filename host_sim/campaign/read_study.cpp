@@ -181,7 +181,7 @@ toml::table read_base(Section& study, const std::string& name, const std::filesy
   } else if (name.find_first_of("./") == std::string::npos) {
     const auto names = names_of(builtin_scenarios());
     study.wrong("scenario", "is not a built-in scenario; " +
-                                meant_or_all(name, names, "the built-in scenarios are"));
+                                suggestion_or_all(name, names, "the built-in scenarios are"));
   } else {
     base = read_scenario_file((beside / name).string(), problems);
   }
@@ -259,7 +259,7 @@ tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t run
     if (path.find_first_of("./") == std::string::npos) {
       diagnostics.add(0, "",
                       "and no built-in study has that name; " +
-                          meant_or_all(path, names_of(builtin), "the built-in studies are"));
+                          suggestion_or_all(path, names_of(builtin), "the built-in studies are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

@@ -71,7 +71,7 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
   const double noise_W = summary.power_noise_W();
   const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
   if (!std::isnan(summary.limit_cycle_period_s(scenario))) return;
-  if (!summary.has_power_noise() || !(noise_W > config::much_noise_ratio * range_W)) return;
+  if (!summary.has_power_noise() || !(noise_W > config::high_noise_ratio * range_W)) return;
   const BoardSettings board = firmware_of(scenario);
   const ChannelSettings& channel = board.channels.front();
   std::printf(

@@ -168,11 +168,11 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   f.held_by = muscle.held_by;
   f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
   if (is_periodic(c.reference)) {
-    const auto suits = config::recommended_controller(channel, board);
+    const auto recommended = config::recommended_controller(channel, board);
     f.passed_ratio = passed_ratio(c.controller.model, c.reference);
     f.off_reference_rms_m = off_reference_rms_m(c.controller.model, c.reference);
     f.passed_by_recommended_ratio =
-        passed_ratio(suits.in_place_of(c.controller).model, c.reference);
+        passed_ratio(recommended.applied_to(c.controller).model, c.reference);
   }
   const double step = step_s(c.reference);
   const AvailablePower available(board, c.power.supply_V, step);

@@ -47,7 +47,7 @@ std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
   control::ControllerSettings controller = scenario.start.controller;
   promise.of_own_controller = is_promised_for(controller, channel, board.step_s());
   if (!promise.of_own_controller) {
-    controller = config::recommended_controller(channel, board).in_place_of(controller);
+    controller = config::recommended_controller(channel, board).applied_to(controller);
   }
   promise.parts = promise_error(controller.learned_ff, channel, board, promise.motion);
   return promise;

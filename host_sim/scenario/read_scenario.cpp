@@ -230,7 +230,7 @@ ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& 
     diagnostics.add(
         0, "",
         "there is no such file, and no built-in scenario has that name; " +
-            meant_or_all(path, names_of(builtin_scenarios()), "the built-in scenarios are"));
+            suggestion_or_all(path, names_of(builtin_scenarios()), "the built-in scenarios are"));
     return tl::unexpected(diagnostics.problems());
   }
   const std::string text = config::read_text(path, diagnostics);

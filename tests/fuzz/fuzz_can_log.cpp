@@ -14,7 +14,7 @@ namespace {
 
 void check(const LogLine& line) {
   const auto again = parse_candump_line(candump_line(line.frame, line.frame.received, "can0"));
-  fuzz::require(again.has_value() && again->ours, "what is written can be read");
+  fuzz::require(again.has_value() && again->is_standard, "what is written can be read");
   fuzz::require(again->frame.id == line.frame.id && again->frame.data == line.frame.data,
                 "and is the same");
   const auto decoded = decode(line.frame);
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto line = parse_candump_line(rest.substr(0, end));
     if (!line) {
       fuzz::require(!line.error().text().empty(), "what is refused is refused with a reason");
-    } else if (line->ours) {
+    } else if (line->is_standard) {
       check(*line);
     }
     rest.remove_prefix(std::min(end + 1, rest.size()));

@@ -21,7 +21,8 @@ inline std::string wrong_command(const CLI::App& app, int count, char** argument
   if (written.empty() || written.front() == '-' ||
       std::find(names.begin(), names.end(), written) != names.end())
     return {};
-  return "'" + written + "' is not a command; " + meant_or_all(written, names, "the commands are");
+  return "'" + written + "' is not a command; " +
+         suggestion_or_all(written, names, "the commands are");
 }
 
 }  // namespace supercoil

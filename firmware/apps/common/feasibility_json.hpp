@@ -50,7 +50,7 @@ inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel
                                                   const BoardSettings& board) {
   if (is_led(channel)) return nullptr;
   const config::RecommendedController suits = config::recommended_controller(channel, board);
-  const control::ControllerSettings controller = suits.in_place_of({});
+  const control::ControllerSettings controller = suits.applied_to({});
   const std::string problem = problem_of(suits, channel, board.step_s());
   nlohmann::ordered_json in_use;
   for (std::size_t i = channel.controllers.size(); i-- > 0;) {

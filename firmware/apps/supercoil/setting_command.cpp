@@ -72,7 +72,7 @@ std::string no_setting(const SettingOptions& options) {
   if (equals != std::string::npos && setting_of(name))
     return "is not a setting; write " + name + " " + written.substr(equals + 1);
   if (control::tunable_named(name) == control::tunable_count)
-    return "is not a setting; " + meant_or_all(name, all_names(), "there are");
+    return "is not a setting; " + suggestion_or_all(name, all_names(), "there are");
   const std::string value = options.value ? number_text(*options.value, 9) : "VALUE";
   return "is tuned: supercoil tune " + std::to_string(options.node) + " " + name + "=" + value +
          " --can " + options.can;

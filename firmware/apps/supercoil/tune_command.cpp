@@ -30,7 +30,7 @@ std::string not_tunable(const std::string& name, const std::string& value,
            std::to_string(options.channel) + " " + name + (value.empty() ? "" : " " + value) +
            " --can " + (options.can.empty() ? "BUS" : options.can);
   }
-  return name + " cannot be tuned; " + meant_or_all(name, known, "there are");
+  return name + " cannot be tuned; " + suggestion_or_all(name, known, "there are");
 }
 
 Result<std::vector<TuningChange>> parse(Tuned what, const TuneOptions& options) {

@@ -176,7 +176,7 @@ Result<double> tuning_value(Tuned what, const Tunable& tunable, const std::strin
   std::snprintf(range.data(), range.size(), "must be %g to %g", tunable.lowest, tunable.highest);
   return failure(
       std::string(tunable.name) + (text.empty() ? ": has no value: " : " = " + text + ": ") +
-      (names.empty() ? std::string(range.data()) : meant_or_all(text, names, "there are")));
+      (names.empty() ? std::string(range.data()) : suggestion_or_all(text, names, "there are")));
 }
 
 nlohmann::ordered_json tuning_json(const TunedChannel& channel) {

@@ -106,8 +106,8 @@ std::optional<Decoded> decode(const hal::CanFrame& frame) {
   const auto& all = all_messages;
   const auto message = std::find_if(all.begin(), all.end(),
                                     [&](const MessageInfo& known) { return known.base == base; });
-  const bool ours = message != all.end() && frame.length == message->length && frame.id != base;
-  if (!ours) return std::nullopt;
+  const bool is_known = message != all.end() && frame.length == message->length && frame.id != base;
+  if (!is_known) return std::nullopt;
   Decoded decoded{&*message, static_cast<std::uint8_t>(frame.id - base), {}};
   decoded.values.fill(NAN);
   for (std::size_t i = 0; i < message->signals.size(); ++i) {

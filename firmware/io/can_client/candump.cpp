@@ -49,9 +49,9 @@ Result<LogLine> parse_candump_line(std::string_view line) {
   LogLine read;
   read.frame.received = *time;
   const std::string_view data = frame.substr(mark + 1);
-  read.ours = mark == digits_of_standard_id && *id < standard_ids && !data.starts_with('R') &&
-              !data.starts_with('#');
-  if (!read.ours) return read;
+  read.is_standard = mark == digits_of_standard_id && *id < standard_ids &&
+                     !data.starts_with('R') && !data.starts_with('#');
+  if (!read.is_standard) return read;
   read.frame.id = static_cast<std::uint16_t>(*id);
   if (!parse_bytes(data, read.frame))
     return failure("data must be 0 to 8 bytes of two hexadecimal digits");

@@ -23,7 +23,8 @@ std::string candump_line(const hal::CanFrame& frame, hal::Time at, std::string_v
 /// One line of a log.
 struct LogLine {
   hal::CanFrame frame;  ///< received: the line's time
-  bool ours = true;  ///< false: an extended, remote, error or FD frame, which supercoil never sends
+  bool is_standard =
+      true;  ///< false: an extended, remote, error or FD frame, which supercoil never sends
 };
 /// The error says what is wrong with the line. A direction mark after the frame, as newer candumps
 /// write it, is ignored.

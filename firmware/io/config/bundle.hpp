@@ -20,7 +20,7 @@ struct Bundle {
   double others_power_ratio() const { return static_cast<double>(muscles) / (muscles - 1); }
   /// The largest such change that resistance_drift lets pass: by its bounds, a cold muscle may be
   /// as hot as the limit, and a hot one cold.
-  double unseen_ratio(const ChannelSettings& channel) const;
+  double undetected_ratio(const ChannelSettings& channel) const;
 };
 
 }  // namespace supercoil::config

@@ -117,10 +117,10 @@ std::string shown(const LineAddress& line) {
 }
 
 std::string shown(const ConverterAddress& converter) {
-  std::string way = ", direct";
-  if (converter.access.buffered()) way = ", buffered on " + converter.access.bus;
-  if (converter.capture) way = ", captured at " + converter.capture->trigger;
-  return converter.input + " of " + converter.device + way;
+  std::string access = ", direct";
+  if (converter.access.buffered()) access = ", buffered on " + converter.access.bus;
+  if (converter.capture) access = ", captured at " + converter.capture->trigger;
+  return converter.input + " of " + converter.device + access;
 }
 
 Memory memory_of(const BoardSettings& settings) {

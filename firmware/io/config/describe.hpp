@@ -34,7 +34,7 @@ double noise_power_W(const control::ControllerSettings& controller, const Channe
                      double step_s);
 /// A swing above this fraction of the power's range is reported: three deviations to both sides are
 /// then more than half of the range.
-inline constexpr double much_noise_ratio = 0.1;
+inline constexpr double high_noise_ratio = 0.1;
 /// What reduces the swing; never a bandwidth below the recommended one.
 std::string noise_remedy(const control::ControllerSettings& controller,
                          const ChannelSettings& channel, const BoardSettings& board);

@@ -65,7 +65,7 @@ void advise_noise(const ChannelSettings& c, const BoardSettings& board,
   const double range_W = c.limiter.max_W - c.limiter.min_W;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const double swing_W = noise_power_W(c.controllers[i], c, board.step_s());
-    if (!(swing_W > much_noise_ratio * range_W)) continue;
+    if (!(swing_W > high_noise_ratio * range_W)) continue;
     lines.push_back("controller " + std::to_string(i) + ": the sensor's noise of " +
                     number_text(1e6 * reading_noise_m(c), 3) + " um rms makes the power swing by " +
                     number_text(swing_W, 3) + " W rms, " +
@@ -89,15 +89,16 @@ std::string noise_remedy(const control::ControllerSettings& controller,
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];
   if (is_led(c) || c.controllers.empty()) return {};
-  const RecommendedController suits = recommended_controller(c, board);
+  const RecommendedController recommended = recommended_controller(c, board);
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
-    if (suits.differs_from(c.controllers[i])) continue;
-    return {"controller " + std::to_string(i) + ", as configured: it " + suits.reason};
+    if (recommended.differs_from(c.controllers[i])) continue;
+    return {"controller " + std::to_string(i) + ", as configured: it " + recommended.reason};
   }
-  const std::string law = "controller = " + suits.literal();
-  const std::string model = "reference_model = " + suits.model_literal();
-  std::vector<std::string> lines{law + ": " + suits.reason, model + ": " + suits.model_reason};
-  if (const std::string problem = problem_of(suits, c, board.step_s()); !problem.empty())
+  const std::string law = "controller = " + recommended.literal();
+  const std::string model = "reference_model = " + recommended.model_literal();
+  std::vector<std::string> lines{law + ": " + recommended.reason,
+                                 model + ": " + recommended.model_reason};
+  if (const std::string problem = problem_of(recommended, c, board.step_s()); !problem.empty())
     lines.push_back("not possible on this channel as configured: " + problem);
   return lines;
 }

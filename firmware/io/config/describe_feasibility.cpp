@@ -130,7 +130,7 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
       const std::string kind(control::name_of(control::controller_names, controller.kind));
       line += " promises no error (" + (rings ? "its margin is too small" : kind) +
               "); the recommended one";
-      law = recommended_controller(c, board).in_place_of(controller).learned_ff;
+      law = recommended_controller(c, board).applied_to(controller).learned_ff;
     }
     const Promise promise = promise_error(law, c, board, motion);
     lines.push_back(line + " promises, once the muscle is identified, at most " +

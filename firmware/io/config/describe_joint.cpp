@@ -103,7 +103,7 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
 }
 
 /// The max pull of both muscles, and what they bear.
-std::string greatest_pull(const JointLabel& label, double agonist_N, double antagonist_N) {
+std::string max_pull_text(const JointLabel& label, double agonist_N, double antagonist_N) {
   std::ostringstream out;
   out << "the heat of this measured power adds at most " << up_to_hundredth(agonist_N) << " N and "
       << up_to_hundredth(antagonist_N) << " N to the pretension";
@@ -163,7 +163,7 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << " W while no effort is asked for; each muscle contributes half of an effort\n"
       << "              at most with " << to_tenth(joint.max_co_contraction_W) << " W and "
       << to_tenth(joint.max_co_contraction_W / gain_ratio) << " W\n              "
-      << greatest_pull(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
+      << max_pull_text(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
                        hottest_pull_N(antagonist, joint.max_co_contraction_W / gain_ratio))
       << "\n"
       << "  stiffness   " << stiffness_text(joint, agonist.muscle.stiffness_N_per_m) << "\n"

@@ -19,8 +19,9 @@ BundleReader::BundleReader(std::vector<Section> sections, std::size_t channels,
 std::vector<std::size_t> BundleReader::read_channels(Section& section, std::size_t channels,
                                                      const JointReader& joints) {
   constexpr const char* key = "channels";
-  const auto most = std::max<std::size_t>(2, channels);
-  const auto numbers = section.required_numbers(key, {1.0, static_cast<double>(most)}, 2, most);
+  const auto max_number = std::max<std::size_t>(2, channels);
+  const auto numbers =
+      section.required_numbers(key, {1.0, static_cast<double>(max_number)}, 2, max_number);
   std::vector<std::size_t> places;
   for (const double number : numbers) {
     const auto place = static_cast<std::size_t>(number) - 1;

@@ -35,7 +35,7 @@ class Thresholds {
 
 /// Each bus is served at its own time between two ticks, and its thread may be a little late. A
 /// tick may then see a current from before or after the duty that it is compared with.
-bool current_may_be_of_another_tick(const ChannelWiring& wiring) {
+bool current_may_lag_duty(const ChannelWiring& wiring) {
   return wiring.pwm.access.buffered() || wiring.current.access.buffered();
 }
 
@@ -50,8 +50,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   if (s.min_resistance_Ohm >= cold_Ohm) {
     section.wrong("min_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");
   }
-  read.time("short_ms", s.short_s, current_may_be_of_another_tick(wiring) ? 2.0 : 1.0,
-            {0.1, 100.0});
+  read.time("short_ms", s.short_s, current_may_lag_duty(wiring) ? 2.0 : 1.0, {0.1, 100.0});
   // The path to the charge pump is promised to take 50 ms at most.
   read.time("stuck_on_ms", s.stuck_on_s, 2.0, {5.0, 50.0});
   const double full_A = context.board.supervision.min_supply_V / cold_Ohm;

@@ -50,10 +50,11 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
 
 void read_slowest(Section& section, control::ThermalBounds& b) {
   b.max_time_constant_s = section.number("max_time_constant_s", b.max_time_constant_s, {1e-3, 1e5});
-  const double quickest_s = b.min_mass_J_per_K / b.max_transfer_W_per_K;
-  if (!section.has("max_time_constant_s") || b.max_time_constant_s >= quickest_s) return;
+  const double min_time_constant_s = b.min_mass_J_per_K / b.max_transfer_W_per_K;
+  if (!section.has("max_time_constant_s") || b.max_time_constant_s >= min_time_constant_s) return;
   std::ostringstream message;
-  message << "must not be less than min_mass_J_per_K / max_transfer_W_per_K = " << quickest_s;
+  message << "must not be less than min_mass_J_per_K / max_transfer_W_per_K = "
+          << min_time_constant_s;
   section.wrong("max_time_constant_s", message.str());
 }
 

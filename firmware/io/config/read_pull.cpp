@@ -76,14 +76,14 @@ void read_pull(Section& section, const BoardSettings& board, JointSettings& join
     return section.wrong("max_pull_N", message.str());
   }
   const double ratio = joint.gain_ratio(board.channels);
-  const double most_W = joint.max_co_contraction_W;
-  const std::array<Puller, 2> both{puller(board, joint.agonist, label.pretension_N, most_W, 1.0),
-                                   puller(board, joint.antagonist, antagonist_N, most_W, ratio)};
+  const double max_W = joint.max_co_contraction_W;
+  const std::array<Puller, 2> both{puller(board, joint.agonist, label.pretension_N, max_W, 1.0),
+                                   puller(board, joint.antagonist, antagonist_N, max_W, ratio)};
   const auto pull_N = [](const Puller& p) { return p.pretension_N + p.heat_N; };
   const Puller& hardest = pull_N(both[0]) < pull_N(both[1]) ? both[1] : both[0];
   // What a channel lacks is reported there.
-  if (!std::isfinite(most_W) || !(pull_N(hardest) > *label.max_pull_N)) return;
-  double allowed_W = most_W;
+  if (!std::isfinite(max_W) || !(pull_N(hardest) > *label.max_pull_N)) return;
+  double allowed_W = max_W;
   for (const Puller& p : both)
     allowed_W = std::min(allowed_W, (*label.max_pull_N - p.pretension_N) * p.agonist_W_per_N);
   section.wrong("max_pull_N", excess(hardest, joint, allowed_W));

@@ -23,7 +23,7 @@ struct RecommendedController {
   /// The value of its `reference_model`.
   std::string model_literal() const;
   /// The given controller with these values; everything else is kept.
-  control::ControllerSettings in_place_of(control::ControllerSettings controller) const;
+  control::ControllerSettings applied_to(control::ControllerSettings controller) const;
   /// Whether it is the same law with at most 1.1 times that bandwidth.
   bool has_bandwidth_of(const control::ControllerSettings& controller) const;
   /// Whether law or shaping differ, or the bandwidth or a pole is more than a tenth off.
@@ -43,7 +43,7 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
 RecommendedController recommended_controller(const ChannelSettings& channel,
                                              const BoardSettings& board);
 /// Why the channel cannot use it, in words; empty: it can.
-std::string problem_of(const RecommendedController& suits, const ChannelSettings& channel,
+std::string problem_of(const RecommendedController& recommended, const ChannelSettings& channel,
                        double step_s);
 
 }  // namespace supercoil::config

@@ -44,15 +44,16 @@ bool within(double value, const Range& range) {
   return value >= range.lowest && value <= range.highest;  // false for a NaN
 }
 
-std::string list_rule(Range range, std::size_t least, std::size_t most) {
-  const std::string count =
-      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+std::string list_rule(Range range, std::size_t min_count, std::size_t max_count) {
+  const std::string count = min_count == max_count
+                                ? std::to_string(min_count)
+                                : std::to_string(min_count) + " to " + std::to_string(max_count);
   return "a list of " + count + " numbers, each " + shown(range);
 }
 
 }  // namespace
 
-Section::Found Section::look(std::string_view key) const {
+Section::Found Section::lookup(std::string_view key) const {
   const toml::node* own = table_ == nullptr ? nullptr : table_->get(key);
   if (own != nullptr || under_ == nullptr) return {own, false};
   const toml::node* below = under_->get(key);
@@ -60,12 +61,12 @@ Section::Found Section::look(std::string_view key) const {
 }
 
 const toml::node* Section::find(std::string_view key) {
-  know(key);
-  return look(key).node;
+  add_known(key);
+  return lookup(key).node;
 }
 
-std::string Section::full(std::string_view key) const {
-  return joined_path(look(key).under ? under_path_ : path_, key);
+std::string Section::full_key(std::string_view key) const {
+  return joined_path(lookup(key).under ? under_path_ : path_, key);
 }
 
 int Section::line() const {
@@ -73,10 +74,10 @@ int Section::line() const {
 }
 
 void Section::wrong(std::string_view key, const std::string& message) {
-  const toml::node* node = look(key).node;
+  const toml::node* node = lookup(key).node;
   const int place = node == nullptr ? line() : static_cast<int>(node->source().begin.line);
   const bool has_value = node != nullptr && !node->is_table() && !node->is_array_of_tables();
-  diagnostics_->add(place, full(key), message, has_value ? shown(*node) : "", node == nullptr);
+  diagnostics_->add(place, full_key(key), message, has_value ? shown(*node) : "", node == nullptr);
 }
 
 double Section::number(std::string_view key, double fallback, Range range) {
@@ -124,12 +125,12 @@ std::string Section::text(std::string_view key, std::string_view fallback) {
 }
 
 std::vector<double> Section::numbers(std::string_view key, std::vector<double> fallback,
-                                     Range range, std::size_t least, std::size_t most) {
+                                     Range range, std::size_t min_count, std::size_t max_count) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
-  const std::string rule = "must be " + list_rule(range, least, most);
+  const std::string rule = "must be " + list_rule(range, min_count, max_count);
   const toml::array* list = node->as_array();
-  if (list == nullptr || list->size() < least || list->size() > most) {
+  if (list == nullptr || list->size() < min_count || list->size() > max_count) {
     wrong(key, rule);
     return fallback;
   }
@@ -149,10 +150,10 @@ double Section::required_number(std::string_view key, Range range) {
   return number(key, std::numeric_limits<double>::quiet_NaN(), range);
 }
 
-std::vector<double> Section::required_numbers(std::string_view key, Range range, std::size_t least,
-                                              std::size_t most) {
-  if (!has(key)) missing_.push_back({std::string(key), list_rule(range, least, most)});
-  return numbers(key, {}, range, least, most);
+std::vector<double> Section::required_numbers(std::string_view key, Range range,
+                                              std::size_t min_count, std::size_t max_count) {
+  if (!has(key)) missing_.push_back({std::string(key), list_rule(range, min_count, max_count)});
+  return numbers(key, {}, range, min_count, max_count);
 }
 
 std::int64_t Section::required_integer(std::string_view key, std::int64_t lowest,
@@ -167,7 +168,7 @@ std::int64_t Section::required_integer(std::string_view key, std::int64_t lowest
 std::string Section::required_text(std::string_view key) {
   if (!has(key)) missing_.push_back({std::string(key), "text in quotes"});
   std::string given = text(key, "");
-  const Found found = look(key);
+  const Found found = lookup(key);
   if (given.empty() && found.node != nullptr && found.node->is_string()) {
     wrong(key, "must not be empty");
   }

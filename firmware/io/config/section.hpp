@@ -44,7 +44,7 @@ class Section {
   std::string text(std::string_view key, std::string_view fallback);
   /// Between least and most numbers, each in range.
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range range,
-                              std::size_t least, std::size_t most);
+                              std::size_t min_count, std::size_t max_count);
   /// One of a set of names.
   template <class Value, std::size_t N>
   Value choice(std::string_view key, Value fallback, const control::Names<Value, N>& names) {
@@ -66,18 +66,18 @@ class Section {
   /// Like those above, for keys without a default. NaN, the lowest or empty if the key is absent or
   /// wrong.
   double required_number(std::string_view key, Range range);
-  std::vector<double> required_numbers(std::string_view key, Range range, std::size_t least,
-                                       std::size_t most);
+  std::vector<double> required_numbers(std::string_view key, Range range, std::size_t min_count,
+                                       std::size_t max_count);
   std::int64_t required_integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
   std::string required_text(std::string_view key);
 
   /// Keys that are read elsewhere.
   void allow(std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys)
-      know(key);
+      add_known(key);
   }
 
-  bool has(std::string_view key) const { return look(key).node != nullptr; }
+  bool has(std::string_view key) const { return lookup(key).node != nullptr; }
   /// Whether the table exists, or one is laid under it.
   bool given() const { return table_ != nullptr || under_ != nullptr; }
   /// Without the table laid under it.
@@ -101,15 +101,15 @@ class Section {
     std::string rule;
   };
   /// Remembers a key, a repeated one only once.
-  void know(std::string_view key) {
+  void add_known(std::string_view key) {
     if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   }
-  Found look(std::string_view key) const;
+  Found lookup(std::string_view key) const;
   const toml::node* find(std::string_view key);
-  std::string full(std::string_view key) const;
+  std::string full_key(std::string_view key) const;
   /// Notes unknown keys; returns the names that were probably meant.
   std::vector<std::string> refuse_unknown(const toml::table* table, const std::string& path);
-  void refuse_missing(const std::vector<std::string>& meant);
+  void refuse_missing(const std::vector<std::string>& intended);
 
   const toml::table* table_;
   std::string path_;

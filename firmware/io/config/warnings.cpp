@@ -49,8 +49,8 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
            << 1e3 * s.off_current_A << " mA: the configured off current may be too large";
     findings.add(Fault::self_test_failed, reason.str());
   }
-  const double furthest_m = c.limiter.max_W * c.muscle.dc_gain_m_per_W();
-  if (furthest_m < s.responding_min_m) {
+  const double max_motion_m = c.limiter.max_W * c.muscle.dc_gain_m_per_W();
+  if (max_motion_m < s.responding_min_m) {
     findings.add(Fault::heater_not_responding,
                  "max_W moves the muscle less than detectors.responding_min_m: never checked");
   }
@@ -112,7 +112,7 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
 
 /// Parallel threads of which one could break unseen are refused in read_bundle.cpp.
 void judge_bundle(const Bundle& bundle, const ChannelSettings& c, Findings& findings) {
-  if (bundle.parallel() || bundle.one_lost_ratio() > bundle.unseen_ratio(c)) return;
+  if (bundle.parallel() || bundle.one_lost_ratio() > bundle.undetected_ratio(c)) return;
   std::ostringstream reason;
   reason << "one shorted muscle of " << bundle.muscles << " in series is "
          << std::nearbyint(100.0 * bundle.one_lost_ratio())

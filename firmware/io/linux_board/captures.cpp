@@ -23,15 +23,15 @@ class CapturedInput final : public hal::AdcChannel {
 
 Captures::Captures(const config::BoardWiring& wiring, hal_linux::Machine machine)
     : machine_(std::move(machine)) {
-  want(wiring.supply);
-  if (wiring.air) want(*wiring.air);
+  add(wiring.supply);
+  if (wiring.air) add(*wiring.air);
   for (const config::ChannelWiring& channel : wiring.channels) {
-    if (!channel.position_of) want(channel.position);
-    want(channel.current);
+    if (!channel.position_of) add(channel.position);
+    add(channel.current);
   }
 }
 
-void Captures::want(const config::ConverterAddress& input) {
+void Captures::add(const config::ConverterAddress& input) {
   if (!input.capture) return;
   hal_linux::ScanLocation& place = demanded_[input.device];
   place.device = input.device;

@@ -25,7 +25,7 @@ class Captures {
  private:
   using Scan = Result<std::shared_ptr<hal_linux::IioScan>>;
 
-  void want(const config::ConverterAddress& input);
+  void add(const config::ConverterAddress& input);
   Scan& scan_of(const std::string& device);
 
   std::map<std::string, hal_linux::ScanLocation> demanded_;  ///< by device

@@ -79,7 +79,7 @@ void write_x_tics(std::ostream& out, const Panel& panel) {
   write_names(out, panel.x_names);
 }
 
-bool draws_anything(const Panel& panel) {
+bool has_data(const Panel& panel) {
   for (const Curve& curve : panel.curves) {
     if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); }))
       return true;
@@ -96,7 +96,7 @@ void write_y_range(std::ostream& out, const Panel& panel) {
   }
   if (panel.y_low < panel.y_high) {
     out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
-  } else if (draws_anything(panel)) {
+  } else if (has_data(panel)) {
     out << "set autoscale y\n";
   } else {
     // If gnuplot cannot choose a panel's range, it abandons the whole figure.
@@ -175,9 +175,9 @@ Result<void> draw(const Figure& figure, const std::filesystem::path& svg) {
   setenv("SUPERCOIL_PLOT", script.c_str(), 1);
   setenv("SUPERCOIL_PLOT_LOG", log.c_str(), 1);
   const int status = std::system(command);  // NOLINT(cert-env33-c)
-  std::ifstream said(log);
+  std::ifstream log_lines(log);
   std::string complaint;
-  for (std::string line; std::getline(said, line);) {
+  for (std::string line; std::getline(log_lines, line);) {
     if (!line.empty() && line.find("arning:") == std::string::npos) complaint = line;
   }
   std::filesystem::remove(script, ignored);

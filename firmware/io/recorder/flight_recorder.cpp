@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t max_notes = 32;
 /// poll() writes this much later than add(), because rows may be on their way.
-constexpr std::int64_t on_their_way_ns = 1'000'000'000;
+constexpr std::int64_t max_row_delay_ns = 1'000'000'000;
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
@@ -41,7 +41,7 @@ FlightRecorder::FlightRecorder(std::string folder, int channels, double rate_Hz,
       after_ns_(nanoseconds(settings.after_s)),
       retry_ns_(nanoseconds(settings.retry_s)),
       rate_Hz_(rate_Hz),
-      folder_(std::move(folder), settings.most, settings.list, files),
+      folder_(std::move(folder), settings.max_recordings, settings.list, files),
       rows_(rows_for(settings, channels, rate_Hz)),
       faults_(static_cast<std::size_t>(channels)) {
   // One recording is collected at a time, for after_s; each waits for retry_s at most.
@@ -68,7 +68,7 @@ void FlightRecorder::watch(const Row& row) {
 }
 
 void FlightRecorder::poll(hal::Time now) {
-  write_due(now.count() - on_their_way_ns);
+  write_due(now.count() - max_row_delay_ns);
 }
 
 void FlightRecorder::finish() {

@@ -16,10 +16,10 @@
 namespace supercoil::recorder {
 
 struct RecorderSettings {
-  double before_s = 10.0;  ///< how much of a recording lies before the fault,
-  double after_s = 1.0;    ///< and how much after it
-  double retry_s = 5.0;    ///< after a failure, until the second and last try
-  std::size_t most = 20;   ///< recordings in the folder; 1 or more
+  double before_s = 10.0;           ///< how much of a recording lies before the fault,
+  double after_s = 1.0;             ///< and how much after it
+  double retry_s = 5.0;             ///< after a failure, until the second and last try
+  std::size_t max_recordings = 20;  ///< in the folder; 1 or more
   ListFolder list = list_folder;
 };
 

@@ -96,7 +96,7 @@ std::string encode(const Header& h) {
   return first_line(rest) + rest;
 }
 
-std::string not_ours(std::string_view file) {
+std::string format_problem(std::string_view file) {
   if (file.empty()) return "is empty";
   if (!file.starts_with(magic)) {
     if (magic.starts_with(file)) return "is cut off in its first line";

@@ -8,10 +8,10 @@
 namespace supercoil::recorder {
 
 /// Why the file cannot be a recording of this format; empty when it may be one.
-std::string not_ours(std::string_view file);
+std::string format_problem(std::string_view file);
 
-/// start: the first header_bytes of a file that not_ours() accepts. Error not_supported: the rows
-/// cannot be read either.
+/// start: the first header_bytes of a file that format_problem() accepts. Error not_supported: the
+/// rows cannot be read either.
 Result<Header> decode_header(std::string_view start);
 
 }  // namespace supercoil::recorder

@@ -54,7 +54,7 @@ std::string fault_of_rows(const Header& header, std::string_view bytes) {
 }  // namespace
 
 Result<Recording> decode(std::string_view file, Damaged damaged) {
-  if (auto foreign = not_ours(file); !foreign.empty()) return failure(std::move(foreign));
+  if (auto foreign = format_problem(file); !foreign.empty()) return failure(std::move(foreign));
   const std::string_view bytes = file.substr(header_bytes);
   Recording recording;
   auto header = decode_header(file.substr(0, header_bytes));

@@ -24,9 +24,9 @@ std::uint64_t number_of(std::string_view name);
 
 class RecordingFolder {
  public:
-  /// most: recordings that may exist after one was written, 1 or more.
-  RecordingFolder(std::string folder, std::size_t most, ListFolder list, storage::Files& files)
-      : folder_(std::move(folder)), max_files_(most), list_(std::move(list)), files_(&files) {}
+  /// max_files: recordings that may exist after one was written, 1 or more.
+  RecordingFolder(std::string folder, std::size_t max_files, ListFolder list, storage::Files& files)
+      : folder_(std::move(folder)), max_files_(max_files), list_(std::move(list)), files_(&files) {}
 
   struct Written {
     std::string path;

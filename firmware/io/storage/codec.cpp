@@ -71,7 +71,7 @@ Result<board::Learned> read(const toml::table& file, unsigned format) {
   learned.has_muscle = file.contains("muscle") || file.contains("calibration");
   for (const Field& field : fields) {
     const toml::table* table = file[field.table].as_table();
-    const bool left_out = may_lack(field.table) ? table == nullptr : !learned.has_muscle;
+    const bool left_out = is_optional_table(field.table) ? table == nullptr : !learned.has_muscle;
     if (left_out) continue;
     const toml::node* node = table == nullptr ? nullptr : table->get(key_in(field, format));
     if (const auto wrong = read_number(node, field.of(learned))) {

@@ -69,7 +69,7 @@ constexpr std::string_view key_in(const Field& field, unsigned format) {
 
 /// Tables that a file lacks when their content is not known. Files of earlier versions have none of
 /// them.
-inline constexpr bool may_lack(std::string_view table) {
+inline constexpr bool is_optional_table(std::string_view table) {
   return table == "senses" || table == "heat" || table == "small_motions" ||
          table == "linear_model" || table == "identification";
 }

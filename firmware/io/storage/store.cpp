@@ -59,8 +59,8 @@ double LearnedStore::system_clock() {
 }
 
 /// A muscle that is already stored keeps its date.
-void LearnedStore::date(board::Learned& learned, const Examined& current,
-                        const Examined& previous) const {
+void LearnedStore::set_date(board::Learned& learned, const Examined& current,
+                            const Examined& previous) const {
   board::Identification& identification = learned.identification;
   if (!identification.found() || identification.identified_s != 0.0) return;
   const auto& before = current.learned ? current.learned : previous.learned;
@@ -74,7 +74,7 @@ Result<std::uint32_t> LearnedStore::save(const board::Learned& learned) {
   const Examined current = examine(*files_, path_);
   const Examined previous = examine(*files_, previous_path_);
   board::Learned next = learned;
-  date(next, current, previous);
+  set_date(next, current, previous);
   if (current.learned && board::same_content(*current.learned, next)) {
     // An earlier save may have failed, or its process ended, just before the sync.
     if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
@@ -114,12 +114,12 @@ Result<void> LearnedStore::forget() {
 
 /// Whether either file holds a muscle; a damaged one may.
 bool LearnedStore::has_muscle() const {
-  const auto may_know = [&](const std::string& path) {
+  const auto may_hold_muscle = [&](const std::string& path) {
     const Examined file = examine(*files_, path);
     return file.damaged() || (file.learned && (file.learned->has_muscle ||
                                                file.learned->heat != board::ThermalFacts{}));
   };
-  return may_know(path_) || may_know(previous_path_);
+  return may_hold_muscle(path_) || may_hold_muscle(previous_path_);
 }
 
 /// The file that load() uses goes last, so that load() never gives an older set or an error.

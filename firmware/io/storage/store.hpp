@@ -66,7 +66,7 @@ class LearnedStore {
 
  private:
   static double system_clock();
-  void date(board::Learned& learned, const Examined& current, const Examined& previous) const;
+  void set_date(board::Learned& learned, const Examined& current, const Examined& previous) const;
   /// Writes this content as the current file; a good current file becomes the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);

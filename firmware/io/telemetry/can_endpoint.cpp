@@ -89,9 +89,9 @@ bool CanEndpoint::is_own(const hal::CanFrame& frame) const {
 
 /// The answer to MuscleRead.
 std::optional<hal::CanFrame> CanEndpoint::muscle_answer(const hal::CanFrame& frame) const {
-  const can::MessageInfo& asking = can::message::muscle_read;
-  const auto channel = can::channel_of(frame, asking, first_node_, leases_.channels());
-  if (!channel || frame.length != asking.length) return std::nullopt;
+  const can::MessageInfo& request = can::message::muscle_read;
+  const auto channel = can::channel_of(frame, request, first_node_, leases_.channels());
+  if (!channel || frame.length != request.length) return std::nullopt;
   const auto quantity = can::Reader<can::message::muscle_read>(frame).get<std::uint8_t>("quantity");
   return can::Encoder<can::message::muscle>(static_cast<can::Node>(first_node_ + *channel))
       .set("quantity", quantity)

@@ -170,9 +170,9 @@ void MultiplexedValues::take(const Row& row) {
 }
 
 std::uint8_t MultiplexedValues::parameters() const {
-  const bool some_lack =
+  const bool incomplete =
       std::ranges::any_of(newest_, [](float value) { return std::isnan(value); });
-  return some_lack ? first_aside : static_cast<std::uint8_t>(first_aside + newest_.size());
+  return incomplete ? first_aside : static_cast<std::uint8_t>(first_aside + newest_.size());
 }
 
 hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,

@@ -83,18 +83,18 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
     taken.answer = trajectory_frame(header, checked);
     return taken;
   }
-  const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
+  const Start requested{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
   channels_[channel].start.reset();  // that of an earlier Play
   // From an earlier Sync, the start would be over. This order also bounds an after_s that is NaN.
-  const hal::Time earliest = now - hal::duration_from(std::min(max_sync_age_s, asked.after_s));
+  const hal::Time earliest = now - hal::duration_from(std::min(max_sync_age_s, requested.after_s));
   if (when == at_once) {
     channels_[channel].anchor.reset();
-    const double at_s = hal::seconds(frame.received) + asked.after_s;
+    const double at_s = hal::seconds(frame.received) + requested.after_s;
     taken.answer = hand_on(header, {channel, Verb::start, at_s, Source::can});
-  } else if (const auto sync = clock_.find(asked.sync, earliest)) {
-    taken.answer = start(asked, *sync);
+  } else if (const auto sync = clock_.find(requested.sync, earliest)) {
+    taken.answer = start(requested, *sync);
   } else {
-    channels_[channel].start = asked;
+    channels_[channel].start = requested;
     taken.answer = trajectory_frame(header, Refusal::none);
   }
   return taken;

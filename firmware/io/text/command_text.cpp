@@ -61,7 +61,7 @@ std::vector<std::string> known_verbs() {
 std::string no_command(std::string_view word) {
   if (word.empty()) return "no command after the channel; there are: " + joined(known_verbs());
   return "'" + std::string(word) + "' is not a command; " +
-         meant_or_all(word, known_verbs(), "there are");
+         suggestion_or_all(word, known_verbs(), "there are");
 }
 
 /// Counted from 0.

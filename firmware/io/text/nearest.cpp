@@ -30,16 +30,16 @@ std::size_t edits(std::string_view a, std::string_view b) {
 /// The written name may lack the last parts of a known one, and be misspelt too.
 Nearest nearest_beginning(std::string_view written, const std::vector<std::string>& known) {
   Nearest best;
-  std::size_t fewest = 0;
+  std::size_t min_distance = 0;
   for (const std::string& name : known) {
     for (std::size_t end = name.find('_'); end != std::string::npos;
          end = name.find('_', end + 1)) {
       const std::size_t distance = edits(written, std::string_view(name).substr(0, end));
-      const bool nearer = best.name.empty() || distance < fewest ||
-                          (distance == fewest && name.size() < best.name.size());
+      const bool nearer = best.name.empty() || distance < min_distance ||
+                          (distance == min_distance && name.size() < best.name.size());
       if (distance > end / 4 || !nearer) continue;
       best = {name, true};
-      fewest = distance;
+      min_distance = distance;
     }
   }
   return best;
@@ -50,23 +50,23 @@ Nearest nearest_beginning(std::string_view written, const std::vector<std::strin
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known) {
   const std::string with_unit = std::string(written) + "_";
   Nearest best;
-  std::size_t fewest = 0;
+  std::size_t min_distance = 0;
   for (const std::string& name : known) {
     // The shortest of these names adds nothing but a unit.
     if (name.starts_with(with_unit) && (!best.lacks_unit || name.size() < best.name.size()))
       best = {name, true};
     const std::size_t distance = edits(written, name);
     if (!best.lacks_unit && distance <= name.size() / 3 &&
-        (best.name.empty() || distance < fewest)) {
+        (best.name.empty() || distance < min_distance)) {
       best.name = name;
-      fewest = distance;
+      min_distance = distance;
     }
   }
   return best.name.empty() ? nearest_beginning(written, known) : best;
 }
 
-std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
-                         std::string_view otherwise) {
+std::string suggestion_or_all(std::string_view written, const std::vector<std::string>& known,
+                              std::string_view otherwise) {
   const Nearest nearest = nearest_name(written, known);
   if (nearest.name.empty()) return std::string(otherwise) + ": " + joined(known);
   // A numbered name such as "gain_1" has no unit.

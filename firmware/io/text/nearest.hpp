@@ -18,8 +18,8 @@ struct Nearest {
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
 
 /// Text after "…; ": "did you mean NAME?", or all names if none is near: "OTHERWISE: a, b".
-std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
-                         std::string_view otherwise);
+std::string suggestion_or_all(std::string_view written, const std::vector<std::string>& known,
+                              std::string_view otherwise);
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names);

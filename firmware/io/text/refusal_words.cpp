@@ -12,7 +12,7 @@ namespace supercoil {
 namespace {
 
 /// By refusal number; the monitor's page uses them too.
-constexpr std::array<std::string_view, refusal_names.size()> of_all{
+constexpr std::array<std::string_view, refusal_names.size()> general_reasons{
     "",
     "arm it first, or reset its fault; or command the channel that leads its joint or bundle",
     "the fault's cause is still there",
@@ -30,29 +30,31 @@ constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "unstable on the muscle that is known, or values that contradict each other; nothing changed",
     "the muscle cannot do it: it needs more power than there is, or faster cooling"};
 
-struct OfVerb {
+struct VerbReason {
   Verb verb;
   Refusal refusal;
   std::string_view words;
 };
-constexpr std::string_view of_comparison =
+constexpr std::string_view comparison_reason =
     "it is accepted while `power` heats steadily; 0, which forgets it, while the muscle rests";
-constexpr std::array of_verbs{
-    OfVerb{Verb::arm, Refusal::wrong_state, "it is already armed, or has a fault: reset it first"},
-    OfVerb{Verb::reset, Refusal::wrong_state, "it has no fault"},
-    OfVerb{Verb::renew, Refusal::wrong_state, "no command that heats is active"},
-    OfVerb{Verb::rest, Refusal::wrong_state, "it is already resting, or is off"},
-    OfVerb{Verb::store, Refusal::not_ready, "the estimate is not trusted yet"},
-    OfVerb{Verb::store, Refusal::busy, "the previous tuning is still being stored: try again"},
-    OfVerb{Verb::scale, Refusal::wrong_state, "it follows a position: let it rest first"},
-    OfVerb{Verb::compare_supply, Refusal::wrong_state, of_comparison},
-    OfVerb{Verb::compare_current, Refusal::wrong_state, of_comparison},
-    OfVerb{Verb::compare_rise, Refusal::wrong_state, of_comparison},
-    OfVerb{Verb::knot, Refusal::wrong_state, "it follows no position, or the motion has ended"},
-    OfVerb{Verb::start, Refusal::wrong_state, "no motion is loaded"},
-    OfVerb{Verb::start, Refusal::not_ready, "its set point differs from the start of the motion"},
-    OfVerb{Verb::start, Refusal::out_of_range, "the start time has passed"},
-    OfVerb{
+constexpr std::array verb_reasons{
+    VerbReason{Verb::arm, Refusal::wrong_state,
+               "it is already armed, or has a fault: reset it first"},
+    VerbReason{Verb::reset, Refusal::wrong_state, "it has no fault"},
+    VerbReason{Verb::renew, Refusal::wrong_state, "no command that heats is active"},
+    VerbReason{Verb::rest, Refusal::wrong_state, "it is already resting, or is off"},
+    VerbReason{Verb::store, Refusal::not_ready, "the estimate is not trusted yet"},
+    VerbReason{Verb::store, Refusal::busy, "the previous tuning is still being stored: try again"},
+    VerbReason{Verb::scale, Refusal::wrong_state, "it follows a position: let it rest first"},
+    VerbReason{Verb::compare_supply, Refusal::wrong_state, comparison_reason},
+    VerbReason{Verb::compare_current, Refusal::wrong_state, comparison_reason},
+    VerbReason{Verb::compare_rise, Refusal::wrong_state, comparison_reason},
+    VerbReason{Verb::knot, Refusal::wrong_state, "it follows no position, or the motion has ended"},
+    VerbReason{Verb::start, Refusal::wrong_state, "no motion is loaded"},
+    VerbReason{Verb::start, Refusal::not_ready,
+               "its set point differs from the start of the motion"},
+    VerbReason{Verb::start, Refusal::out_of_range, "the start time has passed"},
+    VerbReason{
         Verb::scale, Refusal::unsuitable,
         "it shares its sensor: a joint's scale is its m_per_count and lever_m, a bundle's that of "
         "the channel that leads"}};
@@ -66,9 +68,11 @@ Verb verb_of(std::string_view line) {
 }  // namespace
 
 std::string_view refusal_words(Refusal refusal, Verb verb) {
-  const auto found = std::ranges::find_if(
-      of_verbs, [&](const OfVerb& one) { return one.verb == verb && one.refusal == refusal; });
-  return found != of_verbs.end() ? found->words : of_all.at(static_cast<std::size_t>(refusal));
+  const auto found = std::ranges::find_if(verb_reasons, [&](const VerbReason& one) {
+    return one.verb == verb && one.refusal == refusal;
+  });
+  return found != verb_reasons.end() ? found->words
+                                     : general_reasons.at(static_cast<std::size_t>(refusal));
 }
 
 std::string answer_with_reason(const Reply& reply, Verb verb) {

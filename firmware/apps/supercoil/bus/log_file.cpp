@@ -24,7 +24,7 @@ Result<CanLogFile> read_can_log(const std::string& path) {
     if (!read) {
       if (log.damaged_lines++ == 0)
         log.damage = path + ":" + std::to_string(number) + ": " + read.error().text();
-    } else if (read->ours) {
+    } else if (read->is_standard) {
       log.frames.push_back(read->frame);
       log.frames.back().received = can_client::time_of_run(read->frame.received);
     } else {

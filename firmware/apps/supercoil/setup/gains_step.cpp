@@ -70,7 +70,7 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
   const ControllerSettings& in_use = now.settings.controllers.front();
   const config::RecommendedController suits =
       config::recommended_controller(now.settings, settings);
-  const ControllerSettings recommended = suits.in_place_of(in_use);
+  const ControllerSettings recommended = suits.applied_to(in_use);
   const FirstMotion motion =
       plan_first_motion(feasibility(now.settings, settings), now.settings.unexplained_ratio);
   const auto promise = now.promise(in_use, settings, motion);

@@ -175,7 +175,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
             const auto names = step_names();
             return std::ranges::find(names, given) != names.end()
                        ? std::string()
-                       : given + ": " + meant_or_all(given, names, "the steps are");
+                       : given + ": " + suggestion_or_all(given, names, "the steps are");
           },
           ""));
   setup->add_option("--config", o.config, "The board's configuration, which setup completes")

@@ -24,7 +24,7 @@ std::string error_of(const std::string& line) {
 bool is_ours(const std::string& line) {
   const auto read = parse_candump_line(line);
   CHECK_TEXT(read.has_value(), line.c_str());
-  return read->ours;
+  return read->is_standard;
 }
 
 }  // namespace
@@ -62,14 +62,14 @@ TEST(Candump, EveryFrameComesBack) {
     frame.received = std::chrono::microseconds(time_us);
     const auto read = parse_candump_line(candump_line(frame, frame.received, "can0"));
     RC_ASSERT(read.has_value());
-    RC_ASSERT(read->ours);
+    RC_ASSERT(read->is_standard);
     RC_ASSERT(same(read->frame, frame));
   }));
 }
 
 TEST(Candump, ReadsWhatOtherVersionsWrite) {
   const auto read = parse_candump_line("(1.5) slcan7 7ff#deadBEEF R\r\n");
-  CHECK(read && read->ours);
+  CHECK(read && read->is_standard);
   LONGS_EQUAL(0x7FF, read->frame.id);
   LONGS_EQUAL(4, read->frame.length);
   LONGS_EQUAL(0xBE, read->frame.data[2]);

@@ -327,7 +327,7 @@ TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
   check_says(describe(c), "\n  recommended " + law + ": follows closest");
   check_says(describe(c), "\n              " + model + ": as fast as a step of");
   channel.controllers.push_back(
-      recommended_controller(channel.muscle).in_place_of(channel.controllers[0]));
+      recommended_controller(channel.muscle).applied_to(channel.controllers[0]));
   check_says(describe(c), "\n  recommended controller 1, as configured: it follows closest");
   channel.bundle.leader_offset = -1;
   CHECK(describe_recommendation(c.settings, 0).empty());

@@ -31,19 +31,19 @@ TEST(RecommendedController, ASlowMuscleGetsALowerBandwidth) {
 
 TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
   const control::PhysicalParameters muscle;
-  const auto margin_at = [&](const RecommendedController& suits, double delay_s) {
-    const auto law = control::fixed_law(suits.in_place_of({}), muscle);
+  const auto margin_at = [&](const RecommendedController& recommended, double delay_s) {
+    const auto law = control::fixed_law(recommended.applied_to({}), muscle);
     return control::loop_margin(*law, muscle, 1e-3, delay_s);
   };
   const double at_once_s = 1e-3;
   DOUBLES_EQUAL(8.0, recommended_controller(muscle, {1e-3, at_once_s}).bandwidth_rad_per_s, 1e-3);
   double before = 8.0;
   for (const double delay_s : {0.05, 0.1, 0.5, 2.5}) {
-    const RecommendedController suits = recommended_controller(muscle, {1e-3, delay_s});
-    CHECK(suits.bandwidth_rad_per_s < before);
-    before = suits.bandwidth_rad_per_s;
-    CHECK(suits.pole_rad_per_s <= before);
-    const auto margin = margin_at(suits, delay_s);
+    const RecommendedController recommended = recommended_controller(muscle, {1e-3, delay_s});
+    CHECK(recommended.bandwidth_rad_per_s < before);
+    before = recommended.bandwidth_rad_per_s;
+    CHECK(recommended.pole_rad_per_s <= before);
+    const auto margin = margin_at(recommended, delay_s);
     CHECK(margin.stable());
     CHECK(margin.modulus >= 0.4);
     CHECK(margin.modulus < 0.41);
@@ -56,12 +56,12 @@ TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
   const BoardSettings board;
   ChannelSettings channel;
   channel.heater.delay_s = 0.1;
-  const RecommendedController suits = recommended_controller(channel, board);
-  CHECK(suits.bandwidth_rad_per_s < 5.0);
-  STRCMP_EQUAL("", config::problem_of(suits, channel, 1e-3).c_str());
+  const RecommendedController recommended = recommended_controller(channel, board);
+  CHECK(recommended.bandwidth_rad_per_s < 5.0);
+  STRCMP_EQUAL("", config::problem_of(recommended, channel, 1e-3).c_str());
   channel.controllers.front().arithmetic = control::Arithmetic::q8_24;
   STRCMP_CONTAINS("controller.arithmetic must be double or float",
-                  config::problem_of(suits, channel, 1e-3).c_str());
+                  config::problem_of(recommended, channel, 1e-3).c_str());
 }
 
 /// On a linear muscle feedback improves nothing and only adds noise.
@@ -86,14 +86,14 @@ TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse
   };
   const RecommendedController kept = suits_beside(5.0, 1e-9);
   DOUBLES_EQUAL(5.0, kept.bandwidth_rad_per_s, 0.0);
-  CHECK(promised_m(in_use) < promised_m(recommended_controller({}).in_place_of(in_use)));
+  CHECK(promised_m(in_use) < promised_m(recommended_controller({}).applied_to(in_use)));
   STRCMP_CONTAINS("promises as small an error with 5 rad/s as with 8, and asks for no motion",
                   kept.reason.c_str());
   CHECK(kept.pole_rad_per_s <= 5.0);
   // It is recommended when it promises clearly less, and also when there is little to correct.
   const RecommendedController closer = suits_beside(5.0, 0.03);
   DOUBLES_EQUAL(8.0, closer.bandwidth_rad_per_s, 0.01);
-  CHECK(promised_m(closer.in_place_of(in_use)) < 0.95 * promised_m(in_use));
+  CHECK(promised_m(closer.applied_to(in_use)) < 0.95 * promised_m(in_use));
   STRCMP_CONTAINS("follows closest", closer.reason.c_str());
   const RecommendedController sooner = suits_beside(2.0, 1e-9);
   DOUBLES_EQUAL(8.0, sooner.bandwidth_rad_per_s, 0.01);
@@ -103,8 +103,8 @@ TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse
 
 TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferenceModel) {
   control::PhysicalParameters muscle;
-  const auto asks = [&](const RecommendedController& suits) {
-    return peak_W_per_m(suits.in_place_of({}).model, muscle) * muscle.dc_gain_m_per_W();
+  const auto asks = [&](const RecommendedController& recommended) {
+    return peak_W_per_m(recommended.applied_to({}).model, muscle) * muscle.dc_gain_m_per_W();
   };
   const RecommendedController usual = recommended_controller(muscle);
   DOUBLES_EQUAL(2.0, asks(usual), 5e-3);
@@ -123,22 +123,22 @@ TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferen
 }
 
 TEST(RecommendedController, AControllerDiffersByItsLawItsShapingOrATenthOfItsBandwidth) {
-  const RecommendedController suits = recommended_controller({});
-  control::ControllerSettings controller = suits.in_place_of({});
-  CHECK_FALSE(suits.differs_from(controller));
+  const RecommendedController recommended = recommended_controller({});
+  control::ControllerSettings controller = recommended.applied_to({});
+  CHECK_FALSE(recommended.differs_from(controller));
   controller.learned_ff.bandwidth_rad_per_s *= 1.09;
-  CHECK_FALSE(suits.differs_from(controller));
+  CHECK_FALSE(recommended.differs_from(controller));
   controller.learned_ff.bandwidth_rad_per_s *= 1.02;
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
+  CHECK_TRUE(recommended.differs_from(controller));
+  controller = recommended.applied_to({});
   controller.model = control::poles_model({1.0, 1.0, 1.0});
-  CHECK_TRUE(suits.differs_from(controller));
+  CHECK_TRUE(recommended.differs_from(controller));
   controller.model = control::design_model();
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
+  CHECK_TRUE(recommended.differs_from(controller));
+  controller = recommended.applied_to({});
   controller.shape_reference = false;
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
+  CHECK_TRUE(recommended.differs_from(controller));
+  controller = recommended.applied_to({});
   controller.kind = control::ControllerKind::adaptive_ff;
-  CHECK_TRUE(suits.differs_from(controller));
+  CHECK_TRUE(recommended.differs_from(controller));
 }

@@ -32,7 +32,7 @@ Content start() {
 
 recorder::RecorderSettings two(const Disk& disk) {
   recorder::RecorderSettings settings = settings_on(disk);
-  settings.most = 2;
+  settings.max_recordings = 2;
   return settings;
 }
 

@@ -75,7 +75,7 @@ class Axis {
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   const AxisInputs& inputs() const { return inputs_; }
   /// The supervisor has judged what happened since the last tick.
-  void judged() {
+  void clear_events() {
     inputs_.position_elapsed_s = 0.0;
     inputs_.recalibrated.reset();
     inputs_.expected_jumped = false;

@@ -47,7 +47,7 @@ void Channel::supervise(const BoardTick& board) {
   commands_.renewed = commands_.renewed || led();
   present_fault_ = supervisor_.step(axis, heater, commands_);
   // Skipped periods count too: in them nothing was renewed and nothing was heard.
-  axis_.judged();
+  axis_.clear_events();
   commands_ = {.heating = commands_.heating};
   const std::int64_t more = std::min(board.periods, max_repeats);
   for (std::int64_t i = 1; i < more && present_fault_ == Fault::none; ++i)

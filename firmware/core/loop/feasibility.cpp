@@ -83,8 +83,9 @@ void find_motion(const ChannelSettings& c, Feasibility& f) {
   if (load_ratio == 0.0 || travel_ratio == 0.0) return;
   // A load takes power at rest, which leaves more to fall with and less to rise with. A load that
   // lifts may keep the muscle from falling that far.
-  const double lowest = load_ratio + 0.1 * travel_ratio;
-  f.fall_s = lowest > 0.0 ? tau_s * std::log((load_ratio + 0.9 * travel_ratio) / lowest) : INFINITY;
+  const double low_ratio = load_ratio + 0.1 * travel_ratio;
+  f.fall_s =
+      low_ratio > 0.0 ? tau_s * std::log((load_ratio + 0.9 * travel_ratio) / low_ratio) : INFINITY;
   const double middle = load_ratio + 0.5 * travel_ratio;
   const double room = std::min(middle, 1.0 - middle) / (0.25 * travel_ratio);
   f.half_travel_period_s =

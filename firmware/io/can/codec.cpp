@@ -38,13 +38,13 @@ std::int64_t quantised(double value, const SignalInfo& signal) {
   if (std::isnan(value)) return signal.reserved == no_value ? 0 : signal.reserved;
   const bool is_signed = signal.raw == Raw::signed_integer;
   const std::int64_t half = std::int64_t{1} << (signal.length - 1U);
-  std::int64_t lowest = is_signed ? -half : 0;
-  std::int64_t highest = is_signed ? half - 1 : 2 * half - 1;
-  if (signal.reserved == lowest) ++lowest;
-  if (signal.reserved == highest) --highest;
+  std::int64_t min_raw = is_signed ? -half : 0;
+  std::int64_t max_raw = is_signed ? half - 1 : 2 * half - 1;
+  if (signal.reserved == min_raw) ++min_raw;
+  if (signal.reserved == max_raw) --max_raw;
   const double scaled = value / signal.scale;
-  if (scaled <= static_cast<double>(lowest)) return lowest;
-  if (scaled >= static_cast<double>(highest)) return highest;
+  if (scaled <= static_cast<double>(min_raw)) return min_raw;
+  if (scaled >= static_cast<double>(max_raw)) return max_raw;
   return std::llround(scaled);
 }
 

@@ -32,10 +32,10 @@ class Findings {
   std::vector<std::string> lines() const {
     std::vector<std::string> result;
     for (const Finding& finding : findings_) {
-      std::string whose = finding.channels.size() == 1 ? "channel" : "channels";
+      std::string owner = finding.channels.size() == 1 ? "channel" : "channels";
       for (std::size_t i = 0; i < finding.channels.size(); ++i)
-        whose += (i == 0 ? " " : ", ") + std::to_string(finding.channels[i]);
-      result.push_back(whose + ": " + finding.text);
+        owner += (i == 0 ? " " : ", ") + std::to_string(finding.channels[i]);
+      result.push_back(owner + ": " + finding.text);
     }
     return result;
   }

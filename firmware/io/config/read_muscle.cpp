@@ -13,8 +13,8 @@ namespace {
 struct Bound {
   const char* min_key;
   const char* max_key;
-  double control::ThermalBounds::*lowest;
-  double control::ThermalBounds::*highest;
+  double control::ThermalBounds::*min;
+  double control::ThermalBounds::*max;
   double control::PhysicalParameters::*believed;
   const char* believed_key;
 };
@@ -30,8 +30,8 @@ constexpr std::array<Bound, 2> thermal_bounds{{
 
 void read_bound(Section& section, const Bound& bound, const control::PhysicalParameters& muscle,
                 control::ThermalBounds& b) {
-  const double lowest = b.*bound.lowest = section.required_number(bound.min_key, {1e-5, 1e3});
-  const double highest = b.*bound.highest = section.required_number(bound.max_key, {1e-5, 1e3});
+  const double min_value = b.*bound.min = section.required_number(bound.min_key, {1e-5, 1e3});
+  const double max_value = b.*bound.max = section.required_number(bound.max_key, {1e-5, 1e3});
   const double believed = muscle.*bound.believed;
   const auto wrong = [&](const char* key, const char* side) {
     std::ostringstream message;
@@ -39,11 +39,11 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
             << believed;
     section.wrong(key, message.str());
   };
-  if (lowest >= highest) {
+  if (min_value >= max_value) {
     section.wrong(bound.min_key, std::string("must be less than ") + bound.max_key);
-  } else if (lowest > believed) {
+  } else if (min_value > believed) {
     wrong(bound.min_key, "exceed");
-  } else if (highest < believed) {
+  } else if (max_value < believed) {
     wrong(bound.max_key, "be less than");
   }
 }

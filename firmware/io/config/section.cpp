@@ -93,17 +93,17 @@ double Section::number(std::string_view key, double fallback, Range range) {
   return fallback;
 }
 
-std::int64_t Section::integer(std::string_view key, std::int64_t fallback, std::int64_t lowest,
-                              std::int64_t highest) {
+std::int64_t Section::integer(std::string_view key, std::int64_t fallback, std::int64_t min,
+                              std::int64_t max) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
-  const std::string allowed = std::to_string(lowest) + " to " + std::to_string(highest);
+  const std::string allowed = std::to_string(min) + " to " + std::to_string(max);
   if (!node->is_integer()) {
     wrong(key, "must be a whole number, " + allowed);
     return fallback;
   }
   const std::int64_t value = *node->value<std::int64_t>();
-  if (value >= lowest && value <= highest) return static_cast<std::int64_t>(value);
+  if (value >= min && value <= max) return static_cast<std::int64_t>(value);
   wrong(key, "must be " + allowed);
   return fallback;
 }
@@ -156,13 +156,12 @@ std::vector<double> Section::required_numbers(std::string_view key, Range range,
   return numbers(key, {}, range, min_count, max_count);
 }
 
-std::int64_t Section::required_integer(std::string_view key, std::int64_t lowest,
-                                       std::int64_t highest) {
+std::int64_t Section::required_integer(std::string_view key, std::int64_t min, std::int64_t max) {
   if (!has(key)) {
-    missing_.push_back({std::string(key), "a whole number, " + std::to_string(lowest) + " to " +
-                                              std::to_string(highest)});
+    missing_.push_back({std::string(key),
+                        "a whole number, " + std::to_string(min) + " to " + std::to_string(max)});
   }
-  return integer(key, lowest, lowest, highest);
+  return integer(key, min, min, max);
 }
 
 std::string Section::required_text(std::string_view key) {

@@ -38,8 +38,8 @@ class Section {
   Section over(const toml::table* under, std::string under_path) const;
 
   double number(std::string_view key, double fallback, Range range);
-  std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t lowest,
-                       std::int64_t highest);
+  std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t min,
+                       std::int64_t max);
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::string_view fallback);
   /// Between least and most numbers, each in range.
@@ -63,12 +63,12 @@ class Section {
   /// Each of [[key]], named key[1], key[2], …; a single table counts as one. Empty when absent.
   std::vector<Section> sections(std::string_view key);
 
-  /// Like those above, for keys without a default. NaN, the lowest or empty if the key is absent or
+  /// Like those above, for keys without a default. NaN, min or empty if the key is absent or
   /// wrong.
   double required_number(std::string_view key, Range range);
   std::vector<double> required_numbers(std::string_view key, Range range, std::size_t min_count,
                                        std::size_t max_count);
-  std::int64_t required_integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
+  std::int64_t required_integer(std::string_view key, std::int64_t min, std::int64_t max);
   std::string required_text(std::string_view key);
 
   /// Keys that are read elsewhere.

@@ -43,12 +43,12 @@ class Reader {
   explicit Reader(std::string_view text) : text_(text) {}
 
   template <class Number>
-  Number number(std::string_view key, Number lowest, Number highest) {
+  Number number(std::string_view key, Number min, Number max) {
     const std::string_view value = value_of(text_, key);
     Number result{};
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
     const bool read = error == std::errc() && end == value.data() + value.size();
-    if (!read || !(result >= lowest && result <= highest)) note(key, value);
+    if (!read || !(result >= min && result <= max)) note(key, value);
     return result;
   }
   /// Without its quotes.

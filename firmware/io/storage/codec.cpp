@@ -51,11 +51,11 @@ std::optional<std::string> unknown_key(const toml::table& file, unsigned format)
 }
 
 std::optional<std::string> read_version(const toml::node* node, std::uint32_t& version) {
-  constexpr std::int64_t highest = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::int64_t max_version = std::numeric_limits<std::uint32_t>::max();
   if (node == nullptr) return "is missing";
   const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
-  if (!value || *value < 0 || *value > highest)
-    return "must be a whole number, 0 to " + std::to_string(highest);
+  if (!value || *value < 0 || *value > max_version)
+    return "must be a whole number, 0 to " + std::to_string(max_version);
   version = static_cast<std::uint32_t>(*value);
   return std::nullopt;
 }

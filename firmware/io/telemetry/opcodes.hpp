@@ -38,16 +38,16 @@ struct EncodedCommand {
 };
 constexpr EncodedCommand encode_command(Verb verb, double value) {
   // A meter's value with the wrong sign must not be taken for the other sense's.
-  constexpr double nonsense = std::numeric_limits<double>::quiet_NaN();
+  constexpr double invalid = std::numeric_limits<double>::quiet_NaN();
   if (verb == Verb::compare_supply) {
     const bool volts = value >= 0.0 && value < rise_offset;
-    return {compare, volts ? value : nonsense};
+    return {compare, volts ? value : invalid};
   }
-  if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
-  if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rise_offset + value : nonsense};
+  if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : invalid};
+  if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rise_offset + value : invalid};
   if (verb == Verb::tune) {
     return {static_cast<std::uint8_t>(Verb::controller),
-            value >= 0.0 ? tune_offset + value : nonsense};
+            value >= 0.0 ? tune_offset + value : invalid};
   }
   return {static_cast<std::uint8_t>(verb), value};
 }

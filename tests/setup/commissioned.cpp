@@ -22,13 +22,13 @@ namespace supercoil::test {
 namespace {
 
 config::BoardConfig described_board(const HeldOut& muscle, const std::string& controller) {
-  using operating::Asked;
+  using operating::QuestionId;
   auto described = operating::describe_muscle(muscle.answers);
   if (!described) throw std::runtime_error(described.error().text());
   std::vector<operating::Entry>& entries = described->entries;
   entries.insert(entries.end(), muscle.board.begin(), muscle.board.end());
-  std::string text = held_out_board(muscle.answers.of(Asked::cold_resistance_Ohm),
-                                    muscle.answers.of(Asked::max_W));
+  std::string text = held_out_board(muscle.answers.of(QuestionId::cold_resistance_Ohm),
+                                    muscle.answers.of(QuestionId::max_W));
   for (const operating::Entry& entry : entries) {
     auto changed = config::with_value(text, "channel", 0, entry.path, entry.literal);
     if (!changed) throw std::runtime_error(changed.error().text());
@@ -70,11 +70,11 @@ class MeterReader final : public operating::Operator {
 
   explicit MeterReader(const SimulatedLink& link) : link_(link) {}
 
-  void say(const std::string&) override {}
+  void show(const std::string&) override {}
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
+  Answer ask(const operating::Question& question, const std::function<Done()>&) override {
     if (question.key == "supply_V") return supply_V;
     if (question.key != "current_A") return failure("no answer: the input has ended");
     currents_A_.push_back(link_.metered_W() / supply_V);
@@ -89,9 +89,9 @@ class MeterReader final : public operating::Operator {
 
 enum class Steps : std::uint8_t { without_answers, without_senses, all };
 
-Commissioned commission(HeldOutBoard& board, operating::Operator& who, Steps answered) {
+Commissioned commission(HeldOutBoard& board, operating::Operator& user, Steps answered) {
   const SimulatedLink& link = board.link();
-  operating::Commission steps = board.steps(who);
+  operating::Commission steps = board.steps(user);
   Commissioned c;
   const auto conclude = [&](const std::string& refused) {
     c.refused = refused;
@@ -144,8 +144,8 @@ Commissioned commission_by_script(const HeldOut& muscle) {
   script.add("senses", "supply_V", {MeterReader::supply_V});
   if (compared) script.add("senses", "current_A", reader.currents_A());
   script.add("muscle", "take_gains", {1.0});
-  Listener who(std::move(script));
-  return commission(board, who, compared ? Steps::all : Steps::without_senses);
+  Listener user(std::move(script));
+  return commission(board, user, compared ? Steps::all : Steps::without_senses);
 }
 
 }  // namespace supercoil::test

@@ -15,11 +15,11 @@ namespace supercoil::test {
 /// Nobody watches, and nothing is asked.
 class Nobody final : public operating::Operator {
  public:
-  void say(const std::string&) override {}
+  void show(const std::string&) override {}
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
+  Answer ask(const operating::Question& question, const std::function<Done()>&) override {
     return failure("asked: " + std::string(question.key));
   }
 };
@@ -35,7 +35,9 @@ class HeldOutBoard {
   host_sim::Simulation& simulation() { return simulation_; }
   const BoardSettings& settings() const { return *scenario_.board; }
   const ChannelSettings& channel() const { return settings().channels[0]; }
-  operating::Commission steps(operating::Operator& who) { return {link_, "1", settings(), 0, who}; }
+  operating::Commission steps(operating::Operator& user) {
+    return {link_, "1", settings(), 0, user};
+  }
 
  private:
   config::BoardConfig config_;

@@ -26,14 +26,14 @@ class Person final : public operating::Operator {
  public:
   explicit Person(SimulatedLink& link) : link_(link) {}
 
-  void say(const std::string& line) override {
+  void show(const std::string& line) override {
     std::sscanf(line.c_str(), "channel 1 gets %lf W", &power_W_);
     told_ += line + "\n";
   }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return tired; }
-  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override {
+  Answer ask(const Question& question, const std::function<Done()>& meanwhile) override {
     ++asked;
     for (int i = 0; i < reads_looks; ++i) {
       if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
@@ -44,7 +44,7 @@ class Person final : public operating::Operator {
       return gains;
     }
     if (question.key == "reset_fault")
-      return std::isnan(resets) ? OrWhy(failure("no answer: the input has ended")) : resets;
+      return std::isnan(resets) ? Answer(failure("no answer: the input has ended")) : resets;
     if (question.key == "supply_V") return supply_V;
     if (question.key == "place_mm") return place_mm;
     const double slip = currents_read_++ == 1 ? second_reading_ratio : 1.0;
@@ -137,8 +137,8 @@ TEST(GuidedSteps, AScriptTellsWhatTheMeterShowsAtBothPowers) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   const double power_W =
       0.8 * operating::plan_comparison("1", board.channel(), board.settings()).power_W;
-  Listener who(meter_readings(power_W));
-  const auto found = board.steps(who).compare_senses();
+  Listener user(meter_readings(power_W));
+  const auto found = board.steps(user).compare_senses();
   STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(power_W, (*found)["power_W"].get<double>(), 0.0);
   DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
@@ -149,8 +149,8 @@ TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   const double most_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
   const auto refused = [&](const operating::ScriptedAnswers& script) {
-    Listener who(script);
-    const auto found = board.steps(who).compare_senses();
+    Listener user(script);
+    const auto found = board.steps(user).compare_senses();
     CHECK_FALSE(found.has_value());
     STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
     return found.error().text();
@@ -240,11 +240,11 @@ TEST(GuidedSteps, AScriptTellsWhereTheEndIsHeld) {
   HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
   operating::ScriptedAnswers script("answers.toml");
   script.add("scale", "place_mm", {1e6});
-  Listener who(script);
-  CHECK(board.steps(who).calibrate().has_value());
+  Listener user(script);
+  CHECK(board.steps(user).calibrate().has_value());
   board.link().wait(std::chrono::seconds(120));
   STRCMP_CONTAINS("answers.toml: scale.place_mm = 1000000: must be ",
-                  board.steps(who).scale().error().text().c_str());
+                  board.steps(user).scale().error().text().c_str());
   const double shown_m = board.simulation().loop().channel(0).snapshot().position_m;
   script.add("scale", "place_mm", {1e3 * 1.1 * shown_m});
   Listener again(script);

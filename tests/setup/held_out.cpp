@@ -11,7 +11,7 @@ namespace supercoil::test {
 
 namespace {
 
-using operating::Asked;
+using operating::QuestionId;
 
 class Dice {
  public:
@@ -88,23 +88,23 @@ HeldOut held_out_muscle(unsigned seed, double error, double slower) {
     text << effects_of(dice, d) << "hanging_mass_kg = " << d.muscle.moving_mass_kg << '\n';
   h.scenario = text.str();
 
-  const auto says = [&](Asked what, double truth, double wrong) {
+  const auto says = [&](QuestionId what, double truth, double wrong) {
     h.answers.set(static_cast<std::size_t>(what), truth * dice.between(1.0 - wrong, 1.0 + wrong));
   };
   constexpr double weight_g = 50.0;
   const double heated_W = 0.5 * full_K * d.muscle.heat_transfer_W_per_K;
-  says(Asked::cold_resistance_Ohm, d.cold_Ohm, 0.02);
-  says(Asked::load_g, 1e3 * d.muscle.moving_mass_kg, error);
-  says(Asked::stretch_weight_g, weight_g, 0.0);
-  says(Asked::stretch_mm, weight_g * gravity_m_per_s2 / d.muscle.stiffness_N_per_m, error);
-  says(Asked::heated_W, heated_W, 0.0);
-  says(Asked::heated_mm, 1e3 * heated_W * d.muscle.dc_gain_m_per_W(), error);
-  says(Asked::half_cooling_s, h.time_constant_s * std::numbers::ln2, error);
-  says(Asked::thread_g, d.muscle.thermal_mass_J_per_K / 1.65, error);
-  says(Asked::heated_K, 0.0, 0.0);
-  says(Asked::max_W, d.max_W, 0.0);
-  says(Asked::max_travel_mm, 1e3 * d.travel_m, 0.0);
-  says(Asked::uncertainty_percent, 1e2 * error, 0.0);
+  says(QuestionId::cold_resistance_Ohm, d.cold_Ohm, 0.02);
+  says(QuestionId::load_g, 1e3 * d.muscle.moving_mass_kg, error);
+  says(QuestionId::stretch_weight_g, weight_g, 0.0);
+  says(QuestionId::stretch_mm, weight_g * gravity_m_per_s2 / d.muscle.stiffness_N_per_m, error);
+  says(QuestionId::heated_W, heated_W, 0.0);
+  says(QuestionId::heated_mm, 1e3 * heated_W * d.muscle.dc_gain_m_per_W(), error);
+  says(QuestionId::half_cooling_s, h.time_constant_s * std::numbers::ln2, error);
+  says(QuestionId::thread_g, d.muscle.thermal_mass_J_per_K / 1.65, error);
+  says(QuestionId::heated_K, 0.0, 0.0);
+  says(QuestionId::max_W, d.max_W, 0.0);
+  says(QuestionId::max_travel_mm, 1e3 * d.travel_m, 0.0);
+  says(QuestionId::uncertainty_percent, 1e2 * error, 0.0);
   return h;
 }
 

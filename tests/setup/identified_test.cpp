@@ -87,7 +87,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   PhysicalParameters muscle = configured.muscle;
   muscle.stiffness_N_per_m *= 1.1;
   Listener listener;
-  const auto found = operating::tell_identified(known_of(muscle), configured, listener);
+  const auto found = operating::report_identified(known_of(muscle), configured, listener);
   const std::string told = listener.take();
   STRCMP_CONTAINS("stiffness_N_per_m: 17.6 ± ", told.c_str());
   STRCMP_CONTAINS(" % (configured: 16, +10 %)\n", told.c_str());
@@ -104,7 +104,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
 
   KnownMuscle kept = known_of(muscle);
   kept[known_theta1_deviation] = NAN;
-  operating::tell_identified(kept, configured, listener);
+  operating::report_identified(kept, configured, listener);
   const std::string of_kept = listener.take();
   STRCMP_CONTAINS("stiffness_N_per_m: 17.6 (configured: 16, +10 %)\n", of_kept.c_str());
   STRCMP_CONTAINS("theta1 was kept: each of these depends on the file's values", of_kept.c_str());
@@ -114,7 +114,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   KnownMuscle known = known_of(muscle);
   for (std::size_t i = 0; i < 4; ++i)
     known[known_theta1_deviation + i] = NAN;
-  const auto later = operating::tell_identified(known, configured, listener);
+  const auto later = operating::report_identified(known, configured, listener);
   const std::string told_later = listener.take();
   STRCMP_CONTAINS("stiffness_N_per_m: 17.6 (configured: 16, +10 %)\n", told_later.c_str());
   STRCMP_CONTAINS("gain: 5.49 mm/W (configured: ", told_later.c_str());
@@ -127,10 +127,10 @@ TEST(Identified, AResultThatTheFilesBoundsExcludeIsSaidInOneLine) {
   configured.thermal.bounds = {0.1, 0.2, 0.05, 0.12};
   PhysicalParameters muscle = configured.muscle;
   Listener listener;
-  operating::tell_identified(known_of(muscle), configured, listener);
+  operating::report_identified(known_of(muscle), configured, listener);
   CHECK_TRUE(listener.take().find("warning") == std::string::npos);
   muscle.heat_transfer_W_per_K = 0.13;
-  operating::tell_identified(known_of(muscle), configured, listener);
+  operating::report_identified(known_of(muscle), configured, listener);
   STRCMP_CONTAINS(
       "warning: heat_transfer_W_per_K = 0.13 lies outside thermal.min_transfer_W_per_K to "
       "max_transfer_W_per_K, 0.05 to 0.12: ",

@@ -23,11 +23,11 @@ class Watcher final : public operating::Operator {
  public:
   explicit Watcher(HeldOutBoard& board) : board_(board) {}
 
-  void say(const std::string& line) override { told += line + "\n"; }
+  void show(const std::string& line) override { told += line + "\n"; }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return truth_m() > tired_at_m; }
-  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override {
+  Answer ask(const Question& question, const std::function<Done()>& meanwhile) override {
     CHECK_TRUE(question.key == "at_limit");
     while (truth_m() < answers_at_m) {
       if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
@@ -96,11 +96,11 @@ TEST(LimitsStep, AScriptLetsGoWhereItSays) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   operating::ScriptedAnswers script("answers.toml");
   script.add("limits", "stop_mm", {2.0});
-  Listener who(script);
-  const auto limits = board->steps(who).limits();
+  Listener user(script);
+  const auto limits = board->steps(user).limits();
   STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
-  const std::string told = who.take();
+  const std::string told = user.take();
   STRCMP_CONTAINS("lets go where the script says, when its end stops rising, at ", told.c_str());
   STRCMP_CONTAINS("let go at 2.0", told.c_str());
   STRCMP_EQUAL("disarmed", board->link().status("1")->state.c_str());
@@ -111,8 +111,8 @@ TEST(LimitsStep, AScriptedPlaceThatIsNoneIsRefusedBeforeItPulls) {
   for (const double stop_mm : {1.4, 1e3 * board->channel().supervision.max_travel_m}) {
     operating::ScriptedAnswers script("answers.toml");
     script.add("limits", "stop_mm", {stop_mm});
-    Listener who(script);
-    const auto limits = board->steps(who).limits();
+    Listener user(script);
+    const auto limits = board->steps(user).limits();
     CHECK_FALSE(limits.has_value());
     STRCMP_CONTAINS("answers.toml: limits.stop_mm = ", limits.error().text().c_str());
     STRCMP_CONTAINS(": must be 1.51 to ", limits.error().text().c_str());

@@ -16,14 +16,14 @@ class Listener final : public operating::Operator {
   Listener() = default;
   explicit Listener(operating::ScriptedAnswers script) : script_(std::move(script)) {}
 
-  void say(const std::string& line) override { told_ += line + "\n"; }
+  void show(const std::string& line) override { told_ += line + "\n"; }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
+  Answer ask(const operating::Question& question, const std::function<Done()>&) override {
     return scripted(question).value_or(failure("no answer: the input has ended"));
   }
-  std::optional<OrWhy> scripted(const operating::Question& question) override {
+  std::optional<Answer> scripted(const operating::Question& question) override {
     return script_.next(question);
   }
   /// What was said since the last call.

@@ -51,7 +51,7 @@ IdentifiedDeviations identified_deviations(const PhysicalParameters& muscle,
   return deviations;
 }
 
-PhysicalParameters told_parameters(const KnownMuscle& known) {
+PhysicalParameters physical_parameters(const KnownMuscle& known) {
   PhysicalParameters muscle;
   for (std::size_t i = 0; i < physical_ranges.size(); ++i)
     muscle.*physical_ranges[i].member = known[i];
@@ -62,7 +62,7 @@ IdentifiedDeviations identified_deviations(const KnownMuscle& known) {
   std::array<double, 4> theta_ratios{};
   for (std::size_t i = 0; i < theta_ratios.size(); ++i)
     theta_ratios[i] = known[known_theta1_deviation + i];
-  return identified_deviations(told_parameters(known), theta_ratios);
+  return identified_deviations(physical_parameters(known), theta_ratios);
 }
 
 std::array<std::pair<std::string, double>, identified_gain + 1> named_deviations(

@@ -34,7 +34,7 @@ IdentifiedDeviations identified_deviations(const control::PhysicalParameters& mu
                                            const std::array<double, 4>& theta_ratios);
 
 /// The physical parameters that a board uses.
-control::PhysicalParameters told_parameters(const KnownMuscle& known);
+control::PhysicalParameters physical_parameters(const KnownMuscle& known);
 IdentifiedDeviations identified_deviations(const KnownMuscle& known);
 
 /// With the names in JSON: "stiffness_N_per_m_deviation_ratio", "gain_deviation_ratio".

@@ -40,7 +40,7 @@ constexpr double max_identify_s = modes::Identify::Settings{}.max_s + 200.0;
 /// Rise above the air at and below which calibrate takes a zero.
 constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
 /// Min ratio of the first motion to the promised error: less is hardly more than the error.
-constexpr double telling_ratio = 3.0;
+constexpr double significant_ratio = 3.0;
 
 /// Time until the muscle is cold, however hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
@@ -66,13 +66,13 @@ bool is_calibrated(const board::Calibration& now, const board::Calibration& conf
 }  // namespace
 
 Commission::Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
-                       std::size_t index, Operator& who)
+                       std::size_t index, Operator& user)
     : board_(board),
       channel_(std::move(channel)),
       settings_(settings),
       index_(index),
       configured_(settings.channels[index]),
-      who_(who) {}
+      user_(user) {}
 
 StepResult Commission::run(const std::string& step) {
   if (step == "senses") return compare_senses();
@@ -90,7 +90,7 @@ Commission::Done Commission::ask(const std::string& command) {
   return failure(with_present_fault(command + ": " + *answer, board_, channel_));
 }
 
-Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
+Commission::Done Commission::only_found(const std::string& mode, const ResultText& result) {
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
@@ -103,13 +103,13 @@ Commission::Done Commission::reset_faults() {
     const std::string channel = std::to_string(std::stoul(channel_) + one - index_);
     const std::string fault = present_fault(board_, channel);
     if (fault.empty()) continue;
-    std::string told = "channel ";
-    told += channel;
-    told += ": ";
-    told += fault;
-    who_.say(told);
-    const auto answer = who_.ask(reset_fault, [] { return Done(); });
-    if (who_.interrupted()) return failure("interrupted");
+    std::string line = "channel ";
+    line += channel;
+    line += ": ";
+    line += fault;
+    user_.show(line);
+    const auto answer = user_.ask(reset_fault, [] { return Done(); });
+    if (user_.interrupted()) return failure("interrupted");
     if (!answer || *answer == 0.0) return failure("cannot be armed: " + fault);
     const auto done = board_.ask(channel + " reset");
     if (!done) return tl::unexpected(done.error());
@@ -121,7 +121,7 @@ Commission::Done Commission::reset_faults() {
 /// After a start the board waits until its muscle must be cool.
 Commission::Done Commission::arm() {
   if (auto reset = reset_faults(); !reset) return reset;
-  const double max_s = arming_s + longest_s([&](const ChannelSettings& channel) {
+  const double max_s = arming_s + max_time_s([&](const ChannelSettings& channel) {
                          return feasibility(channel, settings_).armable_s;
                        });
   const double begin_s = board_.time_s();
@@ -137,16 +137,16 @@ Commission::Done Commission::arm() {
       if (refuses(*answer, Refusal::wrong_state)) return {};
       return failure("arm: " + *answer);
     }
-    who_.show_progress("waiting until the muscle is certainly cool", elapsed_s / max_s);
-    if (who_.interrupted()) return failure("interrupted");
+    user_.show_progress("waiting until the muscle is certainly cool", elapsed_s / max_s);
+    if (user_.interrupted()) return failure("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
 }
 
-Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
+Commission::ResultText Commission::run_mode(const std::string& mode, double max_s) {
   const auto done = [&] { return board_.progress(channel_).value_or(NAN); };
   // The first call takes a moment, in which a command to heat would expire.
-  if (who_.sees_progress()) done();
+  if (user_.sees_progress()) done();
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   if (antagonist()) max_s *= 2.0;
   const double begin_s = board_.time_s();
@@ -154,8 +154,8 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     board_.wait(renewal);
     const double elapsed_s = board_.time_s() - begin_s;
     if (elapsed_s >= max_s) break;
-    if (who_.sees_progress()) who_.show_progress(mode, done());
-    if (who_.interrupted()) {
+    if (user_.sees_progress()) user_.show_progress(mode, done());
+    if (user_.interrupted()) {
       static_cast<void>(ask("rest"));
       return failure(mode + ": interrupted");
     }
@@ -166,17 +166,17 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
   const auto all = endings(board_, channel_);
   if (!all) return tl::unexpected(all.error());
   for (const auto& [channel, ending] : *all) {
-    std::string whose = mode;
-    if (all->size() > 1) whose += " of channel " + channel;
-    if (all->size() > 1) who_.say(whose + ": " + ending.result);
+    std::string muscle = mode;
+    if (all->size() > 1) muscle += " of channel " + channel;
+    if (all->size() > 1) user_.show(muscle + ": " + ending.result);
     if (!ending.notes.empty() && ending.notes != ending.result)
-      who_.say(whose + " notes: " + ending.notes);
+      user_.show(muscle + " notes: " + ending.notes);
   }
   return all->back().ending.result;
 }
 
-Commission::OrWhy Commission::calibrate_when_cold() {
-  const double cold_after_s = longest_s(cold_after);
+Commission::ResultText Commission::calibrate_when_cold() {
+  const double cold_after_s = max_time_s(cold_after);
   const double begin_s = board_.time_s();
   for (;;) {
     // One muscle after the other.
@@ -185,37 +185,38 @@ Commission::OrWhy Commission::calibrate_when_cold() {
                  max_calibrate_s * static_cast<double>(heated_together(settings_, index_).size()));
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
-    who_.say("may not be cold yet, by its temperature bounds; cold in " + in_digits(left_s) +
-             " s at the latest");
+    user_.show("may not be cold yet, by its temperature bounds; cold in " + in_digits(left_s) +
+               " s at the latest");
   }
 }
 
-std::optional<Commission::Measured> Commission::antagonist() const {
+std::optional<Commission::MeasuredMuscle> Commission::antagonist() const {
   const JointSettings* joint = settings_.joint_of(index_);
   if (joint == nullptr || joint->agonist != index_) return std::nullopt;
   const std::size_t apart = joint->antagonist - joint->agonist;
-  return Measured{std::to_string(std::stoul(channel_) + apart),
-                  settings_.channels[joint->antagonist]};
+  return MeasuredMuscle{std::to_string(std::stoul(channel_) + apart),
+                        settings_.channels[joint->antagonist]};
 }
 
-double Commission::longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const {
+double Commission::max_time_s(
+    const std::function<double(const ChannelSettings&)>& time_s_of) const {
   double max_s = 0.0;
   for (const std::size_t channel : heated_together(settings_, index_))
     max_s = std::max(max_s, time_s_of(settings_.channels[channel]));
   return max_s;
 }
 
-StepResult Commission::tell(Tell found) {
+StepResult Commission::report_each(Report found) {
   const auto other = antagonist();
   if (!other) return (this->*found)({channel_, configured_});
-  who_.say("the agonist, channel " + channel_ + ":");
+  user_.show("the agonist, channel " + channel_ + ":");
   auto own = (this->*found)({channel_, configured_});
   if (!own) return own;
-  who_.say("the antagonist, channel " + other->channel + ":");
-  auto others = (this->*found)(*other);
-  if (!others) return others;
-  (*others)["channel"] = settings_.joint_of(index_)->antagonist + 1;
-  (*own)[SetupRecord::antagonist_key] = std::move(*others);
+  user_.show("the antagonist, channel " + other->channel + ":");
+  auto other_result = (this->*found)(*other);
+  if (!other_result) return other_result;
+  (*other_result)["channel"] = settings_.joint_of(index_)->antagonist + 1;
+  (*own)[SetupRecord::antagonist_key] = std::move(*other_result);
   return own;
 }
 
@@ -223,7 +224,7 @@ StepResult Commission::calibrate() {
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   if (auto done = only_found("calibrate", calibrate_when_cold()); !done)
     return tl::unexpected(done.error());
-  return tell(&Commission::tell_calibration);
+  return report_each(&Commission::report_calibration);
 }
 
 namespace {
@@ -235,16 +236,16 @@ double zero_uncertainty_m(const control::PhysicalParameters& muscle) {
 
 }  // namespace
 
-StepResult Commission::tell_calibration(const Measured& whose) {
-  const auto known = board_.muscle(whose.channel);
+StepResult Commission::report_calibration(const MeasuredMuscle& muscle) {
+  const auto known = board_.muscle(muscle.channel);
   if (!known) return tl::unexpected(known.error());
   const double cold_Ohm = (*known)[known_cold_resistance];
   const double offset_m = (*known)[known_position_offset];
-  const double uncertainty_m = zero_uncertainty_m(whose.configured.muscle);
-  who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there, at most " +
-           in_digits(1e3 * uncertainty_m) + " mm from where the cold muscle rests");
-  who_.say("cold resistance: " +
-           beside(cold_Ohm, whose.configured.heater.cold_resistance_Ohm, "Ohm"));
+  const double uncertainty_m = zero_uncertainty_m(muscle.configured.muscle);
+  user_.show("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there, at most " +
+             in_digits(1e3 * uncertainty_m) + " mm from where the cold muscle rests");
+  user_.show("cold resistance: " +
+             beside(cold_Ohm, muscle.configured.heater.cold_resistance_Ohm, "Ohm"));
   return Json{{"position_offset_m", json_number(offset_m)},
               {"position_offset_uncertainty_m", json_number(uncertainty_m)},
               {"cold_resistance_Ohm", json_number(cold_Ohm)}};
@@ -253,16 +254,16 @@ StepResult Commission::tell_calibration(const Measured& whose) {
 StepResult Commission::compare_senses() {
   ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
   // A meter's amperes mean nothing without the power at which they were read.
-  const auto power_W = who_.scripted(
+  const auto power_W = user_.scripted(
       {"power_W", "the greater of the two powers, in W", {1e-3 * plan.power_W, plan.power_W}, NAN});
   if (power_W && !*power_W) return tl::unexpected(power_W->error());
   if (power_W) plan.power_W = **power_W;
-  who_.say(describe_plan(plan));
+  user_.show(describe_plan(plan));
   if (auto reset = reset_faults(); !reset) return tl::unexpected(reset.error());
-  const auto senses = operating::compare_senses(board_, plan, who_);
+  const auto senses = operating::compare_senses(board_, plan, user_);
   if (!senses) return tl::unexpected(senses.error());
-  who_.say(describe_comparison(*senses));
-  who_.say(power_bounds_text(configured_, settings_, *senses));
+  user_.show(describe_comparison(*senses));
+  user_.show(power_bounds_text(configured_, settings_, *senses));
   return Json{{"power_W", plan.power_W},
               {"supply_gain", senses->supply_gain},
               {"current_gain", senses->current_gain},
@@ -271,12 +272,13 @@ StepResult Commission::compare_senses() {
 
 StepResult Commission::scale() {
   const double max_mm = 1e3 * configured_.supervision.max_travel_m;
-  const auto place_mm = who_.ask({"place_mm",
-                                  "Hold the muscle's end at a place measured with a ruler. How far "
-                                  "is it from rest, in the direction of contraction, in mm",
-                                  {0.001 * max_mm, max_mm},
-                                  NAN},
-                                 [] { return Done(); });
+  const auto place_mm =
+      user_.ask({"place_mm",
+                 "Hold the muscle's end at a place measured with a ruler. How far "
+                 "is it from rest, in the direction of contraction, in mm",
+                 {0.001 * max_mm, max_mm},
+                 NAN},
+                [] { return Done(); });
   if (!place_mm) return tl::unexpected(place_mm.error());
   const std::string line = channel_ + " scale " + number_text(1e-3 * *place_mm, 9);
   const auto taken = board_.ask(line);
@@ -291,7 +293,7 @@ StepResult Commission::scale() {
   const auto known = board_.muscle(channel_);
   if (!known) return tl::unexpected(known.error());
   const double scale = (*known)[known_position_scale];
-  who_.say("scale of the position: " + beside(scale, configured_.calibration.position_scale, ""));
+  user_.show("scale of the position: " + beside(scale, configured_.calibration.position_scale, ""));
   return Json{{"position_scale", json_number(scale)}};
 }
 
@@ -299,37 +301,38 @@ StepResult Commission::limits() {
   const auto now = channel_now(board_, channel_, configured_);
   if (!now) return tl::unexpected(now.error());
   if (!is_calibrated(now->settings.calibration, configured_.calibration)) {
-    who_.say(
+    user_.show(
         "warning: this board was never calibrated: its zero is unknown, and so is a limit that is "
         "counted from it; the step calibrate takes the zero");
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
-  auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
+  auto found = find_travel_limit(board_, channel_, *now, settings_, user_);
   if (!found) return failure(with_present_fault(found.error().text(), board_, channel_));
   return found;
 }
 
 StepResult Commission::identify() {
-  const double takes_s = longest_s(usual_identify_s) * (antagonist() ? 2.0 : 1.0);
-  who_.say("takes about " + duration_text(takes_s) +
-           " if the file's time constant is right, and up to three times that if the muscle is far "
-           "from linear");
+  const double takes_s = max_time_s(usual_identify_s) * (antagonist() ? 2.0 : 1.0);
+  user_.show(
+      "takes about " + duration_text(takes_s) +
+      " if the file's time constant is right, and up to three times that if the muscle is far "
+      "from linear");
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   if (auto done = only_found("identify", run_mode("identify", max_identify_s)); !done)
     return tl::unexpected(done.error());
-  return tell(&Commission::tell_muscle);
+  return report_each(&Commission::report_muscle);
 }
 
-StepResult Commission::tell_muscle(const Measured& whose) {
-  const auto known = board_.muscle(whose.channel);
+StepResult Commission::report_muscle(const MeasuredMuscle& muscle) {
+  const auto known = board_.muscle(muscle.channel);
   if (!known) return tl::unexpected(known.error());
-  return tell_identified(*known, whose.configured, who_);
+  return report_identified(*known, muscle.configured, user_);
 }
 
 StepResult Commission::gains() {
   const auto now = channel_now(board_, channel_, configured_);
   if (!now) return tl::unexpected(now.error());
-  return choose_gains(board_, channel_, *now, settings_, who_);
+  return choose_gains(board_, channel_, *now, settings_, user_);
 }
 
 StepResult Commission::move() {
@@ -340,16 +343,17 @@ StepResult Commission::move() {
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
   const char* unpromised = now->in_joint() ? "no error is promised for a joint"
                                            : "no error is promised: controller 0 is not learned_ff";
-  who_.say("moves for " + duration_text(motion.end_s()) + ": three periods of " +
-           number_text(motion.period_s, 3) + " s, between " +
-           number_text(1e3 * (motion.middle_m - motion.amplitude_m), 3) + " and " +
-           number_text(1e3 * (motion.middle_m + motion.amplitude_m), 3) + " mm");
-  who_.say(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
+  user_.show("moves for " + duration_text(motion.end_s()) + ": three periods of " +
+             number_text(motion.period_s, 3) + " s, between " +
+             number_text(1e3 * (motion.middle_m - motion.amplitude_m), 3) + " and " +
+             number_text(1e3 * (motion.middle_m + motion.amplitude_m), 3) + " mm");
+  user_.show(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
   const double standing_still_m = motion.amplitude_m / std::numbers::sqrt2;
-  if (promise && standing_still_m < telling_ratio * promise->error_m()) {
-    who_.say("so small a motion shows little: a muscle that did not move at all would be off by " +
-             in_digits(1e6 * standing_still_m) +
-             " um rms; supercoild --check says what limits the travel that it can hold");
+  if (promise && standing_still_m < significant_ratio * promise->error_m()) {
+    user_.show(
+        "so small a motion shows little: a muscle that did not move at all would be off by " +
+        in_digits(1e6 * standing_still_m) +
+        " um rms; supercoild --check says what limits the travel that it can hold");
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
@@ -358,19 +362,19 @@ StepResult Commission::move() {
   for (;;) {
     const double time_s = board_.time_s() - begin_s;
     if (time_s >= motion.end_s()) break;
-    if (auto asked = ask("position " + number_text(motion.at(time_s), 9)); !asked)
-      return tl::unexpected(asked.error());
+    if (auto obeyed = ask("position " + number_text(motion.at(time_s), 9)); !obeyed)
+      return tl::unexpected(obeyed.error());
     board_.wait(reference_step);
     const auto error_m = board_.error_m(channel_);
     if (!error_m) return tl::unexpected(error_m.error());
-    who_.show_progress("moving", time_s / motion.end_s());
-    if (who_.interrupted()) break;
+    user_.show_progress("moving", time_s / motion.end_s());
+    if (user_.interrupted()) break;
     if (time_s < motion.settled_s() || std::isnan(*error_m)) continue;
     square_sum += *error_m * *error_m;
     ++samples;
   }
   if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
-  if (who_.interrupted()) return failure("interrupted");
+  if (user_.interrupted()) return failure("interrupted");
   if (samples == 0) return failure("the board reported no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
   Json found{{"error_m", error_m},
@@ -378,14 +382,14 @@ StepResult Commission::move() {
              {"amplitude_m", motion.amplitude_m},
              {"standing_still_m", standing_still_m},
              {"period_s", motion.period_s}};
-  std::string told = "followed within " + in_digits(1e6 * error_m) + " um rms";
+  std::string text = "followed within " + in_digits(1e6 * error_m) + " um rms";
   if (promise) {
     const bool kept = error_m <= promise->error_m();
-    told += kept ? ": the promise is kept" : ": the promise is not kept";
+    text += kept ? ": the promise is kept" : ": the promise is not kept";
     found.update(promise_json(*promise));
     found["kept"] = kept;
   }
-  who_.say(told);
+  user_.show(text);
   return found;
 }
 

@@ -26,7 +26,7 @@ class Commission {
   /// channel: as in a line of a command. settings: from the board's file; index: of this channel
   /// there. All outlive it.
   Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
-             std::size_t index, Operator& who);
+             std::size_t index, Operator& user);
 
   /// One of setup_steps that needs a running board, by its name.
   StepResult run(const std::string& step);
@@ -52,39 +52,39 @@ class Commission {
 
  private:
   using Done = Operator::Done;
-  using OrWhy = Result<std::string>;
+  using ResultText = Result<std::string>;
 
   Done ask(const std::string& command);
   /// Reports a fault from before this step, and resets it if wanted.
   Done reset_faults();
   /// Succeeds only if the mode ended with "found".
-  Done only_found(const std::string& mode, const OrWhy& result);
+  Done only_found(const std::string& mode, const ResultText& result);
   Done arm();
   /// Runs identify or calibrate until it ends; returns how it ended.
-  OrWhy run_mode(const std::string& mode, double max_s);
-  struct Measured {
+  ResultText run_mode(const std::string& mode, double max_s);
+  struct MeasuredMuscle {
     std::string channel;  ///< as in a line of a command
     const ChannelSettings& configured;
   };
-  using Tell = StepResult (Commission::*)(const Measured& whose);
+  using Report = StepResult (Commission::*)(const MeasuredMuscle& muscle);
 
   /// The muscle that identify and calibrate continue with; empty: this channel is not an agonist.
-  std::optional<Measured> antagonist() const;
+  std::optional<MeasuredMuscle> antagonist() const;
   /// The longest time of the muscles that are heated together: all have to be cold.
-  double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
+  double max_time_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
   /// Reports what was found; for an agonist also for the antagonist.
-  StepResult tell(Tell found);
-  StepResult tell_calibration(const Measured& whose);
-  StepResult tell_muscle(const Measured& whose);
+  StepResult report_each(Report found);
+  StepResult report_calibration(const MeasuredMuscle& muscle);
+  StepResult report_muscle(const MeasuredMuscle& muscle);
   /// Repeats calibrate until the muscle must be cold.
-  OrWhy calibrate_when_cold();
+  ResultText calibrate_when_cold();
 
   BoardLink& board_;
   std::string channel_;
   const BoardSettings& settings_;
   std::size_t index_;
   const ChannelSettings& configured_;
-  Operator& who_;
+  Operator& user_;
 };
 
 }  // namespace supercoil::operating

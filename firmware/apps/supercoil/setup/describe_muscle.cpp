@@ -53,17 +53,17 @@ struct Heat {
 };
 
 Heat heat_of(const MuscleAnswers& a, double error) {
-  const double tau_s = a.of(Asked::half_cooling_s) / std::numbers::ln2;
+  const double tau_s = a.of(QuestionId::half_cooling_s) / std::numbers::ln2;
   Heat heat;
   heat.max_time_constant_s = nearly_cold_ratio * tau_s / (1.0 - error);
-  if (a.of(Asked::thread_g) > 0.0) {
-    heat.mass_J_per_K = a.of(Asked::thread_g) * specific_heat_J_per_gK;
+  if (a.of(QuestionId::thread_g) > 0.0) {
+    heat.mass_J_per_K = a.of(QuestionId::thread_g) * specific_heat_J_per_gK;
     heat.transfer_W_per_K = heat.mass_J_per_K / tau_s;
     heat.mass.times(error);
     heat.transfer = heat.mass;
     heat.transfer.over(error);
   } else {
-    heat.transfer_W_per_K = a.of(Asked::heated_W) / a.of(Asked::heated_K);
+    heat.transfer_W_per_K = a.of(QuestionId::heated_W) / a.of(QuestionId::heated_K);
     heat.mass_J_per_K = heat.transfer_W_per_K * tau_s;
     heat.transfer.times(error);
     heat.transfer.over(error);
@@ -77,12 +77,13 @@ PhysicalParameters muscle_of(const MuscleAnswers& a, const Heat& heat) {
   PhysicalParameters m;
   m.thermal_mass_J_per_K = heat.mass_J_per_K;
   m.heat_transfer_W_per_K = heat.transfer_W_per_K;
-  m.stiffness_N_per_m = a.of(Asked::stretch_weight_g) * gravity_m_per_s2 / a.of(Asked::stretch_mm);
-  m.moving_mass_kg = 1e-3 * a.of(Asked::load_g);
+  m.stiffness_N_per_m =
+      a.of(QuestionId::stretch_weight_g) * gravity_m_per_s2 / a.of(QuestionId::stretch_mm);
+  m.moving_mass_kg = 1e-3 * a.of(QuestionId::load_g);
   m.damping_Ns_per_m =
       2.0 * usual_damping_ratio * std::sqrt(m.stiffness_N_per_m * m.moving_mass_kg);
-  const double rise_K = a.of(Asked::heated_W) / m.heat_transfer_W_per_K;
-  m.force_per_kelvin_N_per_K = m.stiffness_N_per_m * 1e-3 * a.of(Asked::heated_mm) / rise_K;
+  const double rise_K = a.of(QuestionId::heated_W) / m.heat_transfer_W_per_K;
+  m.force_per_kelvin_N_per_K = m.stiffness_N_per_m * 1e-3 * a.of(QuestionId::heated_mm) / rise_K;
   return m;
 }
 
@@ -98,7 +99,7 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
   add("max_transfer_W_per_K", h.transfer_W_per_K * h.transfer.high, all);
   add("max_time_constant_s", h.max_time_constant_s,
       "half_cooling_s, and a quarter more for a muscle that is nearly cold");
-  if (!(a.of(Asked::thread_g) > 0.0)) return;
+  if (!(a.of(QuestionId::thread_g) > 0.0)) return;
   add("weighed_mass_J_per_K", h.mass_J_per_K, "the thread's weight");
   add("weighed_mass_error_ratio", std::min(0.5, std::max(0.2, error)),
       "of the weight and of nylon's specific heat");
@@ -107,11 +108,11 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
 }  // namespace
 
 Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::LoopTime& time) {
-  if (!(a.of(Asked::thread_g) > 0.0) && !(a.of(Asked::heated_K) > 0.0)) {
+  if (!(a.of(QuestionId::thread_g) > 0.0) && !(a.of(QuestionId::heated_K) > 0.0)) {
     return failure(
         "thread_g or heated_K must be known: without either, nothing says how hot the muscle gets");
   }
-  const double error = 1e-2 * a.of(Asked::uncertainty_percent);
+  const double error = 1e-2 * a.of(QuestionId::uncertainty_percent);
   const Heat heat = heat_of(a, error);
   MuscleDescription d{muscle_of(a, heat), {}};
   if (const auto wrong = control::check(d.muscle)) {
@@ -123,8 +124,8 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
   const auto add = [&](const char* path, double value, const char* reason) {
     d.entries.push_back({path, number_text(value, digits_that_follow), reason});
   };
-  const char* by_heat = a.of(Asked::thread_g) > 0.0 ? "thread_g and half_cooling_s"
-                                                    : "heated_W, heated_K, half_cooling_s";
+  const char* by_heat = a.of(QuestionId::thread_g) > 0.0 ? "thread_g and half_cooling_s"
+                                                         : "heated_W, heated_K, half_cooling_s";
   add("muscle.thermal_mass_J_per_K", d.muscle.thermal_mass_J_per_K, by_heat);
   add("muscle.heat_transfer_W_per_K", d.muscle.heat_transfer_W_per_K, by_heat);
   add("muscle.stiffness_N_per_m", d.muscle.stiffness_N_per_m, "stretch_weight_g and stretch_mm");
@@ -136,9 +137,9 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
   const auto keep = [&](const char* path, double value) {
     d.entries.push_back({path, number_text(value, digits_of_answers), "as answered"});
   };
-  keep("heater.cold_resistance_Ohm", a.of(Asked::cold_resistance_Ohm));
-  keep("limits.max_W", a.of(Asked::max_W));
-  keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
+  keep("heater.cold_resistance_Ohm", a.of(QuestionId::cold_resistance_Ohm));
+  keep("limits.max_W", a.of(QuestionId::max_W));
+  keep("limits.max_travel_m", 1e-3 * a.of(QuestionId::max_travel_mm));
   const config::RecommendedController controller = config::recommended_controller(d.muscle, time);
   d.entries.push_back({"controller", controller.literal(), controller.reason});
   d.entries.push_back({"reference_model", controller.model_literal(), controller.model_reason});

@@ -21,41 +21,41 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The answers to describe: of the nameplate, if there is one, and of the muscle.
-struct Said {
+struct DescribeAnswers {
   Nameplate nameplate;
   MuscleAnswers muscle;
 };
 
 /// Stores the answer at once, and offers it when the question is asked again.
-Result<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
+Result<double> ask_and_store(Question q, SetupRecord& record, Operator& user) {
   const std::string key(q.key);
   const auto before = record.answer(key);
   if (before && q.allows(*before)) q.fallback = *before;
-  const auto value = who.ask(q, [] { return Operator::Done(); });
+  const auto value = user.ask(q, [] { return Operator::Done(); });
   if (!value) return failure(value.error().text() + "\n");
   if (auto kept = record.add_answer(key, *value); !kept) return failure(kept.error().text() + "\n");
   return *value;
 }
 
 /// Asks the questions one after the other.
-Result<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
-  Said said;
-  const auto has = ask_and_keep(has_nameplate, record, who);
+Result<DescribeAnswers> answered(const BoardRanges& board, SetupRecord& record, Operator& user) {
+  DescribeAnswers answers;
+  const auto has = ask_and_store(has_nameplate, record, user);
   if (!has) return tl::unexpected(has.error());
   for (std::size_t i = 0; *has > 0.0 && i < nameplate_questions.size(); ++i) {
-    const auto value = ask_and_keep(nameplate_questions[i], record, who);
+    const auto value = ask_and_store(nameplate_questions[i], record, user);
     if (!value) return tl::unexpected(value.error());
-    said.nameplate.set(i, *value);
+    answers.nameplate.set(i, *value);
   }
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    Question q = next_question(i, said.muscle, board);
-    const double rated = said.nameplate.suggested(static_cast<Asked>(i));
+    Question q = next_question(i, answers.muscle, board);
+    const double rated = answers.nameplate.suggested(static_cast<QuestionId>(i));
     if (!std::isnan(rated)) q.fallback = std::fmin(rated, q.allowed.highest);
-    const auto value = ask_and_keep(q, record, who);
+    const auto value = ask_and_store(q, record, user);
     if (!value) return tl::unexpected(value.error());
-    said.muscle.set(i, *value);
+    answers.muscle.set(i, *value);
   }
-  return said;
+  return answers;
 }
 
 /// The error for a value that the board does not allow, worded like the question to a person.
@@ -66,20 +66,20 @@ Error beyond(const Question& q, double value, const std::string& script, int lin
 }
 
 /// Fills in what a script leaves open, or returns an error for each gap.
-Result<Said> completed(const Script& script, const SetupOptions& options,
-                       const BoardRanges& board) {
+Result<DescribeAnswers> completed(const Script& script, const SetupOptions& options,
+                                  const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
   std::string wrong;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     if (answers.has(i)) {
       const Question q = next_question(i, answers, board);
-      const double value = answers.of(static_cast<Asked>(i));
+      const double value = answers.of(static_cast<QuestionId>(i));
       if (value > q.allowed.highest)
         wrong += beyond(q, value, options.script, script.lines[i]).text() + "\n";
       continue;
     }
     const Question& q = questions[i];
-    const double rated = script.nameplate.suggested(static_cast<Asked>(i));
+    const double rated = script.nameplate.suggested(static_cast<QuestionId>(i));
     const double offered = std::isnan(rated) ? q.fallback : rated;
     if (!std::isnan(offered)) {
       answers.set(i, offered);
@@ -89,12 +89,12 @@ Result<Said> completed(const Script& script, const SetupOptions& options,
     }
   }
   if (!wrong.empty()) return failure(wrong);
-  return Said{script.nameplate, answers};
+  return DescribeAnswers{script.nameplate, answers};
 }
 
 /// Sets the joint's range_deg instead of the travel if range_deg is the bound; writes nothing if
 /// range_deg is at least as tight as the answer.
-void fit_travel(const std::string& text, int channel, std::vector<Entry>& entries, Operator& who) {
+void fit_travel(const std::string& text, int channel, std::vector<Entry>& entries, Operator& user) {
   const auto travel = std::ranges::find(entries, travel_key, &Entry::path);
   auto fitting =
       travel_entry(text, channel, std::stod(travel->literal), travel->literal, travel->reason);
@@ -102,8 +102,8 @@ void fit_travel(const std::string& text, int channel, std::vector<Entry>& entrie
     *travel = std::move(*fitting);
     return;
   }
-  who.say("its travel stays as set by its joint's range_deg: " +
-          number_text(1e3 * joint_in_file(text, channel)->max_travel_m(), 4) + " mm");
+  user.show("its travel stays as set by its joint's range_deg: " +
+            number_text(1e3 * joint_in_file(text, channel)->max_travel_m(), 4) + " mm");
   entries.erase(travel);
 }
 
@@ -114,13 +114,13 @@ bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   return document.at_path("channel[" + std::to_string(channel) + "].controller").is_array();
 }
 
-void say_how_a_joint_is_measured(const FileJoint& joint, Operator& who) {
-  who.say("it turns a joint: answer for this muscle moving " +
-          std::string(joint.has_other ? "the joint alone, with the other muscle cold"
-                                      : "the joint against what draws it back") +
-          ". Hang weights at the lever, " + number_text(1e3 * joint.lever.zero_radius_m(), 4) +
-          " mm from the axis; answers in mm are its contraction; the weight that it lifts is the "
-          "joint's inertia over the lever's square");
+void show_joint_measurement(const FileJoint& joint, Operator& user) {
+  user.show("it turns a joint: answer for this muscle moving " +
+            std::string(joint.has_other ? "the joint alone, with the other muscle cold"
+                                        : "the joint against what draws it back") +
+            ". Hang weights at the lever, " + number_text(1e3 * joint.lever.zero_radius_m(), 4) +
+            " mm from the axis; answers in mm are its contraction; the weight that it lifts is the "
+            "joint's inertia over the lever's square");
 }
 
 /// From a file that need not be complete yet.
@@ -136,55 +136,55 @@ config::LoopTime loop_time_in_file(const std::string& text, int channel) {
   return {1.0 / rate_Hz, 1.0 / rate_Hz + 1e-3 * delay_ms};
 }
 
-Result<Json> write_description(const Said& said, const SetupOptions& options,
-                               const std::string& text, Operator& who) {
-  auto described = describe_muscle(said.muscle, loop_time_in_file(text, options.channel));
+Result<Json> write_description(const DescribeAnswers& answers, const SetupOptions& options,
+                               const std::string& text, Operator& user) {
+  auto described = describe_muscle(answers.muscle, loop_time_in_file(text, options.channel));
   if (!described) return failure(described.error().text() + "\n");
-  for (Entry& limit : said.nameplate.limits(trip_in_file_C(text, options.channel)))
+  for (Entry& limit : answers.nameplate.limits(trip_in_file_C(text, options.channel)))
     described->entries.push_back(std::move(limit));
   const auto index = static_cast<std::size_t>(options.channel) - 1;
   std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, text, index); });
-  fit_travel(text, options.channel, described->entries, who);
+  fit_travel(text, options.channel, described->entries, user);
   const auto config = write_entries(options, "describe", text, described->entries);
   if (!config) return tl::unexpected(config.error());
   Json found;
   for (const Entry& entry : described->entries) {
-    who.say(entry.key() + " = " + entry.literal + "  (" + entry.reason + ")");
+    user.show(entry.key() + " = " + entry.literal + "  (" + entry.reason + ")");
     found[entry.key()] = entry.literal;
   }
   found["feasibility"] = feasibility_json(config->settings, index);
   for (const std::string& line : config::describe_feasibility(config->settings, index))
-    who.say(line);
+    user.show(line);
   for (const std::string& line : config::advice(*config))
-    who.say("advice: " + line);
+    user.show("advice: " + line);
   return found;
 }
 
 }  // namespace
 
-Result<Json> describe_step(const SetupOptions& options, Operator& who) {
+Result<Json> describe_step(const SetupOptions& options, Operator& user) {
   const auto text = read_board_text(options.config);
   if (!text) return tl::unexpected(text.error());
   const auto joint = joint_in_file(*text, options.channel);
   BoardRanges ranges = board_ranges(*text, options.channel);
   if (joint) ranges.max_position_m = NAN;
-  Result<Said> said;
+  Result<DescribeAnswers> answers;
   const bool asks = options.script.empty();
   if (!asks) {
     const auto script = read_script(options.script);
     if (!script) return tl::unexpected(script.error());
-    said = completed(*script, options, ranges);
+    answers = completed(*script, options, ranges);
   }
-  if (joint) say_how_a_joint_is_measured(*joint, who);
+  if (joint) show_joint_measurement(*joint, user);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
     if (!record) return failure(record.error().text() + "\n");
-    said = answered(ranges, *record, who);
+    answers = answered(ranges, *record, user);
   }
-  if (!said) return tl::unexpected(said.error());
-  auto written = write_description(*said, options, *text, who);
+  if (!answers) return tl::unexpected(answers.error());
+  auto written = write_description(*answers, options, *text, user);
   if (!written && asks)
-    who.say("the answers are kept: " + options.command("describe") + " offers them again");
+    user.show("the answers are kept: " + options.command("describe") + " offers them again");
   return written;
 }
 

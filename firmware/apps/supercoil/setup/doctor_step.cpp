@@ -15,13 +15,13 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& config,
-                       Operator& who) {
+                       Operator& user) {
   if (!options.can.empty()) {
     const bool simulated = options.can.starts_with("socketcand:");
-    who.say("the board is reached over " + options.can + ", and is " +
-            (simulated ? "simulated, or another machine" : "possibly another machine") +
-            ": doctor checks the machine on which it runs, so run supercoil doctor on the board "
-            "itself; nothing was checked here");
+    user.show("the board is reached over " + options.can + ", and is " +
+              (simulated ? "simulated, or another machine" : "possibly another machine") +
+              ": doctor checks the machine on which it runs, so run supercoil doctor on the board "
+              "itself; nothing was checked here");
     return Json{{"looked_at", nullptr}};
   }
   doctor::CheckOptions check;
@@ -30,12 +30,13 @@ StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& c
   doctor::check_board(config, check, [&](const hal::Finding& finding) {
     report.findings.push_back(finding);
     if (finding.severity == hal::Severity::ok) return;
-    who.say(std::string(hal::text(finding.severity)) + ": " + finding.what + ": " + finding.found);
-    if (!finding.remedy.empty()) who.say("what to do: " + finding.remedy);
+    user.show(std::string(hal::text(finding.severity)) + ": " + finding.what + ": " +
+              finding.found);
+    if (!finding.remedy.empty()) user.show("what to do: " + finding.remedy);
   });
   const auto problems = report.count(hal::Severity::problem);
-  who.say(doctor::summary(report) +
-          (problems > 0 ? "; fix all problems before anything is heated (docs/doctor.md)" : ""));
+  user.show(doctor::summary(report) +
+            (problems > 0 ? "; fix all problems before anything is heated (docs/doctor.md)" : ""));
   return Json{{"looked_at", config.name},
               {"problems", problems},
               {"warnings", report.count(hal::Severity::warning)},

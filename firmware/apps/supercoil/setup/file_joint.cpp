@@ -19,8 +19,8 @@ constexpr int angle_digits = 6;
 constexpr const char* range_key = "range_deg";
 
 FileJoint read_joint(const toml::table& table, std::size_t place, bool agonist) {
-  config::Diagnostics told_elsewhere("");
-  config::Section section(&table, "joint", told_elsewhere);
+  config::Diagnostics ignored("");
+  config::Section section(&table, "joint", ignored);
   const control::Lever lever = config::read_lever(section, config::lever_range_m, std::nullopt);
   std::optional<control::Lever> antagonist;
   if (table.contains("antagonist"))

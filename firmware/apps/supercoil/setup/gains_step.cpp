@@ -26,9 +26,9 @@ std::string values_text(const ControllerSettings& controller) {
   for (const Tunable& tunable : control::tunables()) {
     const double value = tunable.get(controller);
     if (tunable.type == TunableType::model) named = value > 0.0;
-    const bool told =
+    const bool shown =
         tunable.type != TunableType::kind && !(named && tunable.type == TunableType::pole);
-    if (!told || std::isnan(value)) continue;
+    if (!shown || std::isnan(value)) continue;
     text +=
         before + std::string(tunable.name) + " = " + tuning_text(Tuned::controller, tunable, value);
     before = ", ";
@@ -66,7 +66,7 @@ TuningDone take_over(BoardLink& board, const std::string& channel, const Control
 }  // namespace
 
 StepResult choose_gains(BoardLink& board, const std::string& channel, const ChannelNow& now,
-                        const BoardSettings& settings, Operator& who) {
+                        const BoardSettings& settings, Operator& user) {
   const ControllerSettings& in_use = now.settings.controllers.front();
   const config::RecommendedController suits =
       config::recommended_controller(now.settings, settings);
@@ -83,30 +83,30 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
              {"recommended_promised_m", promised(better)},
              {"taken", false}};
 
-  who.say("in use: controller 0, " + values_text(in_use));
-  who.say("with it: " + expected_text(in_use, now, settings, motion, promise));
-  who.say("recommended for this muscle: " + suits.literal() + ": " + suits.reason);
-  who.say("with reference_model = " + suits.model_literal() + ": " + suits.model_reason);
+  user.show("in use: controller 0, " + values_text(in_use));
+  user.show("with it: " + expected_text(in_use, now, settings, motion, promise));
+  user.show("recommended for this muscle: " + suits.literal() + ": " + suits.reason);
+  user.show("with reference_model = " + suits.model_literal() + ": " + suits.model_reason);
   if (!suits.differs_from(in_use)) {
-    who.say("it is in use already: nothing changes");
+    user.show("it is in use already: nothing changes");
     return found;
   }
   if (const std::string problem = problem_of(suits, now.settings, settings.step_s());
       !problem.empty()) {
-    who.say("it cannot run here: " + problem);
+    user.show("it cannot run here: " + problem);
     return found;
   }
-  who.say("with it: " + expected_text(recommended, now, settings, motion, better));
-  const auto take = who.ask(take_gains, [] { return Operator::Done(); });
-  if (!take && who.interrupted()) return tl::unexpected(take.error());
+  user.show("with it: " + expected_text(recommended, now, settings, motion, better));
+  const auto take = user.ask(take_gains, [] { return Operator::Done(); });
+  if (!take && user.interrupted()) return tl::unexpected(take.error());
   if (!take || *take == 0.0) {
-    who.say("kept as it is; the step gains asks again");
+    user.show("kept as it is; the step gains asks again");
     return found;
   }
   if (auto taken = take_over(board, channel, in_use, recommended); !taken)
     return tl::unexpected(taken.error());
-  who.say("taken over, and stored for the next start; supercoil tune " + channel +
-          " --from configured --store" + board.words() + " goes back to the file's");
+  user.show("taken over, and stored for the next start; supercoil tune " + channel +
+            " --from configured --store" + board.words() + " goes back to the file's");
   found["taken"] = true;
   return found;
 }

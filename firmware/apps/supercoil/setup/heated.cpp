@@ -13,8 +13,8 @@ constexpr int power_digits = 3;
 
 }  // namespace
 
-Heated::Heated(BoardLink& board, const std::string& channel, Operator& who)
-    : board_(board), channel_(channel), heated_by_(channel), who_(who) {
+Heated::Heated(BoardLink& board, const std::string& channel, Operator& user)
+    : board_(board), channel_(channel), heated_by_(channel), user_(user) {
   const auto known = board.muscle(channel);
   const double offset = known ? (*known)[known_bundle_leader_node_offset] : NAN;
   if (std::isfinite(offset)) heated_by_ = std::to_string(std::stol(channel) + std::lround(offset));
@@ -23,14 +23,14 @@ Heated::Heated(BoardLink& board, const std::string& channel, Operator& who)
 Heated::~Heated() {
   static_cast<void>(ask("rest"));
   if (const auto off = ask("disarm"); !off)
-    who_.say("the muscle may be hot: " + off.error().text());
+    user_.show("the muscle may be hot: " + off.error().text());
 }
 
 Heated::Done Heated::ask(const std::string& what) {
-  return ask_of(channel_, what);
+  return ask_channel(channel_, what);
 }
 
-Heated::Done Heated::ask_of(const std::string& channel, const std::string& what) {
+Heated::Done Heated::ask_channel(const std::string& channel, const std::string& what) {
   const auto answer = board_.ask(channel + " " + what);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer != "ok") return failure(what + ": " + *answer);
@@ -38,8 +38,8 @@ Heated::Done Heated::ask_of(const std::string& channel, const std::string& what)
 }
 
 Heated::Done Heated::heat(double power_W) {
-  if (who_.interrupted()) return failure("interrupted");
-  return ask_of(heated_by_, "power " + number_text(power_W, power_digits));
+  if (user_.interrupted()) return failure("interrupted");
+  return ask_channel(heated_by_, "power " + number_text(power_W, power_digits));
 }
 
 Heated::Done Heated::hold(double power_W, std::chrono::milliseconds time) {

@@ -16,7 +16,7 @@ class Heated {
   using Done = Operator::Done;
 
   /// All outlive it.
-  Heated(BoardLink& board, const std::string& channel, Operator& who);
+  Heated(BoardLink& board, const std::string& channel, Operator& user);
   Heated(const Heated&) = delete;
   Heated& operator=(const Heated&) = delete;
   ~Heated();
@@ -28,12 +28,12 @@ class Heated {
   double time_s() const { return board_.time_s(); }
 
  private:
-  Done ask_of(const std::string& channel, const std::string& what);
+  Done ask_channel(const std::string& channel, const std::string& what);
 
   BoardLink& board_;
   const std::string& channel_;
   std::string heated_by_;  ///< the channel that leads its bundle; else itself
-  Operator& who_;
+  Operator& user_;
 };
 
 }  // namespace supercoil::operating

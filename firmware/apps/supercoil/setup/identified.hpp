@@ -10,7 +10,7 @@
 namespace supercoil::operating {
 
 /// Prints lines for people; the return value is for programs.
-nlohmann::ordered_json tell_identified(const KnownMuscle& known, const ChannelSettings& configured,
-                                       Operator& who);
+nlohmann::ordered_json report_identified(const KnownMuscle& known,
+                                         const ChannelSettings& configured, Operator& user);
 
 }  // namespace supercoil::operating

@@ -26,7 +26,7 @@ constexpr double min_rise_s = 30.0;
 constexpr double stall_step_ratio = 0.04;
 /// Beyond the configured travel the board faults.
 constexpr double stop_ratio = 0.97;
-constexpr double told_every_ratio = 0.05;
+constexpr double report_step_ratio = 0.05;
 
 /// Distance of the limit from where the end was.
 constexpr double min_distance_m = 0.5e-3;
@@ -82,9 +82,9 @@ double min_limit(const ChannelSettings& channel) {
 }
 
 /// Waits for a person's answer; a script has answered already, and look() compares with it.
-Operator::OrWhy wait_for_answer(BoardLink& board, const SlowPull& plan, Operator& who,
-                                const std::function<Operator::Done()>& look) {
-  if (std::isinf(plan.scripted_m)) return who.ask(at_limit, look);
+Operator::Answer wait_for_answer(BoardLink& board, const SlowPull& plan, Operator& user,
+                                 const std::function<Operator::Done()>& look) {
+  if (std::isinf(plan.scripted_m)) return user.ask(at_limit, look);
   for (;;) {
     if (auto goes_on = look(); !goes_on) return tl::unexpected(goes_on.error());
     board.wait(Operator::look_every);
@@ -92,12 +92,12 @@ Operator::OrWhy wait_for_answer(BoardLink& board, const SlowPull& plan, Operator
 }
 
 Result<Pulled> pull_slowly(BoardLink& board, const std::string& channel, const SlowPull& plan,
-                           double noise_m, Operator& who) {
-  Heated heated(board, channel, who);
+                           double noise_m, Operator& user) {
+  Heated heated(board, channel, user);
   StallWatch stall(stall_step_ratio * plan.top_W, noise_m);
   double position_m = NAN;
   std::optional<Ending> ending;
-  double told_m = 0.0;
+  double reported_m = 0.0;
   const double begin_s = heated.time_s();
   const auto end = [&](Ending why) -> Operator::Done {
     ending = why;
@@ -107,29 +107,29 @@ Result<Pulled> pull_slowly(BoardLink& board, const std::string& channel, const S
     const double time_s = heated.time_s() - begin_s;
     const double power_W = plan.power_W(time_s);
     if (auto heats = heated.heat(power_W); !heats) return heats;
-    const auto told = board.position_m(channel);
-    if (!told) return tl::unexpected(told.error());
-    position_m = *told;
+    const auto newest_m = board.position_m(channel);
+    if (!newest_m) return tl::unexpected(newest_m.error());
+    position_m = *newest_m;
     if (std::isnan(position_m)) {
       if (time_s < first_position_s) return {};
       return failure("the board reports no position");
     }
-    if (position_m >= told_m + told_every_ratio * plan.stop_m) {
-      told_m = position_m;
-      who.say(in_mm(told_m) + " at " + number_text(power_W, 3) + " W");
+    if (position_m >= reported_m + report_step_ratio * plan.stop_m) {
+      reported_m = position_m;
+      user.show(in_mm(reported_m) + " at " + number_text(power_W, 3) + " W");
     }
     if (position_m >= plan.scripted_m) return end(Ending::answered);
     if (position_m >= plan.stop_m) return end(Ending::at_travel);
     if (stall.step(power_W, position_m)) return end(Ending::touched);
     return time_s < plan.rise_s + plan.settle_s ? Operator::Done() : end(Ending::at_power);
   };
-  const auto answer = wait_for_answer(board, plan, who, look);
+  const auto answer = wait_for_answer(board, plan, user, look);
   if (answer) ending = *answer == 0.0 ? Ending::left : Ending::answered;
   if (!ending) return tl::unexpected(answer.error());
   return Pulled{position_m, *ending};
 }
 
-StepResult limit_at(double position_m, const ChannelSettings& channel, Operator& who) {
+StepResult limit_at(double position_m, const ChannelSettings& channel, Operator& user) {
   const double kept_m = position_m - distance_m(position_m);
   const double limit_m = limit_step_m * std::floor(kept_m / limit_step_m);
   const double least_m = min_limit(channel);
@@ -138,59 +138,59 @@ StepResult limit_at(double position_m, const ChannelSettings& channel, Operator&
                    in_mm(least_m) + "; nothing changed");
   }
   // It pulled less far than the configured limit, so this limit is smaller.
-  who.say("limit: " + in_mm(limit_m) + " (configured: " + in_mm(channel.supervision.max_travel_m) +
-          ")");
+  user.show("limit: " + in_mm(limit_m) +
+            " (configured: " + in_mm(channel.supervision.max_travel_m) + ")");
   return Json{{"position_m", position_m}, {travel_key, number_text(limit_m, digits)}};
 }
 
 }  // namespace
 
 StepResult find_travel_limit(BoardLink& board, const std::string& channel, const ChannelNow& now,
-                             const BoardSettings& settings, Operator& who) {
+                             const BoardSettings& settings, Operator& user) {
   const ChannelSettings& configured = now.settings;
   SlowPull plan = plan_slow_pull(configured, settings);
   const double least_m = min_limit(configured);
   const auto scripted_mm =
-      who.scripted({"stop_mm",
-                    "position at which its end has come as far as it may, in mm",
-                    {1e3 * (least_m + distance_m(least_m) + limit_step_m), 1e3 * plan.stop_m},
-                    NAN});
+      user.scripted({"stop_mm",
+                     "position at which its end has come as far as it may, in mm",
+                     {1e3 * (least_m + distance_m(least_m) + limit_step_m), 1e3 * plan.stop_m},
+                     NAN});
   if (scripted_mm && !*scripted_mm) return tl::unexpected(scripted_mm->error());
   if (scripted_mm) plan.scripted_m = 1e-3 * **scripted_mm;
-  who.say("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
-          number_text(plan.rise_s, 3) + " s, and lets go " +
-          (scripted_mm ? "where the script says" : "when you answer") +
-          ", when its end stops rising, at " + in_mm(plan.stop_m) + ", or after " +
-          duration_text(plan.rise_s + plan.settle_s));
+  user.show("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
+            number_text(plan.rise_s, 3) + " s, and lets go " +
+            (scripted_mm ? "where the script says" : "when you answer") +
+            ", when its end stops rising, at " + in_mm(plan.stop_m) + ", or after " +
+            duration_text(plan.rise_s + plan.settle_s));
   const auto pulled =
-      pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);
+      pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, user);
   if (!pulled) return tl::unexpected(pulled.error());
   if (std::isnan(pulled->position_m)) {
     if (pulled->ending == Ending::answered) {
       return failure("answered before the board reported a position; nothing changed");
     }
-    who.say("let go before the board reported a position; the limit stays");
+    user.show("let go before the board reported a position; the limit stays");
     return Json{{"position_m", nullptr}};
   }
   const std::string where = in_mm(pulled->position_m);
   switch (pulled->ending) {
     case Ending::left:
-      who.say("let go at " + where + "; the limit stays");
+      user.show("let go at " + where + "; the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::at_travel:
-      who.say("reached " + where + " and touched nothing: the limit stays");
+      user.show("reached " + where + " and touched nothing: the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::at_power:
-      who.say("reaches " + where +
-              " at its maximum continuous power, and touched nothing: the limit stays");
+      user.show("reaches " + where +
+                " at its maximum continuous power, and touched nothing: the limit stays");
       return Json{{"position_m", pulled->position_m}};
     case Ending::touched:
-      who.say("it seems to touch something at " + where);
+      user.show("it seems to touch something at " + where);
       break;
     case Ending::answered:
-      who.say("let go at " + where);
+      user.show("let go at " + where);
   }
-  return limit_at(pulled->position_m, configured, who);
+  return limit_at(pulled->position_m, configured, user);
 }
 
 }  // namespace supercoil::operating

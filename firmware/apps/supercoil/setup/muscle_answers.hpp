@@ -9,7 +9,7 @@
 
 namespace supercoil::operating {
 
-enum class Asked : std::size_t {
+enum class QuestionId : std::size_t {
   cold_resistance_Ohm,
   load_g,
   stretch_weight_g,
@@ -62,7 +62,7 @@ class MuscleAnswers {
  public:
   MuscleAnswers() { values_.fill(NAN); }
 
-  double of(Asked what) const { return values_[static_cast<std::size_t>(what)]; }
+  double of(QuestionId question) const { return values_[static_cast<std::size_t>(question)]; }
   void set(std::size_t question, double value) { values_.at(question) = value; }
   bool has(std::size_t question) const { return !std::isnan(values_.at(question)); }
 

@@ -18,24 +18,24 @@ constexpr int temperature_digits = 4;
 
 }  // namespace
 
-double Nameplate::suggested(Asked what) const {
+double Nameplate::suggested(QuestionId question) const {
   if (!present()) return NAN;
   const double stroke_mm = 1e-2 * of(Rated::stroke_percent) * of(Rated::length_mm);
   const bool rated_hot = of(Rated::max_C) >= min_rated_C;
-  switch (what) {
-    case Asked::cold_resistance_Ohm:
+  switch (question) {
+    case QuestionId::cold_resistance_Ohm:
       return of(Rated::Ohm);
-    case Asked::load_g:
+    case QuestionId::load_g:
       return of(Rated::stroke_load_g);
-    case Asked::heated_W:
-    case Asked::max_W:
+    case QuestionId::heated_W:
+    case QuestionId::max_W:
       return of(Rated::power_W);
-    case Asked::heated_mm:
-    case Asked::max_travel_mm:
+    case QuestionId::heated_mm:
+    case QuestionId::max_travel_mm:
       return stroke_mm;
-    case Asked::heated_K:
+    case QuestionId::heated_K:
       return rated_hot ? of(Rated::max_C) - rated_air_C : NAN;
-    case Asked::uncertainty_percent:
+    case QuestionId::uncertainty_percent:
       return uncertainty_percent;
     default:
       return NAN;

@@ -36,7 +36,7 @@ class Nameplate {
 
   /// Its answer to a question of describe; NaN: none. The rated power is assumed to heat the muscle
   /// to its max temperature: a muscle that is believed hotter than it is gets less heat.
-  double suggested(Asked what) const;
+  double suggested(QuestionId question) const;
   /// Limits of the muscle's temperature, if they are below trip_C, the present limit.
   std::vector<Entry> limits(double trip_C) const;
 

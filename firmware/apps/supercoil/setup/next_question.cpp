@@ -36,14 +36,14 @@ BoardRanges board_ranges(const std::string& text, int channel) {
 
 Question next_question(std::size_t place, const MuscleAnswers& answers, const BoardRanges& board) {
   Question q = questions.at(place);
-  switch (static_cast<Asked>(place)) {
-    case Asked::heated_K:
-      return answers.of(Asked::thread_g) > 0.0 ? q : needed_heated_K;
-    case Asked::max_W:
+  switch (static_cast<QuestionId>(place)) {
+    case QuestionId::heated_K:
+      return answers.of(QuestionId::thread_g) > 0.0 ? q : needed_heated_K;
+    case QuestionId::max_W:
       allow_at_most(
-          board.min_supply_V * board.min_supply_V / answers.of(Asked::cold_resistance_Ohm), q);
+          board.min_supply_V * board.min_supply_V / answers.of(QuestionId::cold_resistance_Ohm), q);
       return q;
-    case Asked::max_travel_mm:
+    case QuestionId::max_travel_mm:
       allow_at_most(1e3 * board.max_position_m, q);
       return q;
     default:

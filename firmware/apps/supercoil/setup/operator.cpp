@@ -18,7 +18,7 @@ double rounded_down(double value, int significant_digits) {
   return step * std::floor(value / step + 1e-6);
 }
 
-Operator::OrWhy read_answer(const Question& question, const std::string& text) {
+Operator::Answer read_answer(const Question& question, const std::string& text) {
   double value = question.fallback;
   if (!text.empty()) {
     const char* end = text.data() + text.size();

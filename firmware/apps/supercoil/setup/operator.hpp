@@ -26,7 +26,7 @@ struct Question {
 class Operator {
  public:
   using Done = Result<void>;
-  using OrWhy = Result<double>;
+  using Answer = Result<double>;
 
   /// How often a waiting question calls `meanwhile`, which renews a command to heat.
   static constexpr std::chrono::milliseconds look_every{50};
@@ -37,7 +37,7 @@ class Operator {
   virtual ~Operator() = default;
 
   /// Shows what was done or found, as a line.
-  virtual void say(const std::string& line) = 0;
+  virtual void show(const std::string& line) = 0;
   /// Shows progress, 0 to 1; NaN: not known. Cheap.
   virtual void show_progress(const std::string& what, double done) = 0;
   /// When progress is not shown, callers need not compute it.
@@ -46,10 +46,10 @@ class Operator {
   virtual bool interrupted() const = 0;
   /// Waits for an answer in the allowed range. meanwhile: called every look_every; its error ends
   /// the waiting. The error: why there is no answer.
-  virtual OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) = 0;
+  virtual Answer ask(const Question& question, const std::function<Done()>& meanwhile) = 0;
   /// The answer to what only a script answers; no person is asked. Empty: there is no script, or no
   /// answer in it. The error: the board does not allow the answer.
-  virtual std::optional<OrWhy> scripted(const Question&) { return std::nullopt; }
+  virtual std::optional<Answer> scripted(const Question&) { return std::nullopt; }
 };
 
 inline constexpr int range_digits = 5;
@@ -58,6 +58,6 @@ double rounded_down(double value, int significant_digits);
 /// "0.1 to 10000"
 std::string range_text(const config::Range& range);
 /// The error: why the text is not an allowed answer, with what is allowed.
-Operator::OrWhy read_answer(const Question& question, const std::string& text);
+Operator::Answer read_answer(const Question& question, const std::string& text);
 
 }  // namespace supercoil::operating

@@ -29,17 +29,17 @@ constexpr std::array<Figure, 8> figures{{{"calibrate", known_position_offset},
 
 constexpr double rounding_ratio = 1e-5;
 /// A zero position may be close to 0.
-constexpr double least_difference = 1e-9;
+constexpr double min_difference = 1e-9;
 constexpr int digits_compared = 5;
 
 bool differs(double recorded, double now) {
-  const double rounding = std::max(least_difference, rounding_ratio * std::abs(recorded));
+  const double rounding = std::max(min_difference, rounding_ratio * std::abs(recorded));
   return !(std::abs(now - recorded) <= rounding);
 }
 
 }  // namespace
 
-bool tells_of_muscle(const SetupRecord& record) {
+bool has_muscle_findings(const SetupRecord& record) {
   return std::ranges::any_of(figures, [&](const Figure& figure) {
     const auto found = record.found(std::string(figure.step));
     return found.is_object() && found.contains(std::string(known_quantities[figure.quantity]));

@@ -15,7 +15,7 @@ struct OtherMuscle {
 };
 
 /// Whether calibrate or identify found something.
-bool tells_of_muscle(const SetupRecord& record);
+bool has_muscle_findings(const SetupRecord& record);
 
 /// The first step whose figures differ from the board's by more than the rounding of floats on bus
 /// and disk; empty: none.

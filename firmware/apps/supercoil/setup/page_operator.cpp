@@ -18,7 +18,7 @@ std::string without_line_end(std::string text) {
 
 }  // namespace
 
-void PageOperator::say(const std::string& line) {
+void PageOperator::show(const std::string& line) {
   const std::lock_guard lock(mutex_);
   lines_.push_back(line);
 }
@@ -38,13 +38,13 @@ bool PageOperator::busy() const {
   return running_;
 }
 
-PageOperator::OrWhy PageOperator::ask(const Question& question,
-                                      const std::function<Done()>& meanwhile) {
+PageOperator::Answer PageOperator::ask(const Question& question,
+                                       const std::function<Done()>& meanwhile) {
   std::unique_lock lock(mutex_);
   question_ = question;
   answer_.reset();
   progress_ = nullptr;
-  const auto over = [&](OrWhy result) {
+  const auto over = [&](Answer result) {
     question_.reset();
     return result;
   };
@@ -91,7 +91,7 @@ void PageOperator::conclude(const StepResult& found) {
 PageOperator::Done PageOperator::answer(const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (!question_) return failure("no question is open now");
-  const OrWhy value = read_answer(*question_, text);
+  const Answer value = read_answer(*question_, text);
   if (!value) return tl::unexpected(value.error());
   answer_ = *value;
   answered_.notify_all();

@@ -22,11 +22,11 @@ class PageOperator final : public Operator {
   static constexpr std::chrono::seconds page_timeout{10};
 
   // For the step.
-  void say(const std::string& line) override;
+  void show(const std::string& line) override;
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return true; }
   bool interrupted() const override;
-  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
+  Answer ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
   /// False: a step is under way.
   bool begin(const std::string& step);

@@ -10,7 +10,7 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr int told_digits = 6;
+constexpr int shown_digits = 6;
 
 /// The key in the file for a quantity that the board tells.
 std::string place_in_file(std::size_t quantity) {
@@ -29,8 +29,8 @@ bool same(double a, double b) {
   return std::abs(a - b) <= float_rounding_ratio * std::abs(b);
 }
 
-std::string told(double value) {
-  return std::isnan(value) ? "none" : number_text(value, told_digits);
+std::string value_text(double value) {
+  return std::isnan(value) ? "none" : number_text(value, shown_digits);
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ std::vector<std::string> differences(const KnownMuscle& board, const BoardSettin
   for (std::size_t i = known_configured; i < known_quantities.size(); ++i) {
     // Not in the file: the first follows from the other muscle's limits, which are compared too.
     if (i == known_min_set_point || i == known_identified || same(board[i], expected[i])) continue;
-    all.push_back(place_in_file(i) + " = " + told(expected[i]) + " (the board: " + told(board[i]) +
-                  ")");
+    all.push_back(place_in_file(i) + " = " + value_text(expected[i]) +
+                  " (the board: " + value_text(board[i]) + ")");
   }
   return all;
 }

@@ -59,7 +59,7 @@ bool ScriptedAnswers::has_table(std::string_view table) const {
   return std::ranges::any_of(by_key_, [&](const auto& one) { return one.second.table == table; });
 }
 
-std::optional<Operator::OrWhy> ScriptedAnswers::next(const Question& question) {
+std::optional<Operator::Answer> ScriptedAnswers::next(const Question& question) {
   const auto found = by_key_.find(question.key);
   if (found == by_key_.end()) return std::nullopt;
   Answers& answers = found->second;

@@ -26,7 +26,7 @@ class ScriptedAnswers {
   /// Whether it answers a step that needs a person; its table has the step's name.
   bool has_table(std::string_view table) const;
   /// Empty: the script has no answer. The error: what the board allows now.
-  std::optional<Operator::OrWhy> next(const Question& question);
+  std::optional<Operator::Answer> next(const Question& question);
 
  private:
   struct Answers {

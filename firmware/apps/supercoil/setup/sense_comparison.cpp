@@ -26,7 +26,7 @@ std::string shown(double value) {
   return number_text(value, shown_digits);
 }
 
-Result<void> tell(Heated& heated, const std::string& verb, double value) {
+Result<void> send_reading(Heated& heated, const std::string& verb, double value) {
   auto taken = heated.ask(verb + " " + number_text(value, 9));
   if (taken) return taken;
   return failure(taken.error().text() +
@@ -35,27 +35,28 @@ Result<void> tell(Heated& heated, const std::string& verb, double value) {
 }
 
 /// The questions at one power.
-Result<void> compare_at(double power_W, const ComparisonPlan& plan, Heated& heated, Operator& who) {
-  who.say("channel " + plan.channel + " gets " + shown(power_W) + " W");
+Result<void> compare_at(double power_W, const ComparisonPlan& plan, Heated& heated,
+                        Operator& user) {
+  user.show("channel " + plan.channel + " gets " + shown(power_W) + " W");
   if (auto held = heated.hold(power_W, settling); !held) return held;
-  double asked_s = heated.time_s();
+  double question_s = heated.time_s();
   const auto goes_on = [&]() -> Result<void> {
-    if (heated.time_s() - asked_s > max_question_s) return failure("no answer within 5 minutes");
+    if (heated.time_s() - question_s > max_question_s) return failure("no answer within 5 minutes");
     return heated.heat(power_W);
   };
   const auto meter_V =
-      who.ask({"supply_V", "volts at the supply terminals", plan.supply_V, NAN}, goes_on);
+      user.ask({"supply_V", "volts at the supply terminals", plan.supply_V, NAN}, goes_on);
   if (!meter_V) return tl::unexpected(meter_V.error());
-  if (auto taken = tell(heated, "compare_supply", *meter_V); !taken) return taken;
+  if (auto taken = send_reading(heated, "compare_supply", *meter_V); !taken) return taken;
   // The measured power is the product of both senses, and each may be off by its gain.
   const double reported_A = power_W / *meter_V;
-  asked_s = heated.time_s();
+  question_s = heated.time_s();
   const std::string question = "amperes in the line of channel " + plan.channel;
   const config::Range allowed{reported_A * MeterComparison::min_gain * MeterComparison::min_gain,
                               reported_A * MeterComparison::max_gain * MeterComparison::max_gain};
-  const auto meter_A = who.ask({"current_A", question, allowed, NAN}, goes_on);
+  const auto meter_A = user.ask({"current_A", question, allowed, NAN}, goes_on);
   if (!meter_A) return tl::unexpected(meter_A.error());
-  return tell(heated, "compare_current", *meter_A);
+  return send_reading(heated, "compare_current", *meter_A);
 }
 
 }  // namespace
@@ -81,8 +82,8 @@ std::string describe_plan(const ComparisonPlan& plan) {
 }
 
 Result<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
-                                              Operator& who) {
-  Heated heated(board, plan.channel, who);
+                                              Operator& user) {
+  Heated heated(board, plan.channel, user);
   const auto ended = [&](const std::string& why) {
     return failure(with_present_fault(why, board, plan.channel));
   };
@@ -90,8 +91,8 @@ Result<board::SenseComparison> compare_senses(BoardLink& board, const Comparison
   // The probe that follows arming must not be disturbed.
   board.wait(probing);
   for (const double part : {0.5, 1.0}) {
-    if (const auto asked = compare_at(part * plan.power_W, plan, heated, who); !asked)
-      return ended(asked.error().text());
+    if (const auto compared = compare_at(part * plan.power_W, plan, heated, user); !compared)
+      return ended(compared.error().text());
   }
   auto found = board.senses(plan.channel);
   if (found && !found->compared()) return failure("the board has no comparison");

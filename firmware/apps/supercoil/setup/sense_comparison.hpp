@@ -30,7 +30,7 @@ std::string describe_plan(const ComparisonPlan& plan);
 /// Arms the channel, heats it with half of that power and then all of it, and asks two questions at
 /// each; always disarms it at the end. The error: why it ended.
 Result<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
-                                              Operator& who);
+                                              Operator& user);
 
 /// "true over measured: supply 1, current 0.98; 2 % may remain of each"
 std::string describe_comparison(const board::SenseComparison& found);

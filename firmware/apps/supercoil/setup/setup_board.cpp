@@ -25,10 +25,10 @@ StepResult SetupBoard::run(const std::string& step) {
   if (const std::string why = left_out(step); !why.empty()) return failure(why);
   if (step == "doctor") {
     if (auto done = read(); !done) return tl::unexpected(done.error());
-    return doctor_step(options_, *config_, who_);
+    return doctor_step(options_, *config_, user_);
   }
   if (auto ready = open(); !ready) return tl::unexpected(ready.error());
-  Commission commission(*link_, address(), config_->settings, index(), who_);
+  Commission commission(*link_, address(), config_->settings, index(), user_);
   auto found = commission.run(step);
   if (!found || !found->contains(travel_key)) return found;
   const auto text = read_board_text(options_.config);
@@ -37,23 +37,23 @@ StepResult SetupBoard::run(const std::string& step) {
   found->erase(travel_key);
   const auto entry = travel_entry(*text, options_.channel, std::stod(literal), literal, step);
   if (!entry) {
-    who_.say("the joint's range_deg already allows it no more than that: the file stays");
+    user_.show("the joint's range_deg already allows it no more than that: the file stays");
     return found;
   }
   const auto written = write_entries(options_, step, *text, {*entry});
   if (!written) return tl::unexpected(written.error());
-  if (entry->joint) who_.say(entry->key() + " = " + entry->literal);
+  if (entry->joint) user_.show(entry->key() + " = " + entry->literal);
   (*found)[entry->key()] = entry->literal;
   return found;
 }
 
 Result<void> SetupBoard::compare_with(SetupRecord& record) {
-  if (!tells_of_muscle(record)) return {};
+  if (!has_muscle_findings(record)) return {};
   if (auto ready = open(); !ready) return ready;
   const auto known = link_->muscle(address());
   if (!known) return tl::unexpected(known.error());
   if (const auto other = other_muscle(record, *known)) {
-    who_.say(other->reason);
+    user_.show(other->reason);
     record.discount_from(other->step);
   }
   return {};

@@ -17,7 +17,7 @@ namespace supercoil::operating {
 class SetupBoard {
  public:
   /// Both outlive it.
-  SetupBoard(const SetupOptions& options, Operator& who) : options_(options), who_(who) {}
+  SetupBoard(const SetupOptions& options, Operator& user) : options_(options), user_(user) {}
   SetupBoard(const SetupBoard&) = delete;
   SetupBoard& operator=(const SetupBoard&) = delete;
   /// The muscle gets no power, however this ends.
@@ -46,7 +46,7 @@ class SetupBoard {
   std::string address() const;
 
   const SetupOptions& options_;
-  Operator& who_;
+  Operator& user_;
   std::optional<config::BoardConfig> config_;
   std::unique_ptr<BoardLink> link_;
 };

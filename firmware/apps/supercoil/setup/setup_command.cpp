@@ -44,13 +44,13 @@ bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecor
 
 /// Asks before a step that needs a person; without an answer, from a script either, it is skipped.
 bool takes(const SetupStep& step, const SetupOptions& options,
-           const std::optional<ScriptedAnswers>& script, Operator& who) {
+           const std::optional<ScriptedAnswers>& script, Operator& user) {
   if (!step.needs_person || !options.steps.empty()) return true;
-  const auto now = script ? Operator::OrWhy(script->has_table(step.name) ? 1.0 : 0.0)
-                          : who.ask({step.name, "1: now, 0: skip it", {0.0, 1.0}, 0.0},
-                                    [] { return Operator::Done(); });
+  const auto now = script ? Operator::Answer(script->has_table(step.name) ? 1.0 : 0.0)
+                          : user.ask({step.name, "1: now, 0: skip it", {0.0, 1.0}, 0.0},
+                                     [] { return Operator::Done(); });
   if (now && *now > 0.0) return true;
-  if (!who.interrupted()) who.say("skipped; " + options.command(step.name) + " does it");
+  if (!user.interrupted()) user.show("skipped; " + options.command(step.name) + " does it");
   return false;
 }
 
@@ -58,9 +58,9 @@ int concluded(const SetupOptions& options, const Json& results, int status, std:
   // Errors in a file consist of whole lines.
   if (error.ends_with('\n')) error.pop_back();
   if (options.json) {
-    Json told{{"steps", results}, {"restart_board", status == exit_restart_board}};
-    if (!error.empty()) told["error"] = error;
-    std::printf("%s\n", told.dump(2).c_str());
+    Json report{{"steps", results}, {"restart_board", status == exit_restart_board}};
+    if (!error.empty()) report["error"] = error;
+    std::printf("%s\n", report.dump(2).c_str());
   }
   return error.empty() ? status : fail(status, error);
 }
@@ -91,8 +91,8 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (!wanted(step, options, record)) continue;
     const std::string name(step.name);
     const std::string left = options.steps.empty() ? board.left_out(name) : "";
-    const std::string said = left.empty() ? std::string(step.does) : left;
-    std::fprintf(out, "%s: %s\n", name.c_str(), said.c_str());
+    const std::string text = left.empty() ? std::string(step.does) : left;
+    std::fprintf(out, "%s: %s\n", name.c_str(), text.c_str());
     std::fflush(out);
     if (!left.empty()) {
       some_left = true;
@@ -132,7 +132,7 @@ bool undo_anyway(const SetupOptions& options, const std::string& why) {
   if (options.force) return true;
   if (options.json || isatty(STDIN_FILENO) == 0) return false;
   TerminalOperator terminal(stdout);
-  terminal.say(why);
+  terminal.show(why);
   const auto answer = terminal.ask({"undo", "1: undo it anyway, 0: leave it", {0.0, 1.0}, 0.0},
                                    [] { return Operator::Done(); });
   return answer && *answer > 0.0;
@@ -146,12 +146,12 @@ int undo_command(const SetupOptions& options) {
     Json on_board = Json::array();
     for (const OnBoard& one : undone->on_board)
       on_board.push_back({{"what", one.what}, {"forgotten_by", one.forgotten_by}});
-    const Json told{{"file", options.config},
-                    {"channel", undone->channel},
-                    {"step", undone->step},
-                    {"kept_as", undone->kept_as},
-                    {"on_board", on_board}};
-    std::printf("%s\n", told.dump(2).c_str());
+    const Json report{{"file", options.config},
+                      {"channel", undone->channel},
+                      {"step", undone->step},
+                      {"kept_as", undone->kept_as},
+                      {"on_board", on_board}};
+    std::printf("%s\n", report.dump(2).c_str());
   } else {
     std::printf("%s\n", undone_text(options.config, *undone).c_str());
   }

@@ -36,10 +36,10 @@ void SetupSession::serve_with(httplib::Server& server, const Access& access) {
                answer_json(response, state().dump());
              }));
   server.Post("/api/setup", commanded(access, [this](const auto& request, auto& response) {
-                const Json asked = Json::parse(request.body, nullptr, false);
-                if (!asked.is_object())
+                const Json command = Json::parse(request.body, nullptr, false);
+                if (!command.is_object())
                   return refuse(response, 400, "the request is not a JSON object");
-                const auto done = obey(asked);
+                const auto done = execute(command);
                 if (!done) return refuse(response, 400, done.error().text());
                 Json now = state();
                 now["done"] = *done;
@@ -48,7 +48,7 @@ void SetupSession::serve_with(httplib::Server& server, const Access& access) {
 }
 
 Json SetupSession::state() const {
-  Json told{{"file", options_.config}, {"channel", options_.channel}};
+  Json state{{"file", options_.config}, {"channel", options_.channel}};
   const auto record = SetupRecord::open(options_.config, options_.channel);
   Json steps = Json::array();
   const auto config = config::read_board_config(options_.config);
@@ -61,16 +61,16 @@ Json SetupSession::state() const {
                      {"optional", step.optional},
                      {"found", record ? record->found(std::string(step.name)) : Json()}});
   }
-  told["steps"] = std::move(steps);
-  page_.add_to(told);
-  if (!record) told["error"] = record.error().text();
-  return told;
+  state["steps"] = std::move(steps);
+  page_.add_to(state);
+  if (!record) state["error"] = record.error().text();
+  return state;
 }
 
-Result<std::string> SetupSession::obey(const Json& asked) {
+Result<std::string> SetupSession::execute(const Json& command) {
   const auto text_of = [&](const char* key) {
-    const auto found = asked.find(key);
-    return found != asked.end() && found->is_string() ? found->get<std::string>() : std::string();
+    const auto found = command.find(key);
+    return found != command.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   const std::string what = text_of("do");
   const auto without_words = [](const Done& done) {

@@ -42,7 +42,7 @@ class SetupSession {
   /// error and kept are of the last one.
   nlohmann::ordered_json state() const;
   /// What was done; in words if the user should read it.
-  Result<std::string> obey(const nlohmann::ordered_json& asked);
+  Result<std::string> execute(const nlohmann::ordered_json& command);
   Done begin(const std::string& step);
   Result<std::string> undo();
   StepResult run(const std::string& step);

@@ -8,7 +8,7 @@ namespace supercoil::operating {
 class StallWatch {
  public:
   /// noise_m: of the position, rms.
-  StallWatch(double step_W, double noise_m) : step_W_(step_W), telling_m_(6.0 * noise_m) {}
+  StallWatch(double step_W, double noise_m) : step_W_(step_W), min_usual_m_(6.0 * noise_m) {}
 
   /// True: over the last two steps it rose by less than a fifth of what it did before.
   bool step(double power_W, double position_m) {
@@ -16,7 +16,7 @@ class StallWatch {
     const double rise_m = position_m - last_m_;
     const bool first = steps_ < 0;
     const double usual_m = steps_ > 0 ? risen_m_ / steps_ : 0.0;
-    const bool slow = usual_m > telling_m_ && rise_m < 0.2 * usual_m;
+    const bool slow = usual_m > min_usual_m_ && rise_m < 0.2 * usual_m;
     slow_steps_ = slow ? slow_steps_ + 1 : 0;
     if (!slow) {
       risen_m_ += first ? 0.0 : rise_m;
@@ -29,7 +29,7 @@ class StallWatch {
 
  private:
   double step_W_;
-  double telling_m_;
+  double min_usual_m_;
   double next_W_ = 0.0;
   double last_m_ = 0.0;
   double risen_m_ = 0.0;  ///< in the steps that were not slow

@@ -13,7 +13,7 @@ constexpr int max_tries = 3;
 
 }  // namespace
 
-void TerminalOperator::say(const std::string& line) {
+void TerminalOperator::show(const std::string& line) {
   progress_.reset();
   std::fprintf(out_, "  %s\n", line.c_str());
   std::fflush(out_);
@@ -41,14 +41,14 @@ Result<std::string> TerminalOperator::next_line(const std::function<Done()>& mea
   }
 }
 
-std::optional<TerminalOperator::OrWhy> TerminalOperator::scripted(const Question& q) {
+std::optional<TerminalOperator::Answer> TerminalOperator::scripted(const Question& q) {
   auto value = script_.next(q);
-  if (value && *value) say(std::string(q.text) + ": " + number_text(**value, 9));
+  if (value && *value) show(std::string(q.text) + ": " + number_text(**value, 9));
   return value;
 }
 
-TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
-                                              const std::function<Done()>& meanwhile) {
+TerminalOperator::Answer TerminalOperator::ask(const Question& q,
+                                               const std::function<Done()>& meanwhile) {
   progress_.reset();
   if (const auto value = scripted(q)) return *value;
   // A person may try any number of times; another input might answer wrongly for ever.
@@ -64,7 +64,7 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
       if (patient && !interrupted()) std::fputs("\n", out_);
       return tl::unexpected(line.error());
     }
-    OrWhy value = read_answer(q, *line);
+    Answer value = read_answer(q, *line);
     if (value) return value;
     std::fprintf(out_, "%s\n", value.error().text().c_str());
   }

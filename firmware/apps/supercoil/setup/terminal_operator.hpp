@@ -18,7 +18,7 @@ class TerminalOperator final : public Operator {
  public:
   explicit TerminalOperator(std::FILE* out) : out_(out) {}
 
-  void say(const std::string& line) override;
+  void show(const std::string& line) override;
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
   bool interrupted() const override;
@@ -26,9 +26,9 @@ class TerminalOperator final : public Operator {
   void end_progress() { progress_.reset(); }
   /// Questions that the script answers are no longer asked.
   void take(ScriptedAnswers answers) { script_ = std::move(answers); }
-  std::optional<OrWhy> scripted(const Question& question) override;
+  std::optional<Answer> scripted(const Question& question) override;
   /// Allows three tries if standard input is not a terminal.
-  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
+  Answer ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
  private:
   Result<std::string> next_line(const std::function<Done()>& meanwhile);

@@ -92,7 +92,7 @@ Result<Undone> undo_setup(const SetupOptions& options,
   std::error_code error;
   std::filesystem::rename(last->before, options.config, error);
   if (error) return failed_call(last->before, error.value());
-  if (auto told = record->take_back(); !told) return tl::unexpected(told.error());
+  if (auto removed = record->take_back(); !removed) return tl::unexpected(removed.error());
   return undone;
 }
 

@@ -12,19 +12,21 @@ namespace {
 /// What a bench would answer for the paper's muscle.
 MuscleAnswers paper_answers() {
   MuscleAnswers a;
-  const auto says = [&](Asked what, double value) { a.set(static_cast<std::size_t>(what), value); };
-  says(Asked::cold_resistance_Ohm, 10.0);
-  says(Asked::load_g, 90.0);
-  says(Asked::stretch_weight_g, 100.0);
-  says(Asked::stretch_mm, 61.3125);
-  says(Asked::heated_W, 2.0);
-  says(Asked::heated_mm, 12.0787);
-  says(Asked::half_cooling_s, 1.26168);
-  says(Asked::thread_g, 0.162 / 1.65);
-  says(Asked::heated_K, 0.0);
-  says(Asked::max_W, 4.5);
-  says(Asked::max_travel_mm, 25.0);
-  says(Asked::uncertainty_percent, 50.0);
+  const auto says = [&](QuestionId what, double value) {
+    a.set(static_cast<std::size_t>(what), value);
+  };
+  says(QuestionId::cold_resistance_Ohm, 10.0);
+  says(QuestionId::load_g, 90.0);
+  says(QuestionId::stretch_weight_g, 100.0);
+  says(QuestionId::stretch_mm, 61.3125);
+  says(QuestionId::heated_W, 2.0);
+  says(QuestionId::heated_mm, 12.0787);
+  says(QuestionId::half_cooling_s, 1.26168);
+  says(QuestionId::thread_g, 0.162 / 1.65);
+  says(QuestionId::heated_K, 0.0);
+  says(QuestionId::max_W, 4.5);
+  says(QuestionId::max_travel_mm, 25.0);
+  says(QuestionId::uncertainty_percent, 50.0);
   return a;
 }
 
@@ -69,8 +71,8 @@ TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
 
 TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {
   MuscleAnswers a = paper_answers();
-  a.set(static_cast<std::size_t>(Asked::thread_g), 0.0);
-  a.set(static_cast<std::size_t>(Asked::heated_K), 2.0 / 0.089);
+  a.set(static_cast<std::size_t>(QuestionId::thread_g), 0.0);
+  a.set(static_cast<std::size_t>(QuestionId::heated_K), 2.0 / 0.089);
   const auto d = describe_muscle(a);
   DOUBLES_EQUAL(0.089, d->muscle.heat_transfer_W_per_K, 1e-6);
   DOUBLES_EQUAL(0.162, d->muscle.thermal_mass_J_per_K, 1e-4);
@@ -82,7 +84,7 @@ TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {
 
 TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
   MuscleAnswers a = paper_answers();
-  a.set(static_cast<std::size_t>(Asked::thread_g), 0.0);
+  a.set(static_cast<std::size_t>(QuestionId::thread_g), 0.0);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
   STRCMP_CONTAINS("thread_g or heated_K", d.error().text().c_str());
@@ -90,8 +92,8 @@ TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
 
 TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
   MuscleAnswers a = paper_answers();
-  a.set(static_cast<std::size_t>(Asked::stretch_weight_g), 1e6);
-  a.set(static_cast<std::size_t>(Asked::stretch_mm), 0.01);
+  a.set(static_cast<std::size_t>(QuestionId::stretch_weight_g), 1e6);
+  a.set(static_cast<std::size_t>(QuestionId::stretch_mm), 0.01);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
   STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08; it must be 0.01 to 1e+06",

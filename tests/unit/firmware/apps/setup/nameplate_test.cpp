@@ -30,19 +30,19 @@ TEST_GROUP(Nameplate){};
 
 TEST(Nameplate, AnswersWhatASupplierKnowsAndNothingElse) {
   const Nameplate n = rated(120.0);
-  DOUBLES_EQUAL(10.0, n.suggested(Asked::cold_resistance_Ohm), 0.0);
-  DOUBLES_EQUAL(90.0, n.suggested(Asked::load_g), 0.0);
-  DOUBLES_EQUAL(2.0, n.suggested(Asked::heated_W), 0.0);
-  DOUBLES_EQUAL(2.0, n.suggested(Asked::max_W), 0.0);
-  DOUBLES_EQUAL(12.0, n.suggested(Asked::heated_mm), 1e-12);
-  DOUBLES_EQUAL(12.0, n.suggested(Asked::max_travel_mm), 1e-12);
-  DOUBLES_EQUAL(95.0, n.suggested(Asked::heated_K), 1e-12);
-  DOUBLES_EQUAL(60.0, n.suggested(Asked::uncertainty_percent), 0.0);
-  for (const Asked measured :
-       {Asked::stretch_weight_g, Asked::stretch_mm, Asked::half_cooling_s, Asked::thread_g})
+  DOUBLES_EQUAL(10.0, n.suggested(QuestionId::cold_resistance_Ohm), 0.0);
+  DOUBLES_EQUAL(90.0, n.suggested(QuestionId::load_g), 0.0);
+  DOUBLES_EQUAL(2.0, n.suggested(QuestionId::heated_W), 0.0);
+  DOUBLES_EQUAL(2.0, n.suggested(QuestionId::max_W), 0.0);
+  DOUBLES_EQUAL(12.0, n.suggested(QuestionId::heated_mm), 1e-12);
+  DOUBLES_EQUAL(12.0, n.suggested(QuestionId::max_travel_mm), 1e-12);
+  DOUBLES_EQUAL(95.0, n.suggested(QuestionId::heated_K), 1e-12);
+  DOUBLES_EQUAL(60.0, n.suggested(QuestionId::uncertainty_percent), 0.0);
+  for (const QuestionId measured : {QuestionId::stretch_weight_g, QuestionId::stretch_mm,
+                                    QuestionId::half_cooling_s, QuestionId::thread_g})
     CHECK(std::isnan(n.suggested(measured)));
-  CHECK(std::isnan(rated(0.0).suggested(Asked::heated_K)));
-  CHECK(std::isnan(Nameplate().suggested(Asked::load_g)));
+  CHECK(std::isnan(rated(0.0).suggested(QuestionId::heated_K)));
+  CHECK(std::isnan(Nameplate().suggested(QuestionId::load_g)));
 }
 
 TEST(Nameplate, ALowerGreatestTemperatureBecomesTheLimit) {

@@ -49,19 +49,19 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
 inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel,
                                                   const BoardSettings& board) {
   if (is_led(channel)) return nullptr;
-  const config::RecommendedController suits = config::recommended_controller(channel, board);
-  const control::ControllerSettings controller = suits.applied_to({});
-  const std::string problem = problem_of(suits, channel, board.step_s());
+  const config::RecommendedController recommended = config::recommended_controller(channel, board);
+  const control::ControllerSettings controller = recommended.applied_to({});
+  const std::string problem = problem_of(recommended, channel, board.step_s());
   nlohmann::ordered_json in_use;
   for (std::size_t i = channel.controllers.size(); i-- > 0;) {
-    if (!suits.differs_from(channel.controllers[i])) in_use = i;
+    if (!recommended.differs_from(channel.controllers[i])) in_use = i;
   }
   return {{"kind", control::name_of(control::controller_names, controller.kind)},
           {"shape_reference", controller.shape_reference},
-          {"bandwidth_rad_per_s", suits.bandwidth_rad_per_s},
-          {"reason", suits.reason},
+          {"bandwidth_rad_per_s", recommended.bandwidth_rad_per_s},
+          {"reason", recommended.reason},
           {"model_poles_rad_per_s", controller.model.poles_rad_per_s},
-          {"model_reason", suits.model_reason},
+          {"model_reason", recommended.model_reason},
           {"problem", problem.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(problem)},
           {"in_use", in_use}};
 }
@@ -74,11 +74,11 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
   const FirstMotion motion = plan_first_motion(f, c.unexplained_ratio);
   nlohmann::ordered_json controllers = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < c.controllers.size() && !is_led(c); ++i) {
-    nlohmann::ordered_json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
+    nlohmann::ordered_json entry = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
     if (is_promised_for(c.controllers[i], c, board.step_s()) &&
         board.joint_of(channel) == nullptr && motion.amplitude_m > 0.0)
-      told.update(promise_json(promise_error(c.controllers[i].learned_ff, c, board, motion)));
-    controllers.push_back(std::move(told));
+      entry.update(promise_json(promise_error(c.controllers[i].learned_ff, c, board, motion)));
+    controllers.push_back(std::move(entry));
   }
   return {{"travel_m", f.travel_m},
           {"held_W", f.held_W},

@@ -8,14 +8,14 @@
 
 namespace supercoil::operating {
 
-std::optional<std::string> AnswerLines::wait(std::chrono::milliseconds longest) {
+std::optional<std::string> AnswerLines::wait(std::chrono::milliseconds timeout) {
   if (auto line = take_line()) return line;
   if (ended_) {
-    std::this_thread::sleep_for(longest);
+    std::this_thread::sleep_for(timeout);
     return std::nullopt;
   }
   pollfd watched{file_, POLLIN, 0};
-  if (::poll(&watched, 1, static_cast<int>(longest.count())) <= 0) return std::nullopt;
+  if (::poll(&watched, 1, static_cast<int>(timeout.count())) <= 0) return std::nullopt;
   std::array<char, 256> bytes{};
   const ssize_t count = ::read(file_, bytes.data(), bytes.size());
   ended_ = count == 0;

@@ -13,7 +13,7 @@ class AnswerLines {
   explicit AnswerLines(int file) : file_(file) {}
 
   /// The next line, without its end; empty: none came within that time, or none will come.
-  std::optional<std::string> wait(std::chrono::milliseconds longest);
+  std::optional<std::string> wait(std::chrono::milliseconds timeout);
   /// Whether no more answers can come.
   bool ended() const { return ended_ && read_.empty(); }
 

@@ -64,15 +64,15 @@ Result<std::vector<ChannelEnding>> endings(BoardLink& board, const std::string& 
     ending = board.ending(channel);
   }
   if (!ending) return tl::unexpected(ending.error());
-  std::vector<ChannelEnding> told{{channel, *ending}};
-  if (ending->result != "found") return told;
+  std::vector<ChannelEnding> all{{channel, *ending}};
+  if (ending->result != "found") return all;
   const auto antagonist = antagonist_of(board, channel);
   if (!antagonist) return tl::unexpected(antagonist.error());
-  if (antagonist->empty()) return told;
-  const auto others = board.ending(*antagonist);
-  if (!others) return tl::unexpected(others.error());
-  told.push_back({*antagonist, *others});
-  return told;
+  if (antagonist->empty()) return all;
+  const auto other_ending = board.ending(*antagonist);
+  if (!other_ending) return tl::unexpected(other_ending.error());
+  all.push_back({*antagonist, *other_ending});
+  return all;
 }
 
 Result<std::unique_ptr<BoardLink>> open_link(const std::string& can, const std::string& socket) {

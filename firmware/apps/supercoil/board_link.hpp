@@ -130,23 +130,23 @@ class CanBoardLink final : public BoardLink {
   Result<double> progress(const std::string& channel) override;
 
  private:
-  /// The newest values that a node sends by itself.
-  struct Told {
+  /// The newest values that a node sends unasked.
+  struct Received {
     std::unique_ptr<hal::CanBus> bus;
     double error_m = NAN;
     double position_m = NAN;
     double progress = NAN;
   };
-  Result<Told*> listen(const std::string& channel);
+  Result<Received*> receive(const std::string& channel);
   Result<Commander*> commander(std::uint8_t node);
   /// The kinds of the active controllers by node; omits nodes that do not report them.
   std::map<int, std::string> laws(const FrameHistory& frame_history);
-  /// Listens for a while and returns tell() of the frames received.
-  Answer heard(const std::function<std::string(const FrameHistory&)>& tell);
+  /// Listens for a while and returns describe() of the frames received.
+  Answer collect_frames(const std::function<std::string(const FrameHistory&)>& describe);
 
   std::string bus_;
   std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
-  std::map<std::uint8_t, Told> told_;
+  std::map<std::uint8_t, Received> received_;
 };
 
 /// Arms a channel and waits until its heater is measured: until then heating is refused.

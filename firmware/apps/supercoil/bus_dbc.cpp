@@ -52,10 +52,10 @@ std::string message(std::string_view block, const std::vector<int>& nodes) {
     for (std::string_view rest = block; !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(line.size() + 1);
-      const bool heard_by_board = line.starts_with(" SG_") && line.ends_with(board_node);
+      const bool is_received_by_board = line.starts_with(" SG_") && line.ends_with(board_node);
       result +=
           line.starts_with("BO_ ") ? of_node(line, identifier_in(line), node) : std::string(line);
-      result += heard_by_board ? named("", node) + "\n" : "\n";
+      result += is_received_by_board ? named("", node) + "\n" : "\n";
     }
     result += '\n';
   }

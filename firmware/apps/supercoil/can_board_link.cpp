@@ -52,9 +52,9 @@ Result<board::SenseComparison> CanBoardLink::senses(const std::string& channel) 
   for (const auto& [setting, value] : {std::pair{SenseSetting::supply_gain, &senses.supply_gain},
                                        std::pair{SenseSetting::current_gain, &senses.current_gain},
                                        std::pair{SenseSetting::sense_error, &senses.error_ratio}}) {
-    const auto heard = (*node)->read(setting);
-    if (!heard) return tl::unexpected(heard.error());
-    *value = heard->value;
+    const auto reply = (*node)->read(setting);
+    if (!reply) return tl::unexpected(reply.error());
+    *value = reply->value;
   }
   return senses;
 }
@@ -69,10 +69,10 @@ Result<double> CanBoardLink::tuning(const std::string& channel, int place, std::
                                     TuningSet set) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
-  const auto heard = (*node)->read_tuning(
+  const auto reply = (*node)->read_tuning(
       {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
-  if (!heard) return tl::unexpected(heard.error());
-  return heard->value;
+  if (!reply) return tl::unexpected(reply.error());
+  return reply->value;
 }
 
 BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
@@ -85,42 +85,43 @@ BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
   const double number = all ? static_cast<double>(std::ranges::find(tuning_set_names, value) -
                                                   tuning_set_names.begin())
                             : std::stod(value);
-  const auto heard =
+  const auto reply =
       (*node)->prepare({static_cast<std::uint8_t>(place), tunable, TuningSet::prepared}, number);
-  if (!heard) return tl::unexpected(heard.error());
-  const bool out = heard->refusal == Refusal::out_of_range;
-  return answer_text(heard->refusal, out ? (*node)->nearest() : NAN);
+  if (!reply) return tl::unexpected(reply.error());
+  const bool out = reply->refusal == Refusal::out_of_range;
+  return answer_text(reply->refusal, out ? (*node)->nearest() : NAN);
 }
 
 /// Does not wait.
-Result<CanBoardLink::Told*> CanBoardLink::listen(const std::string& channel) {
+Result<CanBoardLink::Received*> CanBoardLink::receive(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
-  Told& told = told_[node];
-  if (!told.bus) {
+  Received& received = received_[node];
+  if (!received.bus) {
     auto bus = open_bus(bus_, {can_client::tracking_id(node), can_client::measurement_id(node),
                                can_client::status_id(node)});
     if (!bus) return tl::unexpected(bus.error());
-    told.bus = std::move(*bus);
+    received.bus = std::move(*bus);
   }
-  for (hal::CanFrame frame; told.bus->receive(frame) == hal::Status::ok;) {
-    if (const auto error_m = can_client::receive_error_m(node, frame)) told.error_m = *error_m;
+  for (hal::CanFrame frame; received.bus->receive(frame) == hal::Status::ok;) {
+    if (const auto error_m = can_client::receive_error_m(node, frame)) received.error_m = *error_m;
     if (const auto position_m = can_client::receive_position_m(node, frame))
-      told.position_m = *position_m;
-    if (const auto progress = can_client::receive_progress(node, frame)) told.progress = *progress;
+      received.position_m = *position_m;
+    if (const auto progress = can_client::receive_progress(node, frame))
+      received.progress = *progress;
   }
-  return &told;
+  return &received;
 }
 
 Result<double> CanBoardLink::error_m(const std::string& channel) {
-  return listen(channel).map([](const Told* told) { return told->error_m; });
+  return receive(channel).map([](const Received* received) { return received->error_m; });
 }
 
 Result<double> CanBoardLink::position_m(const std::string& channel) {
-  return listen(channel).map([](const Told* told) { return told->position_m; });
+  return receive(channel).map([](const Received* received) { return received->position_m; });
 }
 
 Result<double> CanBoardLink::progress(const std::string& channel) {
-  return listen(channel).map([](const Told* told) { return told->progress; });
+  return receive(channel).map([](const Received* received) { return received->progress; });
 }
 
 std::map<int, std::string> CanBoardLink::laws(const FrameHistory& frame_history) {
@@ -134,7 +135,8 @@ std::map<int, std::string> CanBoardLink::laws(const FrameHistory& frame_history)
   return known;
 }
 
-BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const FrameHistory&)>& tell) {
+BoardLink::Answer CanBoardLink::collect_frames(
+    const std::function<std::string(const FrameHistory&)>& describe) {
   auto bus = open_bus(bus_);
   if (!bus) return tl::unexpected(bus.error());
   constexpr double keep_s = 10.0;
@@ -142,25 +144,25 @@ BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const Fram
   FrameHistory frame_history(keep_s, default_bit_rate);
   const Listener listener(std::move(*bus), frame_history);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  return tell(frame_history);
+  return describe(frame_history);
 }
 
 BoardLink::Answer CanBoardLink::state() {
-  return heard([this](const FrameHistory& frame_history) {
+  return collect_frames([this](const FrameHistory& frame_history) {
     return state_text(frame_history, laws(frame_history));
   });
 }
 
 BoardLink::Answer CanBoardLink::state_json() {
-  return heard([this](const FrameHistory& frame_history) {
+  return collect_frames([this](const FrameHistory& frame_history) {
     using Json = nlohmann::ordered_json;
-    Json told = operating::state_json(frame_history);
+    Json state = operating::state_json(frame_history);
     const auto known = laws(frame_history);
-    for (auto& node : told["nodes"]) {
+    for (auto& node : state["nodes"]) {
       const auto law = known.find(node["node"].get<int>());
       node["controller_kind"] = law == known.end() ? Json(nullptr) : Json(law->second);
     }
-    return told.dump() + "\n";
+    return state.dump() + "\n";
   });
 }
 
@@ -170,15 +172,15 @@ Result<BoardLink::Status> CanBoardLink::status(const std::string& channel) {
   if (!bus) return tl::unexpected(bus.error());
   for (int i = 0; i < 150; ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
-      const auto heard = can::decode(frame);
-      if (!heard || frame.id != can_client::status_id(node)) continue;
+      const auto decoded = can::decode(frame);
+      if (!decoded || frame.id != can_client::status_id(node)) continue;
       const auto name_of = [&](const char* signal) {
-        const std::size_t place = can::signal_index(*heard->message, signal);
+        const std::size_t place = can::signal_index(*decoded->message, signal);
         return std::string(
-            can::value_name(heard->message->signals[place], heard->values.at(place)));
+            can::value_name(decoded->message->signals[place], decoded->values.at(place)));
       };
-      const std::size_t probing = can::signal_index(*heard->message, "probing");
-      return Status{name_of("state"), name_of("fault"), heard->values.at(probing) == 1.0};
+      const std::size_t probing = can::signal_index(*decoded->message, "probing");
+      return Status{name_of("state"), name_of("fault"), decoded->values.at(probing) == 1.0};
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -194,14 +196,14 @@ Result<BoardLink::Ending> CanBoardLink::ending(const std::string& channel) {
   unsigned friction = 0;  // the estimates have no bit left for it
   for (int i = 0; i < 100 && !(result && notes); ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
-      const auto heard = can::decode(frame);
-      if (!heard) continue;
+      const auto decoded = can::decode(frame);
+      if (!decoded) continue;
       const auto value = [&](const char* signal) {
-        return heard->values.at(can::signal_index(*heard->message, signal));
+        return decoded->values.at(can::signal_index(*decoded->message, signal));
       };
       if (frame.id == can_client::status_id(node)) {
-        const std::size_t place = can::signal_index(*heard->message, "result");
-        result = can::value_name(heard->message->signals[place], value("result"));
+        const std::size_t place = can::signal_index(*decoded->message, "result");
+        result = can::value_name(decoded->message->signals[place], value("result"));
         friction = value("friction") == 1.0 ? note_friction : 0;
       } else if (frame.id == can_client::estimate_id(node) && result) {
         const auto rest = static_cast<unsigned>(value("identify_notes"));

@@ -24,11 +24,11 @@ TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer)
 /// tells. Empty: another reason.
 std::string why_not(BoardLink& board, const std::string& channel, int place,
                     const TuningChange& change) {
-  const AskTuning ask = ask_tuning(board, channel);
+  const ReadTunable read_value = tunable_reader(board, channel);
   constexpr std::size_t kind = 0;
-  const auto value = ask(place, change.tunable, TuningSet::prepared);
-  const auto kind_value = ask(place, kind, TuningSet::prepared);
-  const auto names = read_names(place, ask);
+  const auto value = read_value(place, change.tunable, TuningSet::prepared);
+  const auto kind_value = read_value(place, kind, TuningSet::prepared);
+  const auto names = read_names(place, read_value);
   if (!value || !std::isnan(*value) || !kind_value || !names || names->empty()) return "";
   return tuning_text(tuned_at(place), control::tunables()[kind], *kind_value) + " has no " +
          std::string(control::tunables()[change.tunable].name) + "; it has " + joined(*names);
@@ -55,7 +55,7 @@ TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int plac
   return {};
 }
 
-TuningDone ask_for_tuning(BoardLink& board, const std::string& line) {
+TuningDone send_tuning_command(BoardLink& board, const std::string& line) {
   return done_or_why(line, board.ask(line));
 }
 

@@ -23,6 +23,6 @@ using TuningDone = Result<void>;
 TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int place,
                           const std::string& from, const std::vector<TuningChange>& changes);
 /// Sends a line that takes over, stores or forgets: "1 tune 0", "1 store tuning", "1 clear tuning".
-TuningDone ask_for_tuning(BoardLink& board, const std::string& line);
+TuningDone send_tuning_command(BoardLink& board, const std::string& line);
 
 }  // namespace supercoil::operating

@@ -71,7 +71,7 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
                              const std::string& answer) {
   if (options.words.size() != 3 || !refuses(answer, Refusal::out_of_range)) return "";
   for (const Verb verb : {Verb::scale, Verb::controller, Verb::estimator}) {
-    if (options.words[1] == name(verb)) return told_range(board, options.words[0], verb);
+    if (options.words[1] == name(verb)) return accepted_range_text(board, options.words[0], verb);
   }
   if (options.words[1] != name(Verb::position)) return "";
   const auto known = board.muscle(options.words[0]);
@@ -93,11 +93,11 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
 int concluded(const CommandOptions& options, const std::string& line,
               const BoardLink::Answer& answer, const std::string& range = "") {
   if (options.json) {
-    nlohmann::ordered_json told{{"command", line}};
-    told[answer && is_answer(*answer) ? "answer" : "error"] =
+    nlohmann::ordered_json report{{"command", line}};
+    report[answer && is_answer(*answer) ? "answer" : "error"] =
         answer ? *answer : answer.error().text();
-    if (!range.empty()) told["range"] = range.substr(range.find_first_not_of("; "));
-    std::printf("%s\n", told.dump().c_str());
+    if (!range.empty()) report["range"] = range.substr(range.find_first_not_of("; "));
+    std::printf("%s\n", report.dump().c_str());
   }
   return answer ? judged(line, with_degrees(options, *answer) + range)
                 : fail(exit_failed, answer.error().text());
@@ -114,13 +114,13 @@ int stopped(BoardLink& board, const CommandOptions& options, const std::string& 
   }
   if (fault.empty()) return concluded(options, line, answer);
   if (options.json) {
-    const nlohmann::ordered_json told{{"command", line}, {"answer", answer}, {"cause", fault}};
-    std::printf("%s\n", told.dump().c_str());
+    const nlohmann::ordered_json report{{"command", line}, {"answer", answer}, {"cause", fault}};
+    std::printf("%s\n", report.dump().c_str());
   }
   return fail(exit_failed, line + ": " + fault);
 }
 
-int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
+int send_line(BoardLink& board, const CommandOptions& options, const std::string& line) {
   const auto answer = board.ask(line);
   const std::string range = answer ? range_of_refused(board, options, *answer) : "";
   return concluded(options, line, answer, range);
@@ -179,8 +179,8 @@ std::string line_at(const CommandOptions& options, double time_s) {
 /// Reports a wrong request, or one without an answer; as JSON too if wanted.
 int refused(const CommandOptions& options, int status, const std::string& why) {
   if (options.json) {
-    const nlohmann::ordered_json told{{"command", joined(options.words)}, {"error", why}};
-    std::printf("%s\n", told.dump().c_str());
+    const nlohmann::ordered_json report{{"command", joined(options.words)}, {"error", why}};
+    std::printf("%s\n", report.dump().c_str());
   }
   return fail(status, why);
 }
@@ -198,8 +198,8 @@ double held_s(const CommandOptions& options) {
 }
 
 /// Reports one channel's end, as text or JSON. own: how this program ended it; empty: it did not.
-int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEnding& of,
-                const std::string& own) {
+int report_ending(BoardLink& board, const CommandOptions& options, const ChannelEnding& of,
+                  const std::string& own) {
   const auto& [result, notes] = of.ending;
   const std::string line = of.channel + " " + options.words[1];
   std::string cause;
@@ -219,14 +219,14 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
   return exit_done;
 }
 
-/// Reports the result of an ended mode, if it has one. own: as in tell_ending().
+/// Reports the result of an ended mode, if it has one. own: as in report_ending().
 int ended(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
   if (!has_result(options)) return exit_done;
   const auto all = endings(board, options.words[0]);
   if (!all) return refused(options, exit_failed, all.error().text());
   int status = exit_done;
   for (const ChannelEnding& each : *all)
-    status = std::max(status, tell_ending(board, options, each, own));
+    status = std::max(status, report_ending(board, options, each, own));
   return status;
 }
 
@@ -264,14 +264,14 @@ int hold(BoardLink& board, const CommandOptions& options) {
   }
   progress.end();
   const std::string rest = options.words[0] + " rest";
-  if (!has_result(options)) return ask(board, options, rest);
+  if (!has_result(options)) return send_line(board, options, rest);
   const auto answer = board.ask(rest);
   const std::string own =
       std::string("by ") + (interrupted != 0 ? interrupter() : "the end of --for");
   return answer ? ended(board, options, own) : concluded(options, rest, answer);
 }
 
-int tell_state(BoardLink& board, const CommandOptions& options) {
+int print_state(BoardLink& board, const CommandOptions& options) {
   const auto answer = options.json ? board.state_json() : board.state();
   if (!answer) return refused(options, exit_failed, answer.error().text());
   std::fputs(answer->c_str(), stdout);
@@ -323,9 +323,10 @@ int take_place(BoardLink& board, CommandOptions& options) {
   // Whoever parses the line reports a wrong channel.
   if (!channel || !(*channel >= 1.0 && *channel <= can::max_nodes)) return exit_done;
   if (!tunes && (!chooses || number_of(words[2]))) return exit_done;
-  const AskTuning ask = ask_tuning(board, words[0]);
+  const ReadTunable read_value = tunable_reader(board, words[0]);
   const Tuned what = chooses_controller ? Tuned::controller : Tuned::estimator;
-  const auto place = tunes ? find_any_place(words[2], ask) : find_place(what, words[2], ask);
+  const auto place =
+      tunes ? find_any_place(words[2], read_value) : find_place(what, words[2], read_value);
   if (!place) {
     return refused(options, exit_for(place.error()), joined(words) + ": " + place.error().text());
   }
@@ -351,11 +352,11 @@ int command_command(CommandOptions options) {
   if (const int status = take_place(**board, options); status != exit_done) return status;
   options.hold_s = held_s(options);
   const std::string line = line_at(options, 0.0);
-  if (line == "state") return tell_state(**board, options);
+  if (line == "state") return print_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);
   const bool arms = options.words.size() == 2 && options.words[1] == name(Verb::arm);
   return arms ? concluded(options, line, arm(**board, options.words[0]))
-              : ask(**board, options, line);
+              : send_line(**board, options, line);
 }
 
 }  // namespace supercoil::operating

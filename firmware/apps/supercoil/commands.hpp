@@ -21,7 +21,7 @@ namespace supercoil::operating {
 /// Prints the message to standard error and returns the status.
 int fail(int status, const std::string& message);
 /// {"error": message} on standard output, for programs that asked for JSON.
-void tell_error(const std::string& message);
+void print_error(const std::string& message);
 /// Like fail(), and also as JSON if wanted.
 int refuse(bool json, int status, const std::string& message);
 

@@ -31,27 +31,27 @@ std::size_t channel_of(const DoctorOptions& options, const config::BoardConfig& 
 /// The safe power follows from the file, so the board must run with it. Empty: it does.
 std::string other_board(BoardLink& board, const DoctorOptions& options,
                         const config::BoardConfig& config, std::size_t place) {
-  const auto others =
+  const auto differences =
       differences_of_board(board, first_address(options, config), config.settings, place - 1);
-  if (!others) return others.error().text();
-  if (others->empty()) return {};
-  return options.config + ": the board is not running with this file: " + *others +
+  if (!differences) return differences.error().text();
+  if (differences->empty()) return {};
+  return options.config + ": the board is not running with this file: " + *differences +
          "; start the board with it, or name the file it runs with: --config FILE";
 }
 
 int concluded(const Result<board::SenseComparison>& found, const ComparisonPlan& plan, bool json,
               const std::string& bounds) {
   if (json) {
-    nlohmann::ordered_json told{{"channel", std::stoi(plan.channel)}, {"power_W", plan.power_W}};
+    nlohmann::ordered_json report{{"channel", std::stoi(plan.channel)}, {"power_W", plan.power_W}};
     if (found) {
-      told["supply_gain"] = found->supply_gain;
-      told["current_gain"] = found->current_gain;
-      told["error_ratio"] = found->error_ratio;
-      told["bounds"] = bounds;
+      report["supply_gain"] = found->supply_gain;
+      report["current_gain"] = found->current_gain;
+      report["error_ratio"] = found->error_ratio;
+      report["bounds"] = bounds;
     } else {
-      told["error"] = found.error().text();
+      report["error"] = found.error().text();
     }
-    std::printf("%s\n", told.dump(2).c_str());
+    std::printf("%s\n", report.dump(2).c_str());
   }
   if (!found) return fail(exit_failed, found.error().text());
   if (!json) {
@@ -66,7 +66,7 @@ int compare_senses(const DoctorOptions& options) {
   const auto config = config::read_board_config(options.config);
   if (!config && options.power_W <= 0.0) {
     const std::string problems = config::to_text(config.error());
-    if (options.json) tell_error(problems.substr(0, problems.find_last_not_of('\n') + 1));
+    if (options.json) print_error(problems.substr(0, problems.find_last_not_of('\n') + 1));
     std::fputs(problems.c_str(), stderr);
     return exit_wrong_input;
   }

@@ -60,7 +60,7 @@ int doctor_command(const DoctorOptions& options) {
   const auto config = config::read_board_config(options.config);
   if (!config) {
     const std::string why = config::to_text(config.error());
-    if (options.json) tell_error(why);
+    if (options.json) print_error(why);
     std::fputs(why.c_str(), stderr);
     return exit_wrong_input;
   }

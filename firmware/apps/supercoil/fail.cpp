@@ -12,13 +12,13 @@ int fail(int status, const std::string& message) {
   return status;
 }
 
-void tell_error(const std::string& message) {
-  const nlohmann::ordered_json told{{"error", message}};
-  std::printf("%s\n", told.dump().c_str());
+void print_error(const std::string& message) {
+  const nlohmann::ordered_json error{{"error", message}};
+  std::printf("%s\n", error.dump().c_str());
 }
 
 int refuse(bool json, int status, const std::string& message) {
-  if (json) tell_error(message);
+  if (json) print_error(message);
   return fail(status, message);
 }
 

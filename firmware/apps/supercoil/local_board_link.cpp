@@ -102,22 +102,23 @@ Result<KnownMuscle> LocalBoardLink::muscle(const std::string& channel) {
   KnownMuscle known;
   known.fill(NAN);  // for what an older board does not report
   std::istringstream words(line->substr(channel.size()));
-  std::size_t told = 0;
-  for (std::string word; told < known.size() && words >> word; ++told)
-    known[told] = std::strtod(word.c_str(), nullptr);  // streams do not read nan
-  if (told <= known_unexplained_ratio) return failure("muscle: " + *line);
+  std::size_t count = 0;
+  for (std::string word; count < known.size() && words >> word; ++count)
+    known[count] = std::strtod(word.c_str(), nullptr);  // streams do not read nan
+  if (count <= known_unexplained_ratio) return failure("muscle: " + *line);
   return known;
 }
 
 Result<double> LocalBoardLink::tuning(const std::string& channel, int place, std::size_t tunable,
                                       TuningSet set) {
   const std::string name(control::tunables()[tunable].name);
-  const auto told = socket_.ask("tuning " + channel + " " + std::to_string(place) + " " + name +
-                                " " + std::string(tuning_set_names[static_cast<std::size_t>(set)]));
-  if (!told) return tl::unexpected(told.error());
+  const auto answer =
+      socket_.ask("tuning " + channel + " " + std::to_string(place) + " " + name + " " +
+                  std::string(tuning_set_names[static_cast<std::size_t>(set)]));
+  if (!answer) return tl::unexpected(answer.error());
   char* end = nullptr;
-  const double value = std::strtod(told->c_str(), &end);
-  if (end == told->c_str()) return failure("tuning: " + *told);
+  const double value = std::strtod(answer->c_str(), &end);
+  if (end == answer->c_str()) return failure("tuning: " + *answer);
   return value;
 }
 

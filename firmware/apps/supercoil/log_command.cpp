@@ -33,7 +33,7 @@ Result<std::string> read(const std::string& path, storage::Files& files) {
   return std::move(*content);
 }
 
-int say(const std::string& text, storage::Files& files) {
+int print(const std::string& text, storage::Files& files) {
   const auto written = files.write({STDOUT_FILENO, "standard output"}, text);
   return written ? exit_done : fail(exit_failed, written.error().text());
 }
@@ -112,7 +112,7 @@ int log_command(const LogOptions& options) {
                  recording->damage.c_str(), recording->rows.size());
   }
   if (options.summary)
-    return say(options.json ? summary_json(*recording) : summary(*recording), files);
+    return print(options.json ? summary_json(*recording) : summary(*recording), files);
   recorder::select(*recording, options.from_s, options.to_s, options.channel - 1);
   return write_rows(*recording, options);
 }

@@ -333,7 +333,7 @@ int run_program(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     if (status == 0) return exit_done;
-    if (json) tell_error(error.what());
+    if (json) print_error(error.what());
     return exit_wrong_input;
   }
   if (app.got_subcommand("doctor")) return doctor_command(doctor);

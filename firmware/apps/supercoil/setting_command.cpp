@@ -33,31 +33,31 @@ std::optional<std::uint8_t> setting_of(const std::string& name) {
   return std::nullopt;
 }
 
-void tell(const can_client::Master::Setting& heard, bool json) {
-  const std::string name = telemetry::run_setting_name(heard.setting);
+void print_setting(const can_client::Master::Setting& answer, bool json) {
+  const std::string name = telemetry::run_setting_name(answer.setting);
   if (json) {
-    const nlohmann::ordered_json told{
-        {"setting", name}, {"value", heard.value}, {"refusal", supercoil::name(heard.refusal)}};
-    std::printf("%s\n", told.dump().c_str());
+    const nlohmann::ordered_json report{
+        {"setting", name}, {"value", answer.value}, {"refusal", supercoil::name(answer.refusal)}};
+    std::printf("%s\n", report.dump().c_str());
   } else {
-    std::printf("%s = %.7g\n", name.c_str(), heard.value);
+    std::printf("%s = %.7g\n", name.c_str(), answer.value);
   }
 }
 
 /// The range after an out-of-range value. nearest: would have been obeyed; NaN: not reported.
-std::string range_of_refused(const can_client::Master::Setting& heard, double value,
+std::string range_of_refused(const can_client::Master::Setting& answer, double value,
                              double nearest) {
   using telemetry::Message;
-  if (heard.setting >= telemetry::supply_gain)
+  if (answer.setting >= telemetry::supply_gain)
     return "; it is read-only: supercoil doctor --compare-senses determines it";
-  if (std::isnan(heard.value)) return "; the first node of its board sends that message";
-  const auto allowed = [](double lowest, double highest) {
-    return "; " + number_text(lowest, 7) + " to " + number_text(highest, 7) + " are in range";
+  if (std::isnan(answer.value)) return "; the first node of its board sends that message";
+  const auto allowed = [](double min_value, double max_value) {
+    return "; " + number_text(min_value, 7) + " to " + number_text(max_value, 7) + " are in range";
   };
   constexpr double max_Hz = telemetry::max_rate(INFINITY);
   const char* as_far = ", up to its ticks a second, as far as its bus has room";
-  if (heard.setting == 0) return value > nearest ? allowed(0.0, nearest) : "";
-  if (heard.setting == 1 + static_cast<std::uint8_t>(Message::status))
+  if (answer.setting == 0) return value > nearest ? allowed(0.0, nearest) : "";
+  if (answer.setting == 1 + static_cast<std::uint8_t>(Message::status))
     return allowed(telemetry::min_status_Hz, max_Hz) + as_far;
   return "; 0, for never, and " + allowed(telemetry::min_rate_Hz, max_Hz).substr(2) + as_far;
 }
@@ -78,25 +78,25 @@ std::string no_setting(const SettingOptions& options) {
          " --can " + options.can;
 }
 
-int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
-  const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
-  if (!heard) return refuse(options.json, exit_failed, heard.error().text());
-  tell(*heard, options.json);
-  if (heard->refusal == Refusal::none) return exit_done;
-  const bool out = heard->refusal == Refusal::out_of_range;
+int read_or_write(Commander& node, std::uint8_t setting, const SettingOptions& options) {
+  const auto answer = options.value ? node.write(setting, *options.value) : node.read(setting);
+  if (!answer) return refuse(options.json, exit_failed, answer.error().text());
+  print_setting(*answer, options.json);
+  if (answer->refusal == Refusal::none) return exit_done;
+  const bool out = answer->refusal == Refusal::out_of_range;
   const double nearest = out ? node.nearest() : NAN;
   const std::string range =
-      out ? range_of_refused(*heard, options.value.value_or(NAN), nearest) : "";
+      out ? range_of_refused(*answer, options.value.value_or(NAN), nearest) : "";
   return fail(exit_failed,
-              options.name + ": " + answer_with_reason({heard->refusal, nearest}) + range);
+              options.name + ": " + answer_with_reason({answer->refusal, nearest}) + range);
 }
 
 /// Prints the settings that this node has: the board's own belong to its first node.
-int all(Commander& node, bool json) {
+int print_all(Commander& node, bool json) {
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
-    const auto heard = node.read(i);
-    if (!heard) return refuse(json, exit_failed, heard.error().text());
-    if (heard->refusal == Refusal::none) tell(*heard, json);
+    const auto answer = node.read(i);
+    if (!answer) return refuse(json, exit_failed, answer.error().text());
+    if (answer->refusal == Refusal::none) print_setting(*answer, json);
   }
   return exit_done;
 }
@@ -111,7 +111,8 @@ int setting_command(const SettingOptions& options) {
   auto bus = open_bus(options.can, can_client::answer_ids(id));
   if (!bus) return refuse(options.json, exit_failed, bus.error().text());
   Commander node(std::move(*bus), id);
-  const int status = setting ? one(node, *setting, options) : all(node, options.json);
+  const int status =
+      setting ? read_or_write(node, *setting, options) : print_all(node, options.json);
   node.release();
   return status;
 }

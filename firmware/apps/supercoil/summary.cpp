@@ -65,15 +65,16 @@ void print_extent(Lines& lines, const recorder::Recording& recording) {
 }
 
 void print_other_faults(Lines& lines, const recorder::Recording& recording) {
-  constexpr std::size_t most = 20;
-  const std::vector<OtherFault> others = other_faults_of(recording);
-  const std::size_t told = std::min(most, others.size());
-  for (std::size_t i = 0; i < told; ++i) {
-    const auto& [at_s, channel, fault] = others[i];
+  constexpr std::size_t max_shown = 20;
+  const std::vector<OtherFault> other_faults = other_faults_of(recording);
+  const std::size_t shown = std::min(max_shown, other_faults.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& [at_s, channel, fault] = other_faults[i];
     lines.add("  %+.3f s: channel %d: %s", at_s, channel + 1,
               fault == 0 ? "fault reset" : recorder::fault_name(fault).c_str());
   }
-  if (told < others.size()) lines.add("  and %zu more faults and resets", others.size() - told);
+  if (shown < other_faults.size())
+    lines.add("  and %zu more faults and resets", other_faults.size() - shown);
 }
 
 double of(float value) {

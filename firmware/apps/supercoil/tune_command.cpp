@@ -75,8 +75,8 @@ void print(Tuned what, std::size_t place, const TunedValues& all) {
 }
 
 /// All controllers and estimators.
-TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
-  const auto tuning = read_tuning(ask_tuning(board, channel));
+TuningDone print_tuning(BoardLink& board, const std::string& channel, bool json) {
+  const auto tuning = read_tuning(tunable_reader(board, channel));
   if (!tuning) return tl::unexpected(tuning.error());
   if (json) {
     std::printf("%s\n", tuning_json(*tuning).dump().c_str());
@@ -99,18 +99,18 @@ int tune_command(const TuneOptions& options) {
   if (!board) return refuse(options.json, exit_failed, board.error().text());
   const std::string channel = std::to_string(options.channel);
   const auto found = find_place(what, options.estimator.value_or(options.controller),
-                                ask_tuning(**board, channel));
+                                tunable_reader(**board, channel));
   if (!found) return refuse(options.json, exit_for(found.error()), found.error().text());
   const int place = place_of(what, *found);
   TuningDone done;
   if (!changes->empty() || options.from != "in_use") {
     done = prepare_tuning(**board, channel, place, options.from, *changes);
     if (done && !options.only_prepare)
-      done = ask_for_tuning(**board, channel + " tune " + std::to_string(place));
+      done = send_tuning_command(**board, channel + " tune " + std::to_string(place));
   }
-  if (done && options.store) done = ask_for_tuning(**board, channel + " store tuning");
-  if (done && options.clear) done = ask_for_tuning(**board, channel + " clear tuning");
-  if (done) done = tell(**board, channel, options.json);
+  if (done && options.store) done = send_tuning_command(**board, channel + " store tuning");
+  if (done && options.clear) done = send_tuning_command(**board, channel + " clear tuning");
+  if (done) done = print_tuning(**board, channel, options.json);
   return done ? exit_done : refuse(options.json, exit_failed, done.error().text());
 }
 

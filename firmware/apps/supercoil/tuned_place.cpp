@@ -30,7 +30,7 @@ std::string places_text(const std::vector<std::string>& kinds) {
   return all;
 }
 
-AskTuning ask_tuning(BoardLink& board, const std::string& channel) {
+ReadTunable tunable_reader(BoardLink& board, const std::string& channel) {
   return [&board, channel](int place, std::size_t tunable, TuningSet set) {
     return board.tuning(channel, place, tunable, set);
   };
@@ -38,18 +38,18 @@ AskTuning ask_tuning(BoardLink& board, const std::string& channel) {
 
 Result<std::size_t> find_place(Tuned what, std::string_view word,
                                const std::vector<std::string>& kinds) {
-  const std::string whose(name(what));
+  const std::string noun(name(what));
   const auto number = number_of(word);
   if (number && *number < kinds.size()) return *number;
   const auto found = std::ranges::find(kinds, word);
   const auto of_kind = std::ranges::count(kinds, word);
   if (of_kind == 1) return static_cast<std::size_t>(found - kinds.begin());
   if (of_kind > 1) {
-    return failure("several " + whose + "s are " + std::string(word) +
+    return failure("several " + noun + "s are " + std::string(word) +
                        ": write the number; there are " + places_text(kinds),
                    std::errc::invalid_argument);
   }
-  return failure("there is no " + whose + " " + std::string(word) +
+  return failure("there is no " + noun + " " + std::string(word) +
                      (kinds.empty()       ? ""
                       : kinds.size() == 1 ? "; there is "
                                           : "; there are ") +
@@ -57,18 +57,19 @@ Result<std::size_t> find_place(Tuned what, std::string_view word,
                  std::errc::invalid_argument);
 }
 
-Result<std::size_t> find_place(Tuned what, std::string_view word, const AskTuning& ask) {
-  return read_kinds(what, ask).and_then(
-      [&](const std::vector<std::string>& kinds) { return find_place(what, word, kinds); });
+Result<std::size_t> find_place(Tuned what, std::string_view word, const ReadTunable& read_value) {
+  return read_kinds(what, read_value).and_then([&](const std::vector<std::string>& kinds) {
+    return find_place(what, word, kinds);
+  });
 }
 
-Result<std::size_t> find_any_place(std::string_view word, const AskTuning& ask) {
+Result<std::size_t> find_any_place(std::string_view word, const ReadTunable& read_value) {
   const Tuned what = is_estimator(word) ? Tuned::estimator : Tuned::controller;
   const auto number = number_of(word);
   const std::string among_its_like = what == Tuned::estimator && number
                                          ? std::to_string(*number - first_estimator_place)
                                          : std::string(word);
-  return find_place(what, among_its_like, ask).map([&](std::size_t place) {
+  return find_place(what, among_its_like, read_value).map([&](std::size_t place) {
     return static_cast<std::size_t>(place_of(what, place));
   });
 }

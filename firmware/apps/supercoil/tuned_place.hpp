@@ -15,7 +15,7 @@
 namespace supercoil::operating {
 
 /// channel: as in a line.
-AskTuning ask_tuning(BoardLink& board, const std::string& channel);
+ReadTunable tunable_reader(BoardLink& board, const std::string& channel);
 
 /// "0 (mrac), 1 (pi)"
 std::string places_text(const std::vector<std::string>& kinds);
@@ -26,10 +26,10 @@ Result<std::size_t> find_place(Tuned what, std::string_view word,
                                const std::vector<std::string>& kinds);
 
 /// The same for a running board.
-Result<std::size_t> find_place(Tuned what, std::string_view word, const AskTuning& ask);
+Result<std::size_t> find_place(Tuned what, std::string_view word, const ReadTunable& read_value);
 
 /// For `tune`, numbered as in Tuner: a number, or the kind of a controller or an estimator.
-Result<std::size_t> find_any_place(std::string_view word, const AskTuning& ask);
+Result<std::size_t> find_any_place(std::string_view word, const ReadTunable& read_value);
 
 /// A place that does not exist is a wrong input; a board that does not answer is not.
 inline int exit_for(const Error& wrong_place) {

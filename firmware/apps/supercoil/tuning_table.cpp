@@ -45,38 +45,39 @@ bool may_have(Tuned what, const Tunable& tunable) {
 }
 
 /// Empty: nothing is at this place.
-Result<TunedValues> read_place(Tuned what, std::size_t place, const AskTuning& ask) {
-  TunedValues told;
+Result<TunedValues> read_place(Tuned what, std::size_t place, const ReadTunable& read_value) {
+  TunedValues result;
   for (std::size_t i = 0; i < control::tunable_count; ++i) {
     if (!may_have(what, control::tunables()[i])) continue;
     TunableValues values{};
     for (std::size_t set = 0; set < values.size(); ++set) {
-      const auto value = ask(place_of(what, place), i, static_cast<TuningSet>(set));
+      const auto value = read_value(place_of(what, place), i, static_cast<TuningSet>(set));
       if (!value) return tl::unexpected(value.error());
       values[set] = *value;
     }
     const bool has = !std::ranges::all_of(values, [](double value) { return std::isnan(value); });
-    if (has) told.emplace(i, values);
-    if (told.empty()) break;
+    if (has) result.emplace(i, values);
+    if (result.empty()) break;
   }
-  return told;
+  return result;
 }
 
-Result<std::vector<TunedValues>> read_places(Tuned what, std::size_t places, const AskTuning& ask) {
+Result<std::vector<TunedValues>> read_places(Tuned what, std::size_t places,
+                                             const ReadTunable& read_value) {
   std::vector<TunedValues> all;
   for (std::size_t place = 0; place < places; ++place) {
-    auto told = read_place(what, place, ask);
-    if (!told) return tl::unexpected(told.error());
-    if (told->empty()) break;
-    all.push_back(std::move(*told));
+    auto result = read_place(what, place, read_value);
+    if (!result) return tl::unexpected(result.error());
+    if (result->empty()) break;
+    all.push_back(std::move(*result));
   }
   return all;
 }
 
 nlohmann::ordered_json places_json(Tuned what, const std::vector<TunedValues>& all) {
-  nlohmann::ordered_json told = nlohmann::ordered_json::array();
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
   for (const TunedValues& one : all) {
-    nlohmann::ordered_json values{{name(what), told.size()}};
+    nlohmann::ordered_json values{{name(what), result.size()}};
     for (const auto& [place, of_sets] : one) {
       const Tunable& tunable = control::tunables()[place];
       nlohmann::ordered_json sets;
@@ -84,9 +85,9 @@ nlohmann::ordered_json places_json(Tuned what, const std::vector<TunedValues>& a
         sets[std::string(tuning_set_names[set])] = as_json(what, tunable, of_sets[set]);
       values[std::string(tunable.name)] = sets;
     }
-    told.push_back(values);
+    result.push_back(values);
   }
-  return told;
+  return result;
 }
 
 nlohmann::ordered_json choices_json(Tuned what) {
@@ -100,24 +101,24 @@ nlohmann::ordered_json choices_json(Tuned what) {
 
 }  // namespace
 
-Result<TunedChannel> read_tuning(const AskTuning& ask) {
+Result<TunedChannel> read_tuning(const ReadTunable& read_value) {
   const board::StoredTuning tuned;
-  auto controllers = read_places(Tuned::controller, tuned.controllers.size(), ask);
+  auto controllers = read_places(Tuned::controller, tuned.controllers.size(), read_value);
   if (!controllers) return tl::unexpected(controllers.error());
   if (controllers->empty()) return failure("this board cannot be tuned");
-  auto estimators = read_places(Tuned::estimator, tuned.estimators.size(), ask);
+  auto estimators = read_places(Tuned::estimator, tuned.estimators.size(), read_value);
   if (!estimators) return tl::unexpected(estimators.error());
   return TunedChannel{std::move(*controllers), std::move(*estimators)};
 }
 
-Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask) {
+Result<std::vector<std::string>> read_kinds(Tuned what, const ReadTunable& read_value) {
   constexpr std::size_t kind = 0;
   const board::StoredTuning tuned;
   const std::size_t places =
       what == Tuned::controller ? tuned.controllers.size() : tuned.estimators.size();
   std::vector<std::string> kinds;
   while (kinds.size() < places) {
-    const auto value = ask(place_of(what, kinds.size()), kind, TuningSet::in_use);
+    const auto value = read_value(place_of(what, kinds.size()), kind, TuningSet::in_use);
     if (!value) return tl::unexpected(value.error());
     if (std::isnan(*value)) break;
     kinds.push_back(tuning_text(what, control::tunables()[kind], *value));
@@ -125,21 +126,21 @@ Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask) {
   return kinds;
 }
 
-Result<nlohmann::ordered_json> read_kinds(const AskTuning& ask) {
-  nlohmann::ordered_json told;
+Result<nlohmann::ordered_json> read_kinds(const ReadTunable& read_value) {
+  nlohmann::ordered_json result;
   for (const auto& [what, key] :
        {std::pair{Tuned::controller, "controllers"}, std::pair{Tuned::estimator, "estimators"}}) {
-    const auto kinds = read_kinds(what, ask);
+    const auto kinds = read_kinds(what, read_value);
     if (!kinds) return tl::unexpected(kinds.error());
-    told[key] = *kinds;
+    result[key] = *kinds;
   }
-  return told;
+  return result;
 }
 
-Result<std::vector<std::string>> read_names(int place, const AskTuning& ask) {
+Result<std::vector<std::string>> read_names(int place, const ReadTunable& read_value) {
   std::vector<std::string> names;
   for (const std::string& name : tunable_names(tuned_at(place))) {
-    const auto value = ask(place, control::tunable_named(name), TuningSet::prepared);
+    const auto value = read_value(place, control::tunable_named(name), TuningSet::prepared);
     if (!value) return tl::unexpected(value.error());
     if (!std::isnan(*value)) names.push_back(name);
   }

@@ -42,17 +42,17 @@ struct TunedChannel {
 };
 
 /// Asks the board for one value; place: numbered as in Tuner.
-using AskTuning = std::function<Result<double>(int place, std::size_t tunable, TuningSet set)>;
+using ReadTunable = std::function<Result<double>(int place, std::size_t tunable, TuningSet set)>;
 
 /// The error: no answer, or a board that cannot be tuned.
-Result<TunedChannel> read_tuning(const AskTuning& ask);
+Result<TunedChannel> read_tuning(const ReadTunable& read_value);
 /// The kinds in use, by their places. The error: no answer.
-Result<std::vector<std::string>> read_kinds(Tuned what, const AskTuning& ask);
+Result<std::vector<std::string>> read_kinds(Tuned what, const ReadTunable& read_value);
 /// Names of the values in a place's prepared set. place: numbered as in Tuner.
-Result<std::vector<std::string>> read_names(int place, const AskTuning& ask);
+Result<std::vector<std::string>> read_names(int place, const ReadTunable& read_value);
 /// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: only the kinds in use, by their
 /// places. The error: no answer.
-Result<nlohmann::ordered_json> read_kinds(const AskTuning& ask);
+Result<nlohmann::ordered_json> read_kinds(const ReadTunable& read_value);
 /// Names of all values that it may have.
 std::vector<std::string> tunable_names(Tuned what);
 

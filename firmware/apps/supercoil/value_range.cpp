@@ -41,14 +41,14 @@ std::string scale_range(BoardLink& board, const std::string& channel) {
 }
 
 std::string place_range(BoardLink& board, const std::string& channel, Tuned what) {
-  const auto kinds = read_kinds(what, ask_tuning(board, channel));
+  const auto kinds = read_kinds(what, tunable_reader(board, channel));
   if (!kinds || kinds->empty()) return "";
   return std::string(kinds->size() == 1 ? "; there is " : "; there are ") + places_text(*kinds);
 }
 
 }  // namespace
 
-std::string told_range(BoardLink& board, const std::string& channel, Verb verb) {
+std::string accepted_range_text(BoardLink& board, const std::string& channel, Verb verb) {
   if (verb == Verb::scale) return scale_range(board, channel);
   if (verb == Verb::controller) return place_range(board, channel, Tuned::controller);
   if (verb == Verb::estimator) return place_range(board, channel, Tuned::estimator);

@@ -10,6 +10,6 @@ namespace supercoil::operating {
 
 /// For scale, controller and estimator: "; there are 0 (learned_ff), 1 (pi)". Empty: for another
 /// command, or the board does not tell. channel: as in a line.
-std::string told_range(BoardLink& board, const std::string& channel, Verb verb);
+std::string accepted_range_text(BoardLink& board, const std::string& channel, Verb verb);
 
 }  // namespace supercoil::operating

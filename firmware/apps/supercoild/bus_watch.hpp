@@ -28,11 +28,11 @@ class BusWatch {
       const bool waits = reported.at && now - *reported.at < pause;
       if (bus.left_out == reported.left_out || waits) continue;
       reported = {bus.left_out, now};
-      std::array<char, 40> longest{};
-      std::snprintf(longest.data(), longest.size(), "%.1f ms", 1e3 * bus.max_s);
+      std::array<char, 40> max_text{};
+      std::snprintf(max_text.data(), max_text.size(), "%.1f ms", 1e3 * bus.max_s);
       lines.push_back("bus " + bus.name +
                       " is too slow for the loop: " + std::to_string(bus.left_out) +
-                      " rounds left out so far, the longest took " + longest.data());
+                      " rounds left out so far, the longest took " + max_text.data());
     }
     return lines;
   }

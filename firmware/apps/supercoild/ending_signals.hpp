@@ -38,9 +38,9 @@ inline bool ending_signal_is_pending() {
 }
 
 /// Waits up to `most`, which is less than a second, for one of them. Returns whether one came.
-inline bool ending_signal_within(hal::Duration most) {
+inline bool ending_signal_within(hal::Duration max_wait) {
   const sigset_t signals = ending_signals();
-  const timespec time{0, static_cast<decltype(timespec::tv_nsec)>(most.count())};
+  const timespec time{0, static_cast<decltype(timespec::tv_nsec)>(max_wait.count())};
   return sigtimedwait(&signals, nullptr, &time) >= 0;
 }
 

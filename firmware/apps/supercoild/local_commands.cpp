@@ -114,7 +114,7 @@ void LocalCommands::serve(Loop& loop, const NewestRows& rows, int max_ms) {
   for (std::size_t i = count; i-- > 0;) {
     if (watched[i + 1].revents == 0 || take_packet(clients_[i], loop, rows)) continue;
     std::erase_if(waiting_,
-                  [&](const auto& asked) { return asked.second == clients_[i].number(); });
+                  [&](const auto& request) { return request.second == clients_[i].number(); });
     clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
   }
   if (watched[0].revents != 0) accept_one();
@@ -162,8 +162,8 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), muscle_text(loop));
     return true;
   }
-  if (const auto told = answer_about_tuning(text, loop)) {
-    answer(client.number(), *told);
+  if (const auto tuning_answer = answer_about_tuning(text, loop)) {
+    answer(client.number(), *tuning_answer);
     return true;
   }
   if (text == "playback") {
@@ -186,14 +186,14 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
 }
 
 void LocalCommands::pass(const Answer& given, const Loop& loop) {
-  const auto asked = waiting_.find(given.command.id);
-  if (asked == waiting_.end()) return;  // from a client that is gone, or not from this socket
+  const auto request = waiting_.find(given.command.id);
+  if (request == waiting_.end()) return;  // from a client that is gone, or not from this socket
   std::string text = answer_text(given.refusal, given.nearest);
   if (given.refusal == Refusal::unsuitable && given.command.verb == Verb::tune)
     text += ": " + loop.channel(given.command.channel).tuner().problem();
-  answer(asked->second, text);
+  answer(request->second, text);
   // The loop answers in order: earlier commands that still wait have lost their answers.
-  waiting_.erase(waiting_.begin(), std::next(asked));
+  waiting_.erase(waiting_.begin(), std::next(request));
 }
 
 }  // namespace supercoil::daemon

@@ -62,10 +62,10 @@ std::optional<std::string> answer_about_tuning(std::string_view text, Loop& loop
   if (request == "prepare") return prepared(tuner, at, name, last);
   const auto set = set_named(last);
   if (!set) return wrong(last, "set of values");
-  std::ostringstream told;
-  told.precision(17);
-  told << tuner.value(*set, at, control::tunable_named(name));
-  return told.str();
+  std::ostringstream value_text;
+  value_text.precision(17);
+  value_text << tuner.value(*set, at, control::tunable_named(name));
+  return value_text.str();
 }
 
 }  // namespace supercoil::daemon

@@ -122,12 +122,12 @@ bool keep_until_signal(Parts& parts, Service& service) {
 bool cool(Parts& parts) {
   parts.telemetry->cool();
   hal_linux::MonotonicClock clock;
-  const hal::Time asked = clock.now();
+  const hal::Time begin = clock.now();
   const timespec a_round{0, static_cast<decltype(timespec::tv_nsec)>(round.count())};
   do {
     nanosleep(&a_round, nullptr);
     parts.storage_worker->poll(*parts.loop, clock.now());
-    if (clock.now() - asked > cool_within) return false;
+    if (clock.now() - begin > cool_within) return false;
   } while (!parts.storage_worker->all_off());
   parts.thread->stop();
   parts.thread.reset();

@@ -93,33 +93,33 @@ void StorageWorker::poll(Loop& loop, hal::Time now) {
     StorageWorker* storage_worker;
   } tee{this};
   recorder::pump(tee, recorder_, now);
-  tell_lost(loop.timing().lost_rows.load(std::memory_order_relaxed), told_lost_by_loop_,
-            "the telemetry thread was kept from running for more than a second");
+  report_lost(loop.timing().lost_rows.load(std::memory_order_relaxed), reported_lost_by_loop_,
+              "the telemetry thread was kept from running for more than a second");
   log_notes();
   for (std::size_t i = 0; i < stores_->size(); ++i)
     store_learned(loop, i);
 }
 
 void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
-  const std::string who = "channel " + std::to_string(channel + 1);
+  const std::string label = "channel " + std::to_string(channel + 1);
   board::LearnedUpdate update;
   while (loop.channel(channel).take_learned_update(update)) {
     if (!update) {
-      forget(channel, who);
+      forget(channel, label);
       continue;
     }
-    date(channel, who, update->senses);
+    date(channel, label, update->senses);
     const auto saved = (*stores_)[channel].save(*update);
     if (saved) {
-      log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
+      log(Level::info, label + " learned; stored as version " + std::to_string(*saved));
     } else {
-      log(Level::problem, who + " learned, but it is not stored: " + saved.error().text());
+      log(Level::problem, label + " learned, but it is not stored: " + saved.error().text());
     }
   }
 }
 
 /// The loop has no calendar: the storage worker dates the comparisons that it made.
-void StorageWorker::date(std::size_t channel, const std::string& who,
+void StorageWorker::date(std::size_t channel, const std::string& label,
                          board::SenseComparison& senses) {
   board::SenseComparison& known = senses_[channel];
   const bool is_known = senses.supply_gain == known.supply_gain &&
@@ -133,15 +133,15 @@ void StorageWorker::date(std::size_t channel, const std::string& who,
   known = senses;
   ChannelSettings now = config_->settings.channels[channel];
   now.senses = senses;
-  log(Level::info, who + ": senses: " + config::describe_senses(now, config_->settings));
+  log(Level::info, label + ": senses: " + config::describe_senses(now, config_->settings));
 }
 
-void StorageWorker::forget(std::size_t channel, const std::string& who) {
+void StorageWorker::forget(std::size_t channel, const std::string& label) {
   if (const auto forgotten = (*stores_)[channel].forget(); !forgotten) {
-    log(Level::problem, who + " cannot forget its muscle: " + forgotten.error().text());
+    log(Level::problem, label + " cannot forget its muscle: " + forgotten.error().text());
     return;
   }
-  log(Level::info, who + " has forgotten its muscle, from the next start on");
+  log(Level::info, label + " has forgotten its muscle, from the next start on");
 }
 
 void StorageWorker::finish() {
@@ -180,14 +180,15 @@ void StorageWorker::watch(const Row& row) {
   before = row;
 }
 
-void StorageWorker::tell_lost(std::size_t lost, std::size_t& told, const char* why) {
-  if (lost == told) return;
-  log(Level::warning, std::to_string(lost - told) + " rows are missing from recordings: " + why);
-  told = lost;
+void StorageWorker::report_lost(std::size_t lost, std::size_t& reported, const char* why) {
+  if (lost == reported) return;
+  log(Level::warning,
+      std::to_string(lost - reported) + " rows are missing from recordings: " + why);
+  reported = lost;
 }
 
 void StorageWorker::log_notes() {
-  tell_lost(relay_.lost(), told_lost_by_disk_, "the disk kept the recorder waiting");
+  report_lost(relay_.lost(), reported_lost_by_disk_, "the disk kept the recorder waiting");
   for (const recorder::RecorderNote& note : recorder_.take_notes())
     log(note.problem ? Level::problem : Level::info, note.text);
 }

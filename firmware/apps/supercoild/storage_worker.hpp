@@ -41,17 +41,17 @@ class StorageWorker {
  private:
   void watch(const Row& row);
   void store_learned(Loop& loop, std::size_t channel);
-  void forget(std::size_t channel, const std::string& who);
-  void date(std::size_t channel, const std::string& who, board::SenseComparison& senses);
+  void forget(std::size_t channel, const std::string& label);
+  void date(std::size_t channel, const std::string& label, board::SenseComparison& senses);
   void log_notes();
-  static void tell_lost(std::size_t lost, std::size_t& told, const char* why);
+  static void report_lost(std::size_t lost, std::size_t& reported, const char* why);
 
   const config::BoardConfig* config_;
   std::vector<storage::LearnedStore>* stores_;
   recorder::FlightRecorder recorder_;
   RowRelay relay_;
-  std::size_t told_lost_by_disk_ = 0;
-  std::size_t told_lost_by_loop_ = 0;
+  std::size_t reported_lost_by_disk_ = 0;
+  std::size_t reported_lost_by_loop_ = 0;
   std::vector<board::SenseComparison> senses_;  ///< in use by each channel
   std::vector<Row> last_;                       ///< of each channel
   std::uint64_t rows_ = 0;

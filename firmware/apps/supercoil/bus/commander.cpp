@@ -44,10 +44,10 @@ void Commander::drain() {
   }
 }
 
-template <class Heard>
-Result<Heard> Commander::exchange(
+template <class Content>
+Result<Content> Commander::exchange(
     const hal::CanFrame& frame,
-    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
+    const std::function<std::optional<Content>(const hal::CanFrame&)>& parse,
     std::chrono::milliseconds within) {
   const auto deadline = Clock::now() + within;
   hal::Status sent = bus_->send(frame);
@@ -57,8 +57,8 @@ Result<Heard> Commander::exchange(
   }
   if (sent != hal::Status::ok) return failure(std::string("cannot send on the bus: ") + text(sent));
   do {
-    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
-      if (const auto answer = hear(heard)) return *answer;
+    for (hal::CanFrame received; bus_->receive(received) == hal::Status::ok;) {
+      if (const auto answer = parse(received)) return *answer;
     }
     std::this_thread::sleep_for(nap);
   } while (Clock::now() < deadline);
@@ -68,23 +68,23 @@ Result<Heard> Commander::exchange(
 
 Commander::Answer Commander::exchange(const hal::CanFrame& frame,
                                       std::chrono::milliseconds within) {
-  const auto hear = [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
-    const auto answer = master_.receive_acknowledge(heard);
+  const auto parse = [&](const hal::CanFrame& received) -> std::optional<Refusal> {
+    const auto answer = master_.receive_acknowledge(received);
     if (!answer) return std::nullopt;
     return answer->refusal;
   };
-  return exchange<Refusal>(frame, hear, within);
+  return exchange<Refusal>(frame, parse, within);
 }
 
 Commander::Answer Commander::claim() {
   if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
-  const bool anew = !master_.holds_lease();
+  const bool is_new_claim = !master_.holds_lease();
   Answer answer = exchange(master_.claim(), answer_within);
   // Another master may have used the nonce first.
   for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
     answer = exchange(master_.claim(), answer_within);
   // A board of an older version takes the claim for a command without a lease.
-  if (anew && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
+  if (is_new_claim && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
   return answer;
 }
 
@@ -102,52 +102,53 @@ Commander::Answer Commander::command(Verb verb, double value) {
   return answer;
 }
 
-template <class Once>
-auto Commander::insist(const Once& once) {
+template <class Attempt>
+auto Commander::retry_under_lease(const Attempt& attempt) {
   drain();
-  auto answer = once();
+  auto answer = attempt();
   const auto is = [&](Refusal refusal) { return answer && refusal_of(*answer) == refusal; };
   // The lease has run out, or frames before this one were lost.
-  if (is(Refusal::no_lease) || is(Refusal::wrong_counter)) answer = once();
+  if (is(Refusal::no_lease) || is(Refusal::wrong_counter)) answer = attempt();
   if (is(Refusal::none)) lease_from_ = Clock::now();
   return answer;
 }
 
 Result<Refusal> Commander::ask(Verb verb, double value) {
-  return insist([&] { return command(verb, value); });
+  return retry_under_lease([&] { return command(verb, value); });
 }
 
 double Commander::nearest() {
   const auto deadline = Clock::now() + nearest_within;
   do {
-    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
-      if (const auto nearest = can_client::receive_nearest(master_.node(), heard)) return *nearest;
+    for (hal::CanFrame received; bus_->receive(received) == hal::Status::ok;) {
+      if (const auto nearest = can_client::receive_nearest(master_.node(), received))
+        return *nearest;
     }
     std::this_thread::sleep_for(nap);
   } while (Clock::now() < deadline);
   return NAN;
 }
 
-template <class Heard>
-Result<Heard> Commander::read_value(
+template <class Content>
+Result<Content> Commander::read_value(
     const hal::CanFrame& frame,
-    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
-  auto heard = exchange(frame, hear, answer_within);
-  return heard ? heard : exchange(frame, hear, answer_within);
+    const std::function<std::optional<Content>(const hal::CanFrame&)>& parse) {
+  auto answer = exchange(frame, parse, answer_within);
+  return answer ? answer : exchange(frame, parse, answer_within);
 }
 
 Commander::Setting Commander::read(std::uint8_t setting) {
   drain();
   return read_value<can_client::Master::Setting>(
       can_client::setting_read(master_.node(), setting), [&](const hal::CanFrame& frame) {
-        auto heard = master_.receive_setting(frame, false);
-        if (heard && heard->setting != setting) heard.reset();
-        return heard;
+        auto answer = master_.receive_setting(frame, false);
+        if (answer && answer->setting != setting) answer.reset();
+        return answer;
       });
 }
 
 Commander::Setting Commander::write(std::uint8_t setting, double value) {
-  return insist([&]() -> Setting {
+  return retry_under_lease([&]() -> Setting {
     const Answer claimed = claim();
     if (!claimed) return tl::unexpected(claimed.error());
     if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
@@ -167,7 +168,7 @@ Commander::Tuned Commander::read_tuning(const can_client::TunedPlace& place) {
 }
 
 Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double value) {
-  return insist([&]() -> Tuned {
+  return retry_under_lease([&]() -> Tuned {
     const Answer claimed = claim();
     if (!claimed) return tl::unexpected(claimed.error());
     if (*claimed != Refusal::none) return can_client::TunedValue{*claimed, NAN, 0};
@@ -179,13 +180,13 @@ Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double 
 }
 
 Commander::Played Commander::play(const std::function<hal::CanFrame()>& frame) {
-  return insist([&]() -> Played {
+  return retry_under_lease([&]() -> Played {
     const Answer claimed = claim();
     if (!claimed) return tl::unexpected(claimed.error());
     if (*claimed != Refusal::none)
       return can_client::Played{*claimed, PlaybackState::empty, 0, NAN};
     return exchange<can_client::Played>(
-        frame(), [&](const hal::CanFrame& heard) { return master_.receive_played(heard); },
+        frame(), [&](const hal::CanFrame& received) { return master_.receive_played(received); },
         answer_within);
   });
 }
@@ -215,12 +216,12 @@ Result<KnownMuscle> Commander::muscle() {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto quantity = static_cast<std::uint8_t>(i);
-    const auto told = read_value<double>(
+    const auto value = read_value<double>(
         can_client::muscle_read(master_.node(), quantity), [&](const hal::CanFrame& frame) {
           return can_client::receive_muscle(master_.node(), quantity, frame);
         });
-    if (!told) return tl::unexpected(told.error());
-    known[i] = *told;
+    if (!value) return tl::unexpected(value.error());
+    known[i] = *value;
   }
   return known;
 }

@@ -52,24 +52,25 @@ class Commander {
   using Clock = std::chrono::steady_clock;
   using Answer = Result<Refusal>;
 
-  /// Waits until hear(frame) returns the content of an answer.
-  template <class Heard>
-  Result<Heard> exchange(const hal::CanFrame& frame,
-                         const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
-                         std::chrono::milliseconds within);
+  /// Waits until parse(frame) returns the content of an answer.
+  template <class Content>
+  Result<Content> exchange(const hal::CanFrame& frame,
+                           const std::function<std::optional<Content>(const hal::CanFrame&)>& parse,
+                           std::chrono::milliseconds within);
   Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds within);
   /// frame(): builds a new frame for each attempt.
   Played play(const std::function<hal::CanFrame()>& frame);
   /// Reading changes nothing, so it is repeated once when the request or its answer was lost.
-  template <class Heard>
-  Result<Heard> read_value(const hal::CanFrame& frame,
-                           const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
+  template <class Content>
+  Result<Content> read_value(
+      const hal::CanFrame& frame,
+      const std::function<std::optional<Content>(const hal::CanFrame&)>& parse);
   /// Refusal::none: the lease is held.
   Answer claim();
   Answer command(Verb verb, double value);
   /// Asks under the lease, and retries once where that can help.
-  template <class Once>
-  auto insist(const Once& once);
+  template <class Attempt>
+  auto retry_under_lease(const Attempt& attempt);
 
   std::unique_ptr<hal::CanBus> bus_;
   can_client::Master master_;

@@ -110,14 +110,14 @@ hal::Status SocketcandBus::receive(hal::CanFrame& frame) {
   if (!socket_.is_open()) {
     if (Clock::now() < next_try_ || !connect(later_try)) return hal::Status::gone;
   }
-  for (bool asked = false;;) {
+  for (bool has_read = false;;) {
     const auto element = reader_.take();
-    if (!element && asked) break;
+    if (!element && has_read) break;
     if (!element) read();
-    asked = asked || !element;
-    const auto heard = element ? can_client::parse_frame(*element) : std::nullopt;
-    if (!heard) continue;
-    frame = *heard;
+    has_read = has_read || !element;
+    const auto parsed = element ? can_client::parse_frame(*element) : std::nullopt;
+    if (!parsed) continue;
+    frame = *parsed;
     return hal::Status::ok;
   }
   return socket_.is_open() ? hal::Status::not_ready : hal::Status::gone;

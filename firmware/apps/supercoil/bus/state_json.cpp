@@ -38,13 +38,13 @@ Json state_json(const FrameHistory& frame_history) {
       message[name] = value_json(signal, decoded->values.at(i));
     }
   }
-  Json told{{"nodes", Json::array()}};
+  Json result{{"nodes", Json::array()}};
   for (auto& [number, messages] : nodes) {
     Json node{{"node", number}};
     node.update(messages);
-    told["nodes"].push_back(node);
+    result["nodes"].push_back(node);
   }
-  return told;
+  return result;
 }
 
 }  // namespace supercoil::operating

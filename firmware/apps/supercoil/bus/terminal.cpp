@@ -90,12 +90,12 @@ std::string program_text(const Newest& node) {
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "  program %u.%u.%u", part("version_major"),
                 part("version_minor"), part("version_patch"));
-  std::string told = text.data();
+  std::string version = text.data();
   if (const unsigned commit = part("commit"); commit != 0) {
     std::snprintf(text.data(), text.size(), " (%07x)", commit);
-    told += text.data();
+    version += text.data();
   }
-  return told + '\n';
+  return version + '\n';
 }
 
 std::string node_text(int number, const Newest& node, const std::string& law) {

@@ -26,8 +26,8 @@ Expected supply_of(const BoardSettings& settings) {
   const BoardSupervision& s = settings.supervision;
   return {.quantity = "the supply",
           .scaling = settings.supply.scaling,
-          .lowest = s.min_supply_V,
-          .highest = s.max_supply_V,
+          .min = s.min_supply_V,
+          .max = s.max_supply_V,
           .unit = "V",
           .shown_per_unit = 1.0,
           .must_move = false,
@@ -38,8 +38,8 @@ Expected air_of(const BoardSettings& settings) {
   const board::AirSettings& air = settings.channels.front().thermal.air;
   return {.quantity = "the air's sensor",
           .scaling = settings.air.scaling,
-          .lowest = air.coldest_C - air.error_K,
-          .highest = air.warmest_C + air.error_K,
+          .min = air.coldest_C - air.error_K,
+          .max = air.warmest_C + air.error_K,
           .unit = "°C",
           .shown_per_unit = 1.0,
           .must_move = false,
@@ -52,8 +52,8 @@ Expected position_of(const ChannelSettings& settings) {
   const ChannelSupervision& s = settings.supervision;
   return {.quantity = "the position's sensor",
           .scaling = settings.position.scaling,
-          .lowest = s.min_position_m,
-          .highest = s.max_position_m,
+          .min = s.min_position_m,
+          .max = s.max_position_m,
           .unit = "mm",
           .shown_per_unit = 1e3,
           .must_move = s.position_noise_rms_m > 0.0,
@@ -64,8 +64,8 @@ Expected current_of(const ChannelSettings& settings) {
   const double off_A = settings.supervision.off_current_A;
   return {.quantity = "the current's sense",
           .scaling = settings.heater.current.scaling,
-          .lowest = -off_A,
-          .highest = off_A,
+          .min = -off_A,
+          .max = off_A,
           .unit = "mA",
           .shown_per_unit = 1e3,
           .must_move = false,

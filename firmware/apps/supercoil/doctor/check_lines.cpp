@@ -89,18 +89,19 @@ hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& foun
   constexpr const char* fit_resistor =
       "make sure a resistor on the board pulls it down: without one the gate may open when the "
       "firmware dies, and while the board starts";
-  const std::string told = std::string("; ") + text(found.bias);
+  const std::string bias_text = std::string("; ") + text(found.bias);
   if (found.level.status != hal::Status::ok) {
-    return {what, Severity::warning,
-            std::string("cannot be read while undriven: ") + hal::text(found.level.status) + told,
-            fit_resistor};
+    return {
+        what, Severity::warning,
+        std::string("cannot be read while undriven: ") + hal::text(found.level.status) + bias_text,
+        fit_resistor};
   }
   if (found.level.high) {
-    return {what, Severity::problem, "high while undriven" + told,
+    return {what, Severity::problem, "high while undriven" + bias_text,
             "fit a resistor that pulls it down more strongly than it is pulled up: the gate opens "
             "when the firmware dies"};
   }
-  const std::string low = "low while undriven" + told;
+  const std::string low = "low while undriven" + bias_text;
   if (found.bias == Bias::pull_down) return {what, Severity::ok, low, ""};
   return {what, Severity::warning, low, fit_resistor};
 }

@@ -21,9 +21,9 @@ std::string number(double value) {
 
 /// The rail at which all readings are stuck; empty: none.
 std::string rail(const Readings& readings, const std::optional<hal_linux::CountRange>& range) {
-  if (!range || readings.lowest() != readings.highest()) return {};
-  if (readings.lowest() == range->lowest) return "lowest";
-  if (readings.lowest() == range->highest) return "highest";
+  if (!range || readings.min() != readings.max()) return {};
+  if (readings.min() == range->lowest) return "lowest";
+  if (readings.min() == range->highest) return "highest";
   return {};
 }
 
@@ -71,27 +71,27 @@ Finding judged(const std::string& what, const std::string& where, const Readings
     return counts * expected.scaling.per_count + expected.scaling.offset;
   };
   const auto text = [&](double value) { return number(expected.shown_per_unit * value); };
-  const double first = in_unit(readings.lowest());
-  const double second = in_unit(readings.highest());
+  const double first = in_unit(readings.min());
+  const double second = in_unit(readings.max());
   const double low = std::min(first, second);
   const double high = std::max(first, second);
   const std::string unit = " " + expected.unit;
-  const std::string band = text(expected.lowest) + " to " + text(expected.highest) + unit;
+  const std::string band = text(expected.min) + " to " + text(expected.max) + unit;
   const std::string found = where + ": " + text(low) + " to " + text(high) + unit + ", noise " +
                             text(std::abs(expected.scaling.per_count) * readings.rms()) + unit +
                             " rms, " + std::to_string(all) + " readings";
   if (const std::string end = rail(readings, range); !end.empty()) {
     return {what, Severity::problem,
-            found + ", all of them " + std::to_string(readings.lowest()) +
+            found + ", all of them " + std::to_string(readings.min()) +
                 " counts: stuck at the converter's " + end + " rail",
             "check for a wire that is off or shorted at " + expected.quantity};
   }
-  if (low < expected.lowest || high > expected.highest) {
+  if (low < expected.min || high > expected.max) {
     return {what, Severity::problem, found + ": must be " + band, expected.remedy};
   }
-  if (expected.must_move && readings.lowest() == readings.highest()) {
+  if (expected.must_move && readings.min() == readings.max()) {
     return {what, Severity::warning,
-            found + ": the same " + std::to_string(readings.lowest()) + " counts each time",
+            found + ": the same " + std::to_string(readings.min()) + " counts each time",
             "move it by hand and run this again: a sensor without noise cannot be distinguished "
             "from a frozen one"};
   }

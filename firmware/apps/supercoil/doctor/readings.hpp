@@ -22,8 +22,8 @@ class Readings {
   std::int64_t good() const { return good_; }
   std::int64_t failed() const { return failed_; }
   hal::Status failure() const { return failure_; }
-  std::int32_t lowest() const { return min_; }
-  std::int32_t highest() const { return max_; }
+  std::int32_t min() const { return min_; }
+  std::int32_t max() const { return max_; }
   double mean() const;  ///< counts
   double rms() const;   ///< counts, around the mean
   hal::Duration mean_time() const;
@@ -43,8 +43,8 @@ class Readings {
 struct Expected {
   std::string quantity;  ///< "the supply"
   board::Scaling scaling;
-  double lowest = 0.0;  ///< in its unit
-  double highest = 0.0;
+  double min = 0.0;  ///< in its unit
+  double max = 0.0;
   std::string unit;             ///< as shown
   double shown_per_unit = 1.0;  ///< 1e3 shows metres as mm
   bool must_move = false;       ///< a value that never changes is invalid

@@ -34,6 +34,6 @@ Result<std::string> muscle_table(const Findings& findings);
 Figure identify_figure(const Findings& findings);
 
 /// Whether the recording constrains a parameter more tightly than what was assumed before.
-bool told(const identification::Fit& fit, std::size_t parameter);
+bool is_determined(const identification::Fit& fit, std::size_t parameter);
 
 }  // namespace supercoil::operating

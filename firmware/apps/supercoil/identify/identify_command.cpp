@@ -125,8 +125,8 @@ int identify_command(const IdentifyOptions& options) {
   if (muscle) table = muscle_table(found);
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;
-  if (const auto said = files.write({STDOUT_FILENO, "standard output"}, text); !said)
-    return refuse(options.json, exit_failed, said.error().text());
+  if (const auto written = files.write({STDOUT_FILENO, "standard output"}, text); !written)
+    return refuse(options.json, exit_failed, written.error().text());
   if (!table) return fail(exit_failed, table.error().text());
   if (options.muscle.empty()) return exit_done;
   const auto written = write_whole(options.muscle, *table);

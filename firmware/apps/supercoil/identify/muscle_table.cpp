@@ -16,7 +16,7 @@ void add_line(std::string& text, const char* key, double value, const char* comm
 
 bool reported_of(const identification::Fit& fit, double identification::Muscle::*member) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.parameters[i].member == member) return told(fit, i);
+    if (fit.parameters[i].member == member) return is_determined(fit, i);
   return false;
 }
 

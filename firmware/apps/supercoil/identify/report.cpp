@@ -68,7 +68,7 @@ void add_parameters(std::string& text, const Fit& part, const Fit& whole) {
     print(text, "  %-29s", std::string(part.parameters[i].name).c_str());
     add_value(text, part, i);
     add_value(text, whole, i);
-    text += told(whole, i) ? "\n" : " not determined\n";
+    text += is_determined(whole, i) ? "\n" : " not determined\n";
   }
 }
 
@@ -98,7 +98,7 @@ void add_theta(std::string& text, const Findings& f) {
 
 }  // namespace
 
-bool told(const Fit& fit, std::size_t parameter) {
+bool is_determined(const Fit& fit, std::size_t parameter) {
   const auto i = static_cast<Eigen::Index>(parameter);
   return std::sqrt(fit.covariance(i, i)) < 0.7 * fit.parameters[parameter].deviation;
 }

@@ -88,34 +88,34 @@ void serve_files(httplib::Server& server) {
 }
 
 json muscle_json(const KnownMuscle& known) {
-  json told;
+  json result;
   for (std::size_t i = 0; i < known.size(); ++i)
-    told[std::string(known_quantities[i])] = known[i];
+    result[std::string(known_quantities[i])] = known[i];
   for (const auto& [name, ratio] : named_deviations(identified_deviations(known)))
-    told[name] = ratio;
-  return told;
+    result[name] = ratio;
+  return result;
 }
 
 json refusals_json() {
-  json told;
+  json result;
   for (std::size_t i = 1; i < refusal_names.size(); ++i)
-    told[std::string(refusal_names[i])] = refusal_words(static_cast<Refusal>(i));
-  return told;
+    result[std::string(refusal_names[i])] = refusal_words(static_cast<Refusal>(i));
+  return result;
 }
 
 json results_json() {
-  json told;
+  json result;
   for (std::size_t i = 0; i < mode_result_names.size(); ++i)
-    told[std::string(mode_result_names[i])] = result_words[i];
-  return told;
+    result[std::string(mode_result_names[i])] = result_words[i];
+  return result;
 }
 
 /// In the order of their bits, the lowest first.
 json notes_json() {
-  json told = json::array();
+  json result = json::array();
   for (std::size_t i = 0; i < identify_note_names.size(); ++i)
-    told.push_back({{"name", identify_note_names[i]}, {"words", note_words[i]}});
-  return told;
+    result.push_back({{"name", identify_note_names[i]}, {"words", note_words[i]}});
+  return result;
 }
 
 }  // namespace
@@ -127,28 +127,28 @@ ManualControl& ManualControls::of(std::uint8_t node) {
   return *control;
 }
 
-Result<AskTuning> ManualControls::ask_tuning(std::uint8_t node) {
+Result<ReadTunable> ManualControls::tunable_reader(std::uint8_t node) {
   auto bus = bus_of_(node)();
   if (!bus) return tl::unexpected(bus.error());
   return [reader = std::make_shared<Commander>(std::move(*bus), node)](
              int place, std::size_t tunable, TuningSet set) -> Result<double> {
-    const auto heard = reader->read_tuning(
+    const auto tuned = reader->read_tuning(
         {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
-    if (!heard) return tl::unexpected(heard.error());
-    return heard->value;
+    if (!tuned) return tl::unexpected(tuned.error());
+    return tuned->value;
   };
 }
 
 Result<TunedChannel> ManualControls::read_tuning(std::uint8_t node) {
-  const auto ask = ask_tuning(node);
-  if (!ask) return tl::unexpected(ask.error());
-  return operating::read_tuning(*ask);
+  const auto reader = tunable_reader(node);
+  if (!reader) return tl::unexpected(reader.error());
+  return operating::read_tuning(*reader);
 }
 
 Result<nlohmann::ordered_json> ManualControls::read_kinds(std::uint8_t node) {
-  const auto ask = ask_tuning(node);
-  if (!ask) return tl::unexpected(ask.error());
-  return operating::read_kinds(*ask);
+  const auto reader = tunable_reader(node);
+  if (!reader) return tl::unexpected(reader.error());
+  return operating::read_kinds(*reader);
 }
 
 Result<KnownMuscle> ManualControls::read_muscle(std::uint8_t node) {
@@ -170,13 +170,13 @@ Api::Api(Access access, const FrameHistory& frame_history, ManualControls& contr
       about_(std::move(about)) {}
 
 template <class Read>
-void Api::tell_of_node(const Request& request, Response& response, Read read) {
+void Api::answer_from_node(const Request& request, Response& response, Read read) {
   if (about_.log) return refuse(response, 404, "a log has no board to ask");
   const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
   if (!node) return refuse(response, 400, node.error().text());
-  const auto told = read(*node);
-  if (!told) return refuse(response, 504, told.error().text());
-  answer_json(response, told->dump());
+  const auto result = read(*node);
+  if (!result) return refuse(response, 504, result.error().text());
+  answer_json(response, result->dump());
 }
 
 void Api::serve_with(httplib::Server& server) {
@@ -199,17 +199,17 @@ void Api::serve_with(httplib::Server& server) {
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   server.Post("/api/trajectory", commanded([this](const auto& q, auto& a) { play(q, a); }));
-  const auto told = [this](auto read) {
+  const auto from_node = [this](auto read) {
     // this->, because clang 14 otherwise reports the captured this as unused.
     return operating::shown(
-        access_, [this, read](const auto& q, auto& a) { this->tell_of_node(q, a, read); });
+        access_, [this, read](const auto& q, auto& a) { this->answer_from_node(q, a, read); });
   };
-  server.Get(R"(/api/tuning/(\d+))", told([this](std::uint8_t node) {
+  server.Get(R"(/api/tuning/(\d+))", from_node([this](std::uint8_t node) {
                return controls_->read_tuning(node).map(tuning_json);
              }));
   server.Get(R"(/api/kinds/(\d+))",
-             told([this](std::uint8_t node) { return controls_->read_kinds(node); }));
-  server.Get(R"(/api/muscle/(\d+))", told([this](std::uint8_t node) {
+             from_node([this](std::uint8_t node) { return controls_->read_kinds(node); }));
+  server.Get(R"(/api/muscle/(\d+))", from_node([this](std::uint8_t node) {
                return controls_->read_muscle(node).map(muscle_json);
              }));
   server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
@@ -219,7 +219,7 @@ void Api::serve_with(httplib::Server& server) {
 void Api::about(const Request& request, Response& response) const {
   // Requests for data have no Origin header to check.
   const bool may = !about_.log && !access_.read_only && has_token(access_, request);
-  const json told{
+  const json result{
       {"version", program_version()},
       {"source", about_.source},
       {"kind", about_.log ? "log" : "live"},
@@ -234,7 +234,7 @@ void Api::about(const Request& request, Response& response) const {
       {"results", results_json()},
       {"notes", notes_json()},
       {"infeasible", infeasible_json()}};
-  answer_json(response, told.dump());
+  answer_json(response, result.dump());
 }
 
 void Api::history(const Request& request, Response& response) const {
@@ -270,9 +270,9 @@ bool Api::stream_piece(httplib::DataSink& sink, Reader& reader) {
     const std::string lost = frame_history_->lost();
     if (lost.empty() == reader.was_lost) {
       reader.was_lost = !reader.was_lost;
-      const json told{{"reason", lost}};
-      return send((reader.was_lost ? "event: lost\ndata: " : "event: found\ndata: ") + told.dump() +
-                  "\n\n");
+      const json result{{"reason", lost}};
+      return send((reader.was_lost ? "event: lost\ndata: " : "event: found\ndata: ") +
+                  result.dump() + "\n\n");
     }
     FrameHistory::Part part = frame_history_->since(reader.next);
     reader.next = part.next;
@@ -307,17 +307,17 @@ void Api::command(const Request& request, Response& response) {
 }
 
 void Api::tune(const Request& request, Response& response) {
-  const auto asked = parse_tuning_request(request.body);
-  if (!asked) return refuse(response, 400, asked.error().text());
-  const auto answer = operating::tune(controls_->of(asked->node), *asked);
+  const auto parsed = parse_tuning_request(request.body);
+  if (!parsed) return refuse(response, 400, parsed.error().text());
+  const auto answer = operating::tune(controls_->of(parsed->node), *parsed);
   if (!answer) return refuse(response, 504, answer.error().text());
   answer_json(response, json{{"refusal", name(*answer)}}.dump());
 }
 
 void Api::play(const Request& request, Response& response) {
-  const auto asked = parse_trajectory_request(request.body);
-  if (!asked) return refuse(response, 400, asked.error().text());
-  const auto sent = controls_->of(asked->node).play(asked->knots, asked->start);
+  const auto parsed = parse_trajectory_request(request.body);
+  if (!parsed) return refuse(response, 400, parsed.error().text());
+  const auto sent = controls_->of(parsed->node).play(parsed->knots, parsed->start);
   if (!sent) return refuse(response, 504, sent.error().text());
   answer_json(response, sent_json(*sent));
 }
@@ -326,9 +326,9 @@ void Api::alive(const Request& request, Response& response) {
   const auto node = parse_node(request.body);
   if (!node) return refuse(response, 400, node.error().text());
   const ManualControl::Holding holding = controls_->of(*node).alive();
-  json told{{"holding", holding.holding}};
-  if (!holding.holding) told["reason"] = holding.reason;
-  answer_json(response, told.dump());
+  json result{{"holding", holding.holding}};
+  if (!holding.holding) result["reason"] = holding.reason;
+  answer_json(response, result.dump());
 }
 
 }  // namespace supercoil::operating

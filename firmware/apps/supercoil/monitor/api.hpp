@@ -34,7 +34,7 @@ class ManualControls {
 
  private:
   /// For a series of questions.
-  Result<AskTuning> ask_tuning(std::uint8_t node);
+  Result<ReadTunable> tunable_reader(std::uint8_t node);
 
   std::function<ManualControl::OpenBus(std::uint8_t)> bus_of_;
   std::mutex mutex_;
@@ -69,7 +69,7 @@ class Api {
   void alive(const Request& request, Response& response);
   /// read(node): the board's answer as JSON. The address contains the node.
   template <class Read>
-  void tell_of_node(const Request& request, Response& response, Read read);
+  void answer_from_node(const Request& request, Response& response, Read read);
   void tune(const Request& request, Response& response);
   struct Reader {
     std::uint64_t next = 0;  ///< frame

@@ -118,11 +118,11 @@ std::string protocol_json() {
   nlohmann::ordered_json all;
   for (const can::MessageInfo& message : can::all_messages) {
     for (const can::SignalInfo& signal : message.signals) {
-      auto& told = all[std::string(message.name)][std::string(signal.name)];
-      told["unit"] = signal.unit;
-      told["digits"] = digits_on_page(signal);
+      auto& entry = all[std::string(message.name)][std::string(signal.name)];
+      entry["unit"] = signal.unit;
+      entry["digits"] = digits_on_page(signal);
       for (const can::ValueName& value : signal.names)
-        told["values"][std::to_string(value.raw)] = value.name;
+        entry["values"][std::to_string(value.raw)] = value.name;
     }
   }
   return all.dump();

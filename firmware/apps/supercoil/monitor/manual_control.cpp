@@ -44,9 +44,9 @@ ManualControl::Answer ManualControl::ask(Verb verb, double value) {
 ManualControl::Answer ManualControl::prepare(const can_client::TunedPlace& place, double value) {
   return wait_for([this, place, value] {
     return with_commander([&](Commander& commander) -> Answer {
-      const auto heard = commander.prepare(place, value);
-      if (!heard) return tl::unexpected(heard.error());
-      return heard->refusal;
+      const auto tuned = commander.prepare(place, value);
+      if (!tuned) return tl::unexpected(tuned.error());
+      return tuned->refusal;
     });
   });
 }

@@ -91,10 +91,10 @@ void StopServer::run() {
 /// The next stop answers all requests that came during a stop together.
 void StopServer::stop(const std::vector<Waiting>& waiting) {
   const std::string failed = disarm_all();
-  nlohmann::json told{{"nodes", frame_history_->nodes()}};
-  if (!failed.empty()) told["error"] = failed;
+  nlohmann::json result{{"nodes", frame_history_->nodes()}};
+  if (!failed.empty()) result["error"] = failed;
   for (const auto& [answer, origin] : waiting)
-    answer({failed.empty() ? 200 : 502, origin, told.dump()});
+    answer({failed.empty() ? 200 : 502, origin, result.dump()});
 }
 
 std::string StopServer::open_bus() {
@@ -109,7 +109,7 @@ std::string StopServer::open_bus() {
 /// A silent loss of the bus only shows when reading; the frames are dropped.
 void StopServer::keep_bus() {
   if (bus_) {
-    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
+    for (hal::CanFrame dropped; bus_->receive(dropped) == hal::Status::ok;) {
     }
   } else if (Clock::now() >= next_try_) {
     open_bus();

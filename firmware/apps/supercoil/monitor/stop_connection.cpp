@@ -39,7 +39,7 @@ void StopConnection::start() {
 void StopConnection::close() {
   boost::system::error_code ignored;
   // Closes a connection without a request so that nothing remains in the kernel either.
-  if (!has_asked_) socket_.set_option(boost::asio::socket_base::linger(true, 0), ignored);
+  if (!has_request_) socket_.set_option(boost::asio::socket_base::linger(true, 0), ignored);
   socket_.close(ignored);
   deadline_.cancel();
 }
@@ -53,7 +53,7 @@ void StopConnection::close_after(std::chrono::milliseconds time) {
 }
 
 void StopConnection::take_request() {
-  has_asked_ = true;
+  has_request_ = true;
   close_after(max_answer_time);
   httplib::Request request;
   request.method = text(parser_.get().method_string());

@@ -25,7 +25,7 @@ class StopConnection : public std::enable_shared_from_this<StopConnection> {
   void close();
   bool is_open() const { return socket_.is_open(); }
   /// Whether its request is complete.
-  bool has_asked() const { return has_asked_; }
+  bool has_request() const { return has_request_; }
 
  private:
   void take_request();
@@ -42,7 +42,7 @@ class StopConnection : public std::enable_shared_from_this<StopConnection> {
   boost::beast::flat_buffer buffer_{max_header_bytes + max_body_bytes};
   boost::beast::http::request_parser<boost::beast::http::string_body> parser_;
   boost::beast::http::response<boost::beast::http::string_body> response_;
-  bool has_asked_ = false;
+  bool has_request_ = false;
 };
 
 }  // namespace supercoil::operating

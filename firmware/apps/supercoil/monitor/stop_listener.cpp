@@ -87,7 +87,7 @@ void StopListener::accept_later() {
 /// Only those without a complete request: a requested STOP is obeyed whether answered or not.
 void StopListener::close_oldest() {
   auto oldest = std::find_if(connections_.begin(), connections_.end(),
-                             [](const auto& connection) { return !connection->has_asked(); });
+                             [](const auto& connection) { return !connection->has_request(); });
   if (oldest == connections_.end()) oldest = connections_.begin();
   (*oldest)->close();
   connections_.erase(oldest);

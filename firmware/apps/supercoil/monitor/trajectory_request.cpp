@@ -40,16 +40,16 @@ class KnotReader {
  private:
   double value(const json& knot, const char* key, can::SignalOf<can::message::knot> signal) {
     constexpr double beyond = std::numeric_limits<double>::infinity();
-    const double least = nearest_sent(signal, -beyond);
-    const double most = nearest_sent(signal, beyond);
+    const double min_value = nearest_sent(signal, -beyond);
+    const double max_value = nearest_sent(signal, beyond);
     const auto given = knot.find(key);
     const bool number = given != knot.end() && given->is_number();
     const double value = number ? given->get<double>() : NAN;
-    if (value >= least && value <= most) return value;
-    const std::string said = given == knot.end() ? "missing" : given->dump();
+    if (value >= min_value && value <= max_value) return value;
+    const std::string given_text = given == knot.end() ? "missing" : given->dump();
     if (!problem_) {
-      problem_ = name_ + ": " + key + " is " + said + "; it must be " + json(least).dump() +
-                 " to " + json(most).dump();
+      problem_ = name_ + ": " + key + " is " + given_text + "; it must be " +
+                 json(min_value).dump() + " to " + json(max_value).dump();
     }
     return NAN;
   }
@@ -60,8 +60,9 @@ class KnotReader {
 
 Result<std::vector<ManualControl::NextKnot>> knots_of(const json& given) {
   if (!given.is_array() || given.size() > max_knots_at_once) {
-    const std::string said = given.is_array() ? std::to_string(given.size()) + " knots" : "no list";
-    return failure("knots is " + said + "; it must be a list of 0 to " +
+    const std::string given_text =
+        given.is_array() ? std::to_string(given.size()) + " knots" : "no list";
+    return failure("knots is " + given_text + "; it must be a list of 0 to " +
                    std::to_string(max_knots_at_once));
   }
   std::vector<ManualControl::NextKnot> knots;

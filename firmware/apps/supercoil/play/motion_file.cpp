@@ -27,7 +27,7 @@ struct Columns {
 };
 
 /// The largest value that a knot can carry.
-double largest(can::SignalOf<can::message::knot> signal) {
+double max_value(can::SignalOf<can::message::knot> signal) {
   hal::CanFrame frame;
   can::put(frame, signal.info(), INFINITY);
   return can::get(frame, signal.info());
@@ -122,7 +122,7 @@ class MotionReader {
     // Round to the bus's milliseconds.
     time_s = std::round((time_s - begins_s_) * 1e3) / 1e3;
     const double step_s = rows_.empty() ? min_row_step_s : time_s - rows_.back()[*time_];
-    const double max_row_step_s = largest("after_s");
+    const double max_row_step_s = max_value("after_s");
     if (!(step_s > 0.5 * min_row_step_s && step_s < max_row_step_s + 0.5 * min_row_step_s)) {
       return at_line("time_s is " + std::to_string(step_s) +
                      " s after the row before; it must be " + shortest_text(min_row_step_s) +
@@ -150,18 +150,18 @@ class MotionReader {
   }
 
   std::optional<std::string> check(const Motion& motion) const {
-    const std::string whose = name_ + ": node " + std::to_string(motion.node) + ": ";
+    const std::string prefix = name_ + ": node " + std::to_string(motion.node) + ": ";
     for (const auto& [which, knot] :
          {std::pair{"first", motion.knots.front()}, std::pair{"last", motion.knots.back()}}) {
       if (knot.velocity_m_per_s != 0.0)
-        return whose + "velocity_m_per_s of the " + which + " row must be 0";
+        return prefix + "velocity_m_per_s of the " + which + " row must be 0";
     }
-    const double max_velocity = largest("velocity_m_per_s");
+    const double max_velocity = max_value("velocity_m_per_s");
     const auto fast = std::ranges::find_if(motion.knots, [&](const control::Knot& knot) {
       return std::abs(knot.velocity_m_per_s) > max_velocity;
     });
     if (fast == motion.knots.end()) return std::nullopt;
-    return whose + "at " + shortest_text(fast->time_s) + " s it moves by " +
+    return prefix + "at " + shortest_text(fast->time_s) + " s it moves by " +
            std::to_string(fast->velocity_m_per_s) + " m/s; at most " + shortest_text(max_velocity) +
            " can be sent";
   }

@@ -28,10 +28,10 @@ void CanMotionLink::send_sync(std::uint8_t number, double master_time_s) {
 }
 
 MotionLink::Answered LocalMotionLink::command(const std::string& words) {
-  const auto told = socket_.ask(channel_ + " " + words);
-  if (!told) return tl::unexpected(told.error());
-  const auto reply = parse_answer(*told);
-  if (!reply) return failure(*told);
+  const auto answer = socket_.ask(channel_ + " " + words);
+  if (!answer) return tl::unexpected(answer.error());
+  const auto reply = parse_answer(*answer);
+  if (!reply) return failure(*answer);
   return *reply;
 }
 

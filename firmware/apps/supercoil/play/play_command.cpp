@@ -63,8 +63,8 @@ int play_command(const PlayOptions& options) {
   if (interrupted != 0 && !options.hold)
     return refuse(options.json, exit_failed, "interrupted; the muscle rests");
   if (options.json) {
-    const nlohmann::json told{{"played", true}};
-    std::printf("%s\n", told.dump().c_str());
+    const nlohmann::json report{{"played", true}};
+    std::printf("%s\n", report.dump().c_str());
   }
   return exit_done;
 }

@@ -57,15 +57,15 @@ Result<Player> Player::open_local(const std::string& socket, std::vector<Motion>
   return player;
 }
 
-std::string Player::whose(const Node& node) const {
+std::string Player::prefix_of(const Node& node) const {
   return kind_ + " " + std::to_string(node.motion.node) + ": ";
 }
 
 Player::Problem Player::take(Node& node, Verb verb, const std::string& what,
                              const MotionLink::Played& played) {
-  if (!played) return whose(node) + what + ": " + played.error().text();
+  if (!played) return prefix_of(node) + what + ": " + played.error().text();
   if (played->refusal != Refusal::none)
-    return whose(node) + what + ": " + answer_with_reason(Reply(played->refusal), verb);
+    return prefix_of(node) + what + ": " + answer_with_reason(Reply(played->refusal), verb);
   node.played = *played;
   return std::nullopt;
 }
@@ -74,7 +74,7 @@ Player::Problem Player::go_to_start() {
   for (Node& node : nodes_) {
     const double first_m = node.motion.knots.front().position_m;
     const auto answer = node.link->ask(Verb::position, first_m);
-    const std::string what = whose(node) + "position " + std::to_string(first_m) + ": ";
+    const std::string what = prefix_of(node) + "position " + std::to_string(first_m) + ": ";
     if (!answer) return what + answer.error().text();
     if (answer->refusal != Refusal::none) return what + answer_with_reason(*answer, Verb::position);
     node.renewed = Clock::now();
@@ -86,9 +86,10 @@ Player::Problem Player::renew(Node& node) {
   if (Clock::now() - node.renewed < renew_every) return std::nullopt;
   node.renewed = Clock::now();
   const auto answer = node.link->ask(Verb::renew, 0.0);
-  if (!answer) return whose(node) + answer.error().text();
+  if (!answer) return prefix_of(node) + answer.error().text();
   if (answer->refusal != Refusal::none)
-    return whose(node) + "the board stopped it (" + answer_with_reason(*answer, Verb::renew) + ")";
+    return prefix_of(node) + "the board stopped it (" + answer_with_reason(*answer, Verb::renew) +
+           ")";
   return take(node, Verb::none, "playback", node.link->playback());
 }
 
@@ -144,7 +145,7 @@ bool Player::loaded() const {
 
 Player::Problem Player::start() {
   const auto board_s = nodes_.front().link->board_s();
-  if (!board_s) return whose(nodes_.front()) + board_s.error().text();
+  if (!board_s) return prefix_of(nodes_.front()) + board_s.error().text();
   const bool by_socket = std::isfinite(*board_s);
   const double channels = by_socket ? static_cast<double>(nodes_.size()) : 0.0;
   const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1),
@@ -178,14 +179,14 @@ Player::Problem Player::stopped(const Node& node) const {
   // If the last knot it got is at rest, the board considers the motion ended.
   if (state == PlaybackState::dry || (state == PlaybackState::ended && !node.has_sent_all())) {
     const double last_s = node.motion.knots[node.next - 1].time_s;
-    return whose(node) + "ran dry: the knot after the one at " + seconds_text(last_s) +
+    return prefix_of(node) + "ran dry: the knot after the one at " + seconds_text(last_s) +
            " came too late";
   }
   if (state == PlaybackState::empty)
-    return whose(node) + "received another command in the meantime";
+    return prefix_of(node) + "received another command in the meantime";
   const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
   if (waits && Clock::now() - started_ > started_within)
-    return whose(node) + "has not started: " + node.link->why_not_started();
+    return prefix_of(node) + "has not started: " + node.link->why_not_started();
   return std::nullopt;
 }
 

@@ -58,7 +58,7 @@ class Player {
 
   explicit Player(std::string_view kind);
   /// Prefix for errors: "node 5: ".
-  std::string whose(const Node& node) const;
+  std::string prefix_of(const Node& node) const;
   /// verb: the command that was sent; none: not a command.
   Problem take(Node& node, Verb verb, const std::string& what, const MotionLink::Played& played);
   /// Runs the step for each node on its own thread, as each has its own connection. Returns the

@@ -166,11 +166,11 @@ Commission::ResultText Commission::run_mode(const std::string& mode, double max_
   const auto all = endings(board_, channel_);
   if (!all) return tl::unexpected(all.error());
   for (const auto& [channel, ending] : *all) {
-    std::string muscle = mode;
-    if (all->size() > 1) muscle += " of channel " + channel;
-    if (all->size() > 1) user_.show(muscle + ": " + ending.result);
+    std::string label = mode;
+    if (all->size() > 1) label += " of channel " + channel;
+    if (all->size() > 1) user_.show(label + ": " + ending.result);
     if (!ending.notes.empty() && ending.notes != ending.result)
-      user_.show(muscle + " notes: " + ending.notes);
+      user_.show(label + " notes: " + ending.notes);
   }
   return all->back().ending.result;
 }
@@ -198,22 +198,21 @@ std::optional<Commission::MeasuredMuscle> Commission::antagonist() const {
                         settings_.channels[joint->antagonist]};
 }
 
-double Commission::max_time_s(
-    const std::function<double(const ChannelSettings&)>& time_s_of) const {
+double Commission::max_time_s(const std::function<double(const ChannelSettings&)>& time_of) const {
   double max_s = 0.0;
   for (const std::size_t channel : heated_together(settings_, index_))
-    max_s = std::max(max_s, time_s_of(settings_.channels[channel]));
+    max_s = std::max(max_s, time_of(settings_.channels[channel]));
   return max_s;
 }
 
-StepResult Commission::report_each(Report found) {
+StepResult Commission::report_each(Report report) {
   const auto other = antagonist();
-  if (!other) return (this->*found)({channel_, configured_});
+  if (!other) return (this->*report)({channel_, configured_});
   user_.show("the agonist, channel " + channel_ + ":");
-  auto own = (this->*found)({channel_, configured_});
+  auto own = (this->*report)({channel_, configured_});
   if (!own) return own;
   user_.show("the antagonist, channel " + other->channel + ":");
-  auto other_result = (this->*found)(*other);
+  auto other_result = (this->*report)(*other);
   if (!other_result) return other_result;
   (*other_result)["channel"] = settings_.joint_of(index_)->antagonist + 1;
   (*own)[SetupRecord::antagonist_key] = std::move(*other_result);
@@ -284,8 +283,9 @@ StepResult Commission::scale() {
   const auto taken = board_.ask(line);
   if (!taken) return tl::unexpected(taken.error());
   if (*taken != "ok") {
-    const std::string range =
-        refuses(*taken, Refusal::out_of_range) ? told_range(board_, channel_, Verb::scale) : "";
+    const std::string range = refuses(*taken, Refusal::out_of_range)
+                                  ? accepted_range_text(board_, channel_, Verb::scale)
+                                  : "";
     return failure(with_present_fault(
         line.substr(channel_.size() + 1) + ": " + answer_with_reason(line, *taken + range), board_,
         channel_));

@@ -71,9 +71,9 @@ class Commission {
   /// The muscle that identify and calibrate continue with; empty: this channel is not an agonist.
   std::optional<MeasuredMuscle> antagonist() const;
   /// The longest time of the muscles that are heated together: all have to be cold.
-  double max_time_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
+  double max_time_s(const std::function<double(const ChannelSettings&)>& time_of) const;
   /// Reports what was found; for an agonist also for the antagonist.
-  StepResult report_each(Report found);
+  StepResult report_each(Report report);
   StepResult report_calibration(const MeasuredMuscle& muscle);
   StepResult report_muscle(const MeasuredMuscle& muscle);
   /// Repeats calibrate until the muscle must be cold.

@@ -58,8 +58,8 @@ TuningDone take_over(BoardLink& board, const std::string& channel, const Control
     if (values[i]) changes.push_back({i, *values[i]});
   }
   auto done = prepare_tuning(board, channel, 0, "in_use", changes);
-  if (done) done = ask_for_tuning(board, channel + " tune 0");
-  if (done) done = ask_for_tuning(board, channel + " store tuning");
+  if (done) done = send_tuning_command(board, channel + " tune 0");
+  if (done) done = send_tuning_command(board, channel + " store tuning");
   return done;
 }
 

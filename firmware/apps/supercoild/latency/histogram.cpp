@@ -31,8 +31,8 @@ double Histogram::mean_ns() const {
   return count_ == 0 ? 0.0 : sum_ns_ / static_cast<double>(count_);
 }
 
-hal::Duration Histogram::quantile(double share) const {
-  const double wanted = share * static_cast<double>(count_);
+hal::Duration Histogram::quantile(double fraction) const {
+  const double wanted = fraction * static_cast<double>(count_);
   double counted = 0.0;
   // The last bin also counts times beyond its end.
   for (std::size_t i = 0; i + 1 < bins_.size(); ++i) {
@@ -52,17 +52,17 @@ std::vector<Bar> bars(const Histogram& histogram) {
   };
   std::vector<Bar> all;
   if (histogram.count() == 0) return all;
-  const std::size_t last = bin_of(histogram.longest());
+  const std::size_t last = bin_of(histogram.max());
   const std::size_t tail = bin_of(histogram.quantile(tail_begins));
-  std::size_t wide = round_up((tail - bin_of(histogram.shortest())) / max_bars + 1);
-  std::size_t from = bin_of(histogram.shortest()) / wide * wide;
+  std::size_t wide = round_up((tail - bin_of(histogram.min())) / max_bars + 1);
+  std::size_t from = bin_of(histogram.min()) / wide * wide;
   while (from <= last) {
     const std::size_t to = std::min(from + wide, histogram.bins().size());
     Bar bar{static_cast<std::int64_t>(from) * histogram.width(),
             static_cast<std::int64_t>(to) * histogram.width(), 0};
     for (std::size_t i = from; i < to; ++i)
       bar.count += histogram.bins()[i];
-    if (to == histogram.bins().size()) bar.to = std::max(bar.to, histogram.longest());
+    if (to == histogram.bins().size()) bar.to = std::max(bar.to, histogram.max());
     if (bar.count > 0) all.push_back(bar);
     if (to > tail) wide *= 2;
     from = to;

@@ -23,12 +23,12 @@ class Histogram {
   const std::vector<std::uint64_t>& bins() const { return bins_; }
   std::uint64_t count() const { return count_; }
   /// Exact, not rounded to bins; 0 when nothing was added.
-  hal::Duration shortest() const { return count_ == 0 ? hal::Duration{} : min_; }
-  hal::Duration longest() const { return max_; }
+  hal::Duration min() const { return count_ == 0 ? hal::Duration{} : min_; }
+  hal::Duration max() const { return max_; }
   double mean_ns() const;
   /// At least `share` (0 to 1) of the times are at most this: the end of a bin, but never more than
   /// the longest time.
-  hal::Duration quantile(double share) const;
+  hal::Duration quantile(double fraction) const;
 
  private:
   hal::Duration width_;

@@ -52,7 +52,7 @@ class LatencyMeter final : public hal::Clock {
       result_.late.add(tick.late);
       result_.tick.add(tick.execution);
       result_.overruns = loop_->overruns() - overruns_before_;
-      latest_ns_.store(result_.late.longest().count(), std::memory_order_relaxed);
+      latest_ns_.store(result_.late.max().count(), std::memory_order_relaxed);
       measured_.store(result_.late.count(), std::memory_order_relaxed);
     }
     ++waits_;

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 struct Percentile {
   const char* name;
-  double share;
+  double fraction;
 };
 constexpr std::array<Percentile, 4> percentiles{
     {{"p50", 0.5}, {"p99", 0.99}, {"p99.9", 0.999}, {"p99.99", 0.9999}}};
@@ -45,19 +45,19 @@ void add_histogram(std::string& text, const char* title, const Histogram& histog
     add_line(text, "%10.4g %10.4g %10llu %s", us(bar.from), us(bar.to),
              static_cast<unsigned long long>(bar.count), signs.c_str());
   }
-  add_line(text, "  min %.4g, mean %.4g", us(histogram.shortest()), 1e-3 * histogram.mean_ns());
+  add_line(text, "  min %.4g, mean %.4g", us(histogram.min()), 1e-3 * histogram.mean_ns());
   for (const Percentile& p : percentiles)
-    add_line(text, "  %s %.5g", p.name, us(histogram.quantile(p.share)));
-  add_line(text, "  max %.5g", us(histogram.longest()));
+    add_line(text, "  %s %.5g", p.name, us(histogram.quantile(p.fraction)));
+  add_line(text, "  max %.5g", us(histogram.max()));
 }
 
 ordered_json json_of(const Histogram& histogram) {
   ordered_json json;
-  json["min_us"] = us(histogram.shortest());
+  json["min_us"] = us(histogram.min());
   json["mean_us"] = 1e-3 * histogram.mean_ns();
   for (const Percentile& p : percentiles)
-    json[std::string(p.name) + "_us"] = us(histogram.quantile(p.share));
-  json["max_us"] = us(histogram.longest());
+    json[std::string(p.name) + "_us"] = us(histogram.quantile(p.fraction));
+  json["max_us"] = us(histogram.max());
   json["bin_us"] = us(histogram.width());
   json["histogram"] = ordered_json::array();
   for (std::size_t i = 0; i < histogram.bins().size(); ++i) {

@@ -32,8 +32,8 @@ TEST_GROUP(LatencyHistogram){};
 
 TEST(LatencyHistogram, HoldsExactEndsAndMeanBesideItsBins) {
   const Histogram histogram = microseconds({1500ns, 500ns, 1999ns});
-  CHECK(histogram.shortest() == 500ns);
-  CHECK(histogram.longest() == 1999ns);
+  CHECK(histogram.min() == 500ns);
+  CHECK(histogram.max() == 1999ns);
   DOUBLES_EQUAL(3999.0 / 3.0, histogram.mean_ns(), 1e-9);
   LONGS_EQUAL(1, histogram.bins()[0]);
   LONGS_EQUAL(2, histogram.bins()[1]);
@@ -55,12 +55,12 @@ TEST(LatencyHistogram, CountsWhatIsTooLongInItsLastBinAndWhatIsNegativeInItsFirs
   LONGS_EQUAL(1, histogram.bins().front());
   CHECK(histogram.quantile(0.5) == 2us);
   CHECK(histogram.quantile(0.9999) == 1h);
-  CHECK(histogram.shortest() == 0us);
+  CHECK(histogram.min() == 0us);
 }
 
 TEST(LatencyHistogram, WithoutTimesIsAllZero) {
   const Histogram histogram = microseconds({});
-  CHECK(histogram.shortest() == 0us);
+  CHECK(histogram.min() == 0us);
   CHECK(histogram.quantile(0.99) == 0us);
   DOUBLES_EQUAL(0.0, histogram.mean_ns(), 0.0);
   CHECK(bars(histogram).empty());
@@ -124,7 +124,7 @@ TEST(LatencyMeter, LeavesOutTheFirstTicksAndThenCountsAsManyAsAskedFor) {
   LONGS_EQUAL(10, meter.result().tick.count());
   LONGS_EQUAL(10, meter.result().overruns);
   CHECK(meter.latest() == 3us);
-  CHECK(meter.result().late.shortest() == 3us);
+  CHECK(meter.result().late.min() == 3us);
 }
 
 TEST(LatencyMeter, IsGivenTicksOfALoopThatNeverCanBeHot) {

@@ -7,8 +7,8 @@ using namespace supercoil::operating;
 
 TEST_GROUP(TunedPlace) {
   /// A board with controllers and estimators of these kinds.
-  static AskTuning board(const std::vector<double>& controllers,
-                         const std::vector<double>& estimators) {
+  static ReadTunable board(const std::vector<double>& controllers,
+                           const std::vector<double>& estimators) {
     return [=](int place, std::size_t tunable, TuningSet) -> Result<double> {
       LONGS_EQUAL(0, tunable);
       const auto at = static_cast<std::size_t>(place);
@@ -38,15 +38,15 @@ TEST(TunedPlace, ANumberOrAKindThatIsThereOnce) {
 }
 
 TEST(TunedPlace, ItsKindTellsWhetherItIsAnEstimator) {
-  const AskTuning ask = board({mrac, pi}, {gradient});
-  LONGS_EQUAL(1, find_any_place("pi", ask).value());
-  LONGS_EQUAL(1, find_any_place("1", ask).value());
-  LONGS_EQUAL(first_estimator_place, find_any_place("gradient", ask).value());
-  LONGS_EQUAL(first_estimator_place, find_any_place("8", ask).value());
+  const ReadTunable read_value = board({mrac, pi}, {gradient});
+  LONGS_EQUAL(1, find_any_place("pi", read_value).value());
+  LONGS_EQUAL(1, find_any_place("1", read_value).value());
+  LONGS_EQUAL(first_estimator_place, find_any_place("gradient", read_value).value());
+  LONGS_EQUAL(first_estimator_place, find_any_place("8", read_value).value());
   STRCMP_EQUAL("there is no controller 5; there are 0 (mrac), 1 (pi)",
-               find_any_place("5", ask).error().text().c_str());
+               find_any_place("5", read_value).error().text().c_str());
   STRCMP_EQUAL("there is no estimator 1; there is 0 (gradient)",
-               find_any_place("9", ask).error().text().c_str());
+               find_any_place("9", read_value).error().text().c_str());
 }
 
 TEST(TunedPlace, ABoardThatDoesNotAnswerIsTold) {

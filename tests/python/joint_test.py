@@ -26,11 +26,11 @@ ANGLE_DEG = 10.0
 
 class AgainstASpring(unittest.TestCase):
     def test_it_has_no_other_node(self):
-        told = dict.fromkeys(joints.TOLD, math.nan)
-        self.assertIsNone(joints.joint_of(3, told))
-        told[supercoil.Quantity.joint_lever_m] = 0.015
-        self.assertEqual(joints.joint_of(3, told), supercoil.Joint(0.015, None))
-        self.assertAlmostEqual(joints.joint_of(3, told).angle_deg(0.00523599), 20.0, places=4)
+        known = dict.fromkeys(joints.QUANTITIES, math.nan)
+        self.assertIsNone(joints.joint_of(3, known))
+        known[supercoil.Quantity.joint_lever_m] = 0.015
+        self.assertEqual(joints.joint_of(3, known), supercoil.Joint(0.015, None))
+        self.assertAlmostEqual(joints.joint_of(3, known).angle_deg(0.00523599), 20.0, places=4)
 
 
 class Parts(unittest.TestCase):

@@ -15,7 +15,7 @@ from supercoil.errors import BusError
 
 Take = Callable[[int, float, bytes], None]  # base, time in seconds, data
 
-_LOOK_EVERY_S = 0.2
+_POLL_PERIOD_S = 0.2
 _SEND_WITHIN_S = 0.5
 _NAP_S = 0.001
 
@@ -31,9 +31,9 @@ class Bus:
         self._owned = owned
         self._users = 0
         self._nodes: dict[int, tuple[Take, ...]] = {}
-        self._everybody: list[Callable[[int, int, float, bytes], None]] = []
+        self._monitors: list[Callable[[int, int, float, bytes], None]] = []
         self._closing = False
-        self._broken: str | None = None
+        self._failure: str | None = None
         self.clock = BusClock(self.send)
         self._thread = threading.Thread(target=self._read, name="supercoil bus", daemon=True)
         self._thread.start()
@@ -43,7 +43,7 @@ class Bus:
         """The bus of this address, opened unless this event loop has it open. Must be left as often as joined."""
         loop = asyncio.get_running_loop()
         key = (loop, address if isinstance(address, str) else id(address))
-        cls._forget_useless()
+        cls._remove_unused()
         if key not in cls._shared:
             bus = await asyncio.to_thread(open_bus, address, options) if isinstance(address, str) else address
             if key in cls._shared:  # another task was faster
@@ -55,11 +55,11 @@ class Bus:
         return joined
 
     @classmethod
-    def _forget_useless(cls) -> None:
+    def _remove_unused(cls) -> None:
         """Drops buses that are broken, or whose event loop was closed before they were left."""
         for key, shared in list(cls._shared.items()):
             abandoned = isinstance(key[0], asyncio.AbstractEventLoop) and key[0].is_closed()
-            if abandoned or shared._broken:
+            if abandoned or shared._failure:
                 shared._closing = shared._closing or abandoned
                 del cls._shared[key]
 
@@ -81,21 +81,21 @@ class Bus:
         self._nodes[node] = tuple(one for one in self._nodes[node] if one != take)
 
     @contextlib.contextmanager
-    def overhear(self, hear: Callable[[int, int, float, bytes], None]) -> Iterator[None]:
-        """Calls hear(node, base, time_s, data) for the frames of all nodes."""
-        self._everybody.append(hear)
+    def monitor(self, listener: Callable[[int, int, float, bytes], None]) -> Iterator[None]:
+        """Calls listener(node, base, time_s, data) for the frames of all nodes."""
+        self._monitors.append(listener)
         try:
             yield
         finally:
-            self._everybody.remove(hear)
+            self._monitors.remove(listener)
 
     async def send(self, identifier: int, data: bytes) -> None:
         """Waits while the bus does not accept frames."""
         frame = can.Message(arbitration_id=identifier, data=data, is_extended_id=False, check=False)
         end = time.monotonic() + _SEND_WITHIN_S
         while True:
-            if self._broken:
-                raise BusError(self._broken)
+            if self._failure:
+                raise BusError(self._failure)
             try:
                 return self._bus.send(frame)
             except (can.CanError, OSError) as error:
@@ -106,21 +106,21 @@ class Bus:
     def _read(self) -> None:
         try:
             while not self._closing:
-                if (frame := self._bus.recv(_LOOK_EVERY_S)) is not None:
+                if (frame := self._bus.recv(_POLL_PERIOD_S)) is not None:
                     self._take(frame)
                 elif has_ended(self._bus):
-                    self._broken = "the bus is gone: the server has closed the connection"
+                    self._failure = "the bus is gone: the server has closed the connection"
                     return
         except (can.CanError, OSError, ValueError) as error:
             if not self._closing:
-                self._broken = f"the bus is gone: {error}"
+                self._failure = f"the bus is gone: {error}"
 
     def _take(self, frame: can.Message) -> None:
         if frame.is_extended_id or frame.is_error_frame or frame.is_remote_frame:
             return
         identifier = frame.arbitration_id
         node, base = identifier & codec.NODE_MASK, identifier & codec.BASE_MASK
-        for hear in self._everybody:
-            hear(node, base, frame.timestamp, bytes(frame.data))
+        for listener in self._monitors:
+            listener(node, base, frame.timestamp, bytes(frame.data))
         for take in self._nodes.get(node, ()):
             take(base, frame.timestamp, bytes(frame.data))

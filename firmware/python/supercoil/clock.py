@@ -35,8 +35,8 @@ class BusClock:
 
     async def sync(self, number: int) -> None:
         """Sends a Sync that all boards of the bus hear."""
-        told = codec.encode(_SYNC, {"sync": number, "master_time_s": time.monotonic()})
-        await self._send(_IDENTIFIER, e2e.protected(_IDENTIFIER, told))
+        data = codec.encode(_SYNC, {"sync": number, "master_time_s": time.monotonic()})
+        await self._send(_IDENTIFIER, e2e.protected(_IDENTIFIER, data))
 
 
 class SocketClock:

@@ -80,13 +80,13 @@ def _raw(signal: Signal, value: float) -> int:
             raise ValueError(f"{signal.name}: NaN")
         return signal.not_available & signal.mask
     signed = signal.raw is Raw.signed
-    least = -(1 << signal.length - 1) if signed else 0
-    greatest = least + signal.mask
-    if signal.not_available == least:
-        least += 1
-    elif signal.not_available == greatest:
-        greatest -= 1
-    return round(min(max(value * signal.steps, least), greatest)) & signal.mask
+    min_raw = -(1 << signal.length - 1) if signed else 0
+    max_raw = min_raw + signal.mask
+    if signal.not_available == min_raw:
+        min_raw += 1
+    elif signal.not_available == max_raw:
+        max_raw -= 1
+    return round(min(max(value * signal.steps, min_raw), max_raw)) & signal.mask
 
 
 def encode(layout: Layout, values: Mapping[str, float]) -> bytes:

@@ -9,9 +9,9 @@ from supercoil.connection import FRESH_BEATS, HEARTBEAT_S, Connection
 from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
-from supercoil.joints import TOLD, Joint, joint_of
+from supercoil.joints import QUANTITIES, Joint, joint_of
 
-_LOOK_EVERY_S = 0.02
+_POLL_PERIOD_S = 0.02
 _SETTLED_S = 0.2
 
 
@@ -78,13 +78,13 @@ class Commands(Connection):
         end = time.monotonic() + timeout_s
         there_since: float | None = None
         while there_since is None or time.monotonic() - there_since < _SETTLED_S:
-            await self._wait(_LOOK_EVERY_S)
+            await self._wait(_POLL_PERIOD_S)
             now = time.monotonic()
-            told = self.telemetry.newest(messages.Measurement)
-            near = told is not None and abs(told.position_m - position_m) <= tolerance_m
+            newest = self.telemetry.newest(messages.Measurement)
+            near = newest is not None and abs(newest.position_m - position_m) <= tolerance_m
             there_since = (there_since or now) if near else None
             if now > end and not near:
-                at = "unknown" if told is None else f"{told.position_m:.6f} m"
+                at = "unknown" if newest is None else f"{newest.position_m:.6f} m"
                 raise NotReachedError(f"node {self.node}: not at {position_m:.6f} m within {timeout_s:g} s: at {at}")
 
     async def hold(self, seconds: float) -> None:
@@ -92,7 +92,7 @@ class Commands(Connection):
         end = time.monotonic() + seconds
         self._kept.raise_if_let_go()
         while (rest := end - time.monotonic()) > 0:
-            await self._wait(min(rest, _LOOK_EVERY_S))
+            await self._wait(min(rest, _POLL_PERIOD_S))
 
     async def rest(self) -> None:
         """Active becomes armed: the muscle cools. Does nothing if it was let go or never heated: it rests already."""
@@ -113,8 +113,8 @@ class Commands(Connection):
 
     async def settings(self) -> dict[Setting, float]:
         """All settings of this node."""
-        told = {setting: await self._link.read(setting) for setting in Setting}
-        return {setting: value for setting, value in told.items() if value == value}
+        values = {setting: await self._link.read(setting) for setting in Setting}
+        return {setting: value for setting, value in values.items() if value == value}
 
     async def change(self, setting: Setting, value: float) -> float:
         """Changes a setting until the board starts again. Returns the value that now holds."""
@@ -136,7 +136,7 @@ class Commands(Connection):
 
     async def joint(self) -> Joint | None:
         """The joint that the muscle turns with another muscle; None: it moves alone."""
-        return joint_of(self.node, {quantity: await self._link.quantity(quantity) for quantity in TOLD})
+        return joint_of(self.node, {quantity: await self._link.quantity(quantity) for quantity in QUANTITIES})
 
     def make_position(self, position_m: float) -> Order:
         return Order(self, Opcode.position, position_m)

@@ -169,12 +169,12 @@ class Connection:
             await self._link.command(opcode, value)
             self._commanded = True
         except refusals.WrongState:
-            await self._hear_of_fault()
+            await self._wait_for_fault()
             if opcode != Opcode.reset:
                 await self._link.heartbeat.raise_fault()
             raise
 
-    async def _hear_of_fault(self) -> None:
+    async def _wait_for_fault(self) -> None:
         """Waits for the report of a fault that the board's answer may have overtaken."""
         if self.fault == Fault.none:
             with contextlib.suppress(NoAnswerError):

@@ -30,20 +30,20 @@ class Found(NamedTuple):
 
 async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options: object) -> list[Found]:
     """Every node whose heartbeat is heard within this time. A board sends ten heartbeats a second."""
-    heard: dict[int, messages.Status] = {}
+    statuses: dict[int, messages.Status] = {}
 
-    def hear(node: int, base: int, time_s: float, data: bytes) -> None:
+    def receive(node: int, base: int, time_s: float, data: bytes) -> None:
         if base == messages.STATUS and (status := codec.decode(base, data, time_s)) is not None:
-            heard[node] = status
+            statuses[node] = status
 
     bus = await Bus.join(address, options)
     try:
-        with bus.overhear(hear):
+        with bus.monitor(receive):
             await asyncio.sleep(seconds)
     finally:
         await bus.leave()
     return [Found(node, status.state, status.fault, status.leased, status.protocol_version)
-            for node, status in sorted(heard.items())]
+            for node, status in sorted(statuses.items())]
 
 
 async def stop(address: str | can.BusABC, node: int = 1, **options: object) -> None:

@@ -9,8 +9,8 @@ from supercoil.generated.names import Quantity
 
 _POINTS = tuple(quantity for quantity in Quantity
                 if Quantity.joint_lever_1_m <= quantity <= Quantity.joint_lever_7_m)
-TOLD = (Quantity.joint_lever_m, Quantity.joint_other_node_offset,
-        Quantity.joint_lever_first_rad, Quantity.joint_lever_last_rad, *_POINTS)
+QUANTITIES = (Quantity.joint_lever_m, Quantity.joint_other_node_offset,
+              Quantity.joint_lever_first_rad, Quantity.joint_lever_last_rad, *_POINTS)
 
 
 class LeverTable(NamedTuple):
@@ -80,13 +80,13 @@ class Joint(NamedTuple):
         return math.copysign(1.0, self.lever_m) * self.table.arc_m(angle_rad)
 
 
-def joint_of(node: int, told: Mapping[Quantity, float]) -> Joint | None:
-    """told: what a board reports for TOLD. None: the muscle is in no joint."""
-    lever_m, offset = told[Quantity.joint_lever_m], told[Quantity.joint_other_node_offset]
+def joint_of(node: int, known: Mapping[Quantity, float]) -> Joint | None:
+    """known: the values of QUANTITIES that a board reports. None: the muscle is in no joint."""
+    lever_m, offset = known[Quantity.joint_lever_m], known[Quantity.joint_other_node_offset]
     if math.isnan(lever_m):
         return None
-    levers_m = tuple(itertools.takewhile(lambda lever_m: lever_m > 0.0, (told[point] for point in _POINTS)))
-    first, last = told[Quantity.joint_lever_first_rad], told[Quantity.joint_lever_last_rad]
-    told_all = len(levers_m) > 1 and first <= 0.0 <= last and first < last
-    table = LeverTable(math.degrees(first), math.degrees(last), levers_m) if told_all else None
+    levers_m = tuple(itertools.takewhile(lambda lever_m: lever_m > 0.0, (known[point] for point in _POINTS)))
+    first, last = known[Quantity.joint_lever_first_rad], known[Quantity.joint_lever_last_rad]
+    has_table = len(levers_m) > 1 and first <= 0.0 <= last and first < last
+    table = LeverTable(math.degrees(first), math.degrees(last), levers_m) if has_table else None
     return Joint(lever_m, None if math.isnan(offset) else node + round(offset), table)

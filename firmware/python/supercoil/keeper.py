@@ -14,7 +14,7 @@ from supercoil.generated.names import Opcode
 from supercoil.link import Link
 
 RENEW_EVERY_S = 0.06  # three renewals fit into 250 ms
-_KEEP_EVERY_S = 0.3
+_KEEP_PERIOD_S = 0.3
 _NAP_S = 0.02
 
 _log = logging.getLogger("supercoil")
@@ -65,7 +65,7 @@ class Keeper:
         while True:
             await asyncio.sleep(_NAP_S)
             try:
-                await self._look()
+                await self._update()
             except RefusalError:
                 self._heats = False  # a fault, another master, or the mode has ended: the next call reports it
             except NoAnswerError:
@@ -74,7 +74,7 @@ class Keeper:
                 _log.error("node %d: %s", self._node, error)
                 return
 
-    async def _look(self) -> None:
+    async def _update(self) -> None:
         if not self._link.holds_lease:
             self._heats = False
             return
@@ -84,7 +84,7 @@ class Keeper:
         elif self._heats and now - self._renewed_at >= RENEW_EVERY_S:
             self._renewed_at = now
             await self._link.command(Opcode.renew, 0.0)
-        elif self._link.lease_age_s >= _KEEP_EVERY_S:
+        elif self._link.lease_age_s >= _KEEP_PERIOD_S:
             await self._link.keep()
 
     async def _end(self) -> None:

@@ -53,8 +53,8 @@ class Learning(Commands):
         bits = _FRICTION if status.friction else 0
         if opcode == Opcode.identify:
             with contextlib.suppress(NoAnswerError):
-                async for told in self.stream(messages.Estimate):
-                    bits |= told.identify_notes
+                async for estimate in self.stream(messages.Estimate):
+                    bits |= estimate.identify_notes
                     break
         notes = tuple(note for bit, note in enumerate(results.NOTES) if bits >> bit & 1)
         if status.result not in (Result.found, Result.not_stored):

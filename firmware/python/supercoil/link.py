@@ -133,20 +133,20 @@ class CanLink:
             raise BusError(f"node {self._node} is not connected")
         await self._bus.send(identifier, data)
 
-    async def _ask(self, request: int, answer: int, **which: int) -> float:
+    async def _ask(self, request: int, answer: int, **fields: int) -> float:
         """Reads a value. Reading needs no lease, and everybody hears the answer."""
-        waiting = self._read.setdefault((answer, *which.values()), [])
-        told: asyncio.Future[float] = self._loop.create_future()
-        waiting.append(told)
+        waiting = self._read.setdefault((answer, *fields.values()), [])
+        future: asyncio.Future[float] = self._loop.create_future()
+        waiting.append(future)
         try:
-            await self._send(request | self._node, codec.encode(codec.LAYOUTS[request], which))
+            await self._send(request | self._node, codec.encode(codec.LAYOUTS[request], fields))
             async with asyncio.timeout(ANSWER_WITHIN_S):
-                return await told
+                return await future
         except TimeoutError:
-            asked = ", ".join(f"{signal} {value}" for signal, value in which.items())
-            raise NoAnswerError(f"node {self._node} does not report its {asked}") from None
+            requested = ", ".join(f"{signal} {value}" for signal, value in fields.items())
+            raise NoAnswerError(f"node {self._node} does not report its {requested}") from None
         finally:
-            waiting.remove(told)
+            waiting.remove(future)
 
     def _take(self, base: int, time_s: float, data: bytes) -> None:
         """Called in the bus's thread."""
@@ -162,14 +162,14 @@ class CanLink:
             self._session.receive(base, data)
         if base == messages.SETTING and e2e.is_intact(base | self._node, data):
             setting = codec.decode(base, data)
-            self._tell(setting.value, base, setting.setting)
+            self._deliver(setting.value, base, setting.setting)
         elif base == messages.TUNING and e2e.is_intact(base | self._node, data):
             tuned = codec.decode(base, data)
-            self._tell(tuned.value, base, tuned.place, tuned.tunable, tuned.set)
-        elif base == messages.MUSCLE and (told := codec.decode(base, data)) is not None:
-            self._tell(told.value, base, told.quantity)
+            self._deliver(tuned.value, base, tuned.place, tuned.tunable, tuned.set)
+        elif base == messages.MUSCLE and (muscle := codec.decode(base, data)) is not None:
+            self._deliver(muscle.value, base, muscle.quantity)
 
-    def _tell(self, value: float, *which: int) -> None:
-        for asked in self._read.get(which, ()):
-            if not asked.done():
-                asked.set_result(float(f"{value:.7g}"))  # a float of 32 bits has no more digits
+    def _deliver(self, value: float, *key: int) -> None:
+        for future in self._read.get(key, ()):
+            if not future.done():
+                future.set_result(float(f"{value:.7g}"))  # a float of 32 bits has no more digits

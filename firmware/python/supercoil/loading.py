@@ -16,7 +16,7 @@ from supercoil.units import unit_of
 _CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?")
 # When a simulated run begins in its can.log, and how long a run may be (can_client/candump.hpp).
 _SIMULATION_EPOCH_S = 1_000_000_000
-_LONGEST_RUN_S = 365 * 86400
+_MAX_RUN_S = 365 * 86400
 _NPY = b"\x93NUMPY"
 
 
@@ -63,7 +63,7 @@ def _time_of_run_s(text: str) -> float:
     """Time since a simulated run began; for another log, or one of an older simulator, its own time."""
     whole, _, fraction = text.partition(".")
     in_run = int(whole) - _SIMULATION_EPOCH_S
-    return float(f"{in_run if 0 <= in_run < _LONGEST_RUN_S else int(whole)}.{fraction}")
+    return float(f"{in_run if 0 <= in_run < _MAX_RUN_S else int(whole)}.{fraction}")
 
 
 def _load_csv(file: Path) -> pandas.DataFrame:

@@ -16,8 +16,8 @@ from supercoil.local_text import command_line, frames_of, trajectory_of
 from supercoil.telemetry import Telemetry
 
 _ANSWER_WITHIN_S = 2.0
-_LOOK_EVERY_S = 0.1
-_MOST_BYTES = 8192
+_POLL_PERIOD_S = 0.1
+_MAX_BYTES = 8192
 _SENSES = (Setting.supply_gain, Setting.current_gain, Setting.sense_error_ratio)
 
 
@@ -35,9 +35,9 @@ class SocketLink:
         self._path = path
         self._channel = channel
         self._socket: socket.socket | None = None
-        self._asking = asyncio.Lock()
+        self._exchange_lock = asyncio.Lock()
         self._exchanges: set[asyncio.Future[str]] = set()
-        self._looking: asyncio.Task[None] | None = None
+        self._polling: asyncio.Task[None] | None = None
 
     async def open(self) -> None:
         opened = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -51,17 +51,17 @@ class SocketLink:
             raise BusError(f"{self._path}: {error.strerror}{hint}") from error
         self._socket = opened
         try:
-            await self._look()
+            await self._read_state()
         except BaseException:
             await self.close()
             raise
-        self._looking = asyncio.create_task(self._look_again())
+        self._polling = asyncio.create_task(self._poll())
 
     async def close(self) -> None:
-        if self._looking is not None:
-            self._looking.cancel()
+        if self._polling is not None:
+            self._polling.cancel()
             with contextlib.suppress(asyncio.CancelledError):
-                await self._looking
+                await self._polling
         if self._socket is not None:
             self._socket.close()
             self._socket = None
@@ -89,15 +89,15 @@ class SocketLink:
 
     async def quantity(self, quantity: Quantity) -> float:
         """NaN also if the board is older than the quantity."""
-        told = await self._numbers("muscle")
-        return told[quantity] if quantity < len(told) else math.nan
+        values = await self._numbers("muscle")
+        return values[quantity] if quantity < len(values) else math.nan
 
     async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
-        told = names.Set(int(value)).name if tunable == Tunable.all else repr(value)
-        line = f"prepare {self._channel} {place} {tunable} {told}"
+        text = names.Set(int(value)).name if tunable == Tunable.all else repr(value)
+        line = f"prepare {self._channel} {place} {tunable} {text}"
         answer = await self._ask(line)
         if answer != "ok":
-            raise self._refused(f"{tunable} = {told}", answer)
+            raise self._refused(f"{tunable} = {text}", answer)
 
     async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float:
         line = f"tuning {self._channel} {place} {tunable} {of}"
@@ -109,11 +109,11 @@ class SocketLink:
 
     async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> messages.Trajectory:
         await self._obey(f"knot {after_s!r} {position_m!r} {velocity_m_per_s!r}")
-        await self._look_at_playback()
+        await self._read_playback()
         return self.trajectory
 
     async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> messages.Trajectory:
-        board_s = await self._look_at_playback()
+        board_s = await self._read_playback()
         if when != When.never:
             at_s = self.clock.start_s(sync, board_s, after_s) if when == When.at_sync else board_s + after_s
             try:
@@ -121,10 +121,10 @@ class SocketLink:
             except refusals.OutOfRange:  # only the start time can be out of range
                 raise PlaybackError(f"node {self._channel}: has not started: the start was sent too late: this "
                                     "machine was busy") from None
-            await self._look_at_playback()
+            await self._read_playback()
         return self.trajectory
 
-    async def _look_at_playback(self) -> float:
+    async def _read_playback(self) -> float:
         """Returns the board's time."""
         *words, board_s = await self._words("playback")
         self.trajectory = trajectory_of(words)
@@ -145,13 +145,13 @@ class SocketLink:
 
     async def _exchange(self, line: str) -> str:
         loop = asyncio.get_running_loop()
-        async with self._asking:
+        async with self._exchange_lock:
             if self._socket is None:
                 raise BusError(f"{self._path} is not connected")
             try:
                 async with asyncio.timeout(_ANSWER_WITHIN_S):
                     await loop.sock_sendall(self._socket, line.encode())
-                    answer = (await loop.sock_recv(self._socket, _MOST_BYTES)).decode()
+                    answer = (await loop.sock_recv(self._socket, _MAX_BYTES)).decode()
             except TimeoutError:
                 self._end()  # as above
                 raise NoAnswerError(f"supercoild does not answer within {_ANSWER_WITHIN_S:g} s") from None
@@ -190,7 +190,7 @@ class SocketLink:
         nearest = float(instead.split()[0]) if instead else math.nan
         return refusals.BY_NUMBER.get(refusal, RefusalError)(self._channel, line, nearest, reason)
 
-    async def _look(self) -> None:
+    async def _read_state(self) -> None:
         state, status = await self._words("state"), await self._words("status")
         now = time.time()
         for base, values in frames_of(state, probing=status[-1] == "probing"):
@@ -199,8 +199,8 @@ class SocketLink:
             if base == messages.STATUS:
                 self.heartbeat.receive_frame(base, now, data)
 
-    async def _look_again(self) -> None:
+    async def _poll(self) -> None:
         with contextlib.suppress(BusError, NoAnswerError):  # the next command reports it
             while True:
-                await asyncio.sleep(_LOOK_EVERY_S)
-                await self._look()
+                await asyncio.sleep(_POLL_PERIOD_S)
+                await self._read_state()

@@ -33,8 +33,8 @@ def _notes(word: str) -> int:
 
 def trajectory_of(words: list[str]) -> messages.Trajectory:
     """From a channel's line of "playback", without the board's time at its end."""
-    told = {"playback": Playback[words[0]], "room": int(words[1]), "buffered_s": float(words[2])}
-    decoded = codec.decode(messages.TRAJECTORY, codec.encode(codec.LAYOUTS[messages.TRAJECTORY], told))
+    values = {"playback": Playback[words[0]], "room": int(words[1]), "buffered_s": float(words[2])}
+    decoded = codec.decode(messages.TRAJECTORY, codec.encode(codec.LAYOUTS[messages.TRAJECTORY], values))
     assert isinstance(decoded, messages.Trajectory)
     return decoded
 

@@ -21,35 +21,35 @@ class PlaybackSession(Session):
 
     async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> None:
         """Returns when the board has taken the knot; trajectory has the room that is left. after_s 0: the first one."""
-        async def ask() -> Answer:
+        async def send() -> Answer:
             number = self._number
             async with self._in_flight:
                 return await self._exchange(
                     _KNOT, (Answers.knot, number & 0xFF), checked_session=number, after_s=after_s,
                     position_m=position_m, velocity_m_per_s=velocity_m_per_s)
-        await self._go_on("knot", ask)
+        await self._retry_once("knot", send)
 
     async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> None:
         """Starts the trajectory; When.never only asks for trajectory."""
-        async def ask() -> Answer:
+        async def send() -> Answer:
             number = self._number
             async with self._in_flight:
                 return await self._exchange(_PLAY, (Answers.play, number & 0xFF), when=when, session=number, sync=sync,
                                             after_s=after_s)
-        await self._go_on("play", ask)
+        await self._retry_once("play", send)
 
     def receive(self, base: int, data: bytes) -> None:
         """Handles a Trajectory of the node too."""
         if base != messages.TRAJECTORY:
             super().receive(base, data)
-        elif e2e.is_intact(base | self.node, data) and (told := codec.decode(base, data)) is not None:
-            self.trajectory = told
-            self._settle((base, told.counter, told.answers, told.session_low), Answer(told.refusal, told.room))
+        elif e2e.is_intact(base | self.node, data) and (state := codec.decode(base, data)) is not None:
+            self.trajectory = state
+            self._settle((base, state.counter, state.answers, state.session_low), Answer(state.refusal, state.room))
 
-    async def _go_on(self, command: str, ask: Callable[[], Awaitable[Answer]]) -> None:
+    async def _retry_once(self, command: str, send: Callable[[], Awaitable[Answer]]) -> None:
         if not self.holds_lease:
             raise self._refused(Refusal.no_lease, command)
-        answer = await ask()
+        answer = await send()
         if answer.refusal == Refusal.wrong_counter:  # earlier frames were lost, and this one was not taken
-            answer = await ask()
+            answer = await send()
         await self._judge(command, answer)

@@ -11,8 +11,8 @@ from supercoil.generated import refusals
 from supercoil.generated.names import Playback, When
 from supercoil.knots import Knot
 
-_LOOK_EVERY_S = 0.02
-_ASK_EVERY_S = 0.05
+_POLL_PERIOD_S = 0.02
+_REQUEST_PERIOD_S = 0.05
 # Time from Sync to the start, enough for each board to hear of both.
 _START_AFTER_S = 0.1
 _STARTED_WITHIN_S = 2.0
@@ -33,7 +33,7 @@ class Player:
         self._link = motion.muscle._link
         self._knots = motion.knots
         self._sent = 0
-        self._asked_at = -math.inf
+        self._requested_at = -math.inf
         self._started_at = math.inf
         self.clock: Clock = self._link.clock
 
@@ -43,14 +43,14 @@ class Player:
 
     async def load(self) -> None:
         """Sends knots for as long as there is room, after a short wait."""
-        await self.muscle._wait(_LOOK_EVERY_S)
+        await self.muscle._wait(_POLL_PERIOD_S)
         while self._sent < len(self._knots) and (self._sent == 0 or self._link.trajectory.room > 0):
             if not await self._send(self._knots[self._sent]):
                 break
             self._sent += 1
-            self._asked_at = time.monotonic()
-        if time.monotonic() - self._asked_at >= _ASK_EVERY_S:
-            self._asked_at = time.monotonic()
+            self._requested_at = time.monotonic()
+        if time.monotonic() - self._requested_at >= _REQUEST_PERIOD_S:
+            self._requested_at = time.monotonic()
             await self._ask(When.never)
 
     def is_loaded(self) -> bool:
@@ -112,5 +112,5 @@ class Player:
             await self._raise_if_stopped()
 
     async def _raise_fault(self) -> None:
-        await self.muscle._hear_of_fault()
+        await self.muscle._wait_for_fault()
         await self._link.heartbeat.raise_fault()

@@ -10,7 +10,7 @@ from supercoil.knots import knots_of
 from supercoil.player import Motion, Player
 from supercoil.tuning import Tuning
 
-_SYNC_EVERY_S = 1.0
+_SYNC_PERIOD_S = 1.0
 
 
 class Playing(Tuning):
@@ -75,7 +75,7 @@ async def _play(players: Sequence[Player], settle_s: float) -> None:
     synced_at = time.monotonic()
     while not all(player.has_ended() for player in players):
         await all_of(player.go_on() for player in players)
-        if time.monotonic() - synced_at >= _SYNC_EVERY_S:
+        if time.monotonic() - synced_at >= _SYNC_PERIOD_S:
             synced_at = time.monotonic()
             for clock in clocks:
                 await clock.sync(clock.next_number())

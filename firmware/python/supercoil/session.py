@@ -18,9 +18,9 @@ ANSWER_WITHIN_S = 0.5
 _LEASE_LASTS_S = 0.4
 # RefusedValue follows the answer at once, if the board sends it.
 _NEAREST_WITHIN_S = 0.05
-_CLAIMS_IN_A_ROW = 4
+_MAX_CLAIMS = 4
 # Of 16 counters, so that those of a frame without an answer are not used again at once.
-_MOST_IN_FLIGHT = 8
+_MAX_IN_FLIGHT = 8
 _RELEASES = -1.0
 # A second try can help here: the lease ran out meanwhile, or earlier frames were lost.
 _TRY_AGAIN = (Refusal.no_lease, Refusal.wrong_counter)
@@ -54,7 +54,7 @@ class Session:
         self._lease_from = -math.inf
         self._claiming = asyncio.Lock()
         self._sending = asyncio.Lock()
-        self._in_flight = asyncio.Semaphore(_MOST_IN_FLIGHT)
+        self._in_flight = asyncio.Semaphore(_MAX_IN_FLIGHT)
         # Keyed by what an answer says it answers: message, counter, and so on.
         self._pending: dict[tuple[int, ...], asyncio.Future[Answer]] = {}
         self._newest_refused: asyncio.Future[float] | None = None
@@ -70,16 +70,16 @@ class Session:
 
     async def command(self, opcode: Opcode, value: float = 0.0) -> None:
         """Returns when the command was obeyed. Claims the lease if there is none."""
-        await self._insist(opcode.name, lambda: self._ask(opcode, value))
+        await self._retry_under_lease(opcode.name, lambda: self._ask(opcode, value))
 
     async def write(self, setting: Setting, value: float) -> float:
         """Writes a setting; returns the value that holds from then on."""
-        return await self._insist(f"{setting.name} = {value:.7g}", lambda: self._write(setting, value))
+        return await self._retry_under_lease(f"{setting.name} = {value:.7g}", lambda: self._write(setting, value))
 
     async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
         """Prepares a value of a controller, or with all every value of one of the sets."""
-        told = Set(int(value)).name if tunable == Tunable.all else f"{value:.7g}"
-        await self._insist(f"{tunable.name} = {told}", lambda: self._prepare(place, tunable, value))
+        text = Set(int(value)).name if tunable == Tunable.all else f"{value:.7g}"
+        await self._retry_under_lease(f"{tunable.name} = {text}", lambda: self._prepare(place, tunable, value))
 
     async def disarm(self) -> None:
         """Obeyed from every master, in every version of the protocol."""
@@ -108,15 +108,15 @@ class Session:
             self._receive_answer(base, message)
 
     def _receive_answer(self, base: int, message: messages.Acknowledge | messages.Setting | messages.Tuning) -> None:
-        what: tuple[int, int]
+        echo: tuple[int, int]
         if isinstance(message, messages.Acknowledge):
-            what, value = (message.opcode, message.session), float(message.granted)
+            echo, value = (message.opcode, message.session), float(message.granted)
         elif isinstance(message, messages.Setting):
-            what, value = (message.setting, message.session_low), message.value
+            echo, value = (message.setting, message.session_low), message.value
         else:
-            what, value = (message.place, message.tunable), message.value
+            echo, value = (message.place, message.tunable), message.value
         answer = Answer(message.refusal, value)
-        if self._settle((base, message.counter, *what), answer) and answer.refusal == Refusal.out_of_range:
+        if self._settle((base, message.counter, *echo), answer) and answer.refusal == Refusal.out_of_range:
             answer.nearest = self._newest_refused = asyncio.get_running_loop().create_future()
 
     def _settle(self, key: tuple[int, ...], answer: Answer) -> bool:
@@ -146,7 +146,7 @@ class Session:
             return await self._exchange(_TUNING_WRITE, (place, tunable), place=place, tunable=tunable,
                                         session_low=self._number & 0xFF, value=value)
 
-    async def _exchange(self, layout: Layout, what: tuple[int, ...], *, checked_session: int | None = None,
+    async def _exchange(self, layout: Layout, echo: tuple[int, ...], *, checked_session: int | None = None,
                         **fields: float) -> Answer:
         """checked_session: for a frame that has the session in its checksum only."""
         identifier = layout.base | self.node
@@ -157,7 +157,7 @@ class Session:
                 counter = self._next_counter()
                 if counter == 0 and layout in (_SETTING_WRITE, _TUNING_WRITE):
                     counter = self._next_counter()  # 0 is the counter of an answer to a read
-                key = (_ANSWERS[layout.base], counter, *what)
+                key = (_ANSWERS[layout.base], counter, *echo)
                 self._pending[key] = answered
                 await self._send(identifier, e2e.protected(
                     identifier, codec.encode(layout, {**fields, "counter": counter}), checked_session))
@@ -169,14 +169,14 @@ class Session:
             if self._pending.get(key) is answered:
                 del self._pending[key]
 
-    async def _insist(self, command: str, once: Callable[[], Awaitable[Answer]]) -> float:
+    async def _retry_under_lease(self, command: str, attempt: Callable[[], Awaitable[Answer]]) -> float:
         await self._hold_lease()
         number = self._number
-        answer = await once()
+        answer = await attempt()
         if answer.refusal in _TRY_AGAIN:
             if answer.refusal == Refusal.no_lease:
                 await self._claim(number)
-            answer = await once()
+            answer = await attempt()
         return await self._judge(command, answer)
 
     async def _judge(self, command: str, answer: Answer) -> float:
@@ -212,7 +212,7 @@ class Session:
                 return
             self._number = 0
             answer = await self._ask(Opcode.lease, 0.0)
-            for _ in range(_CLAIMS_IN_A_ROW):  # another master may use a nonce first
+            for _ in range(_MAX_CLAIMS):  # another master may use a nonce first
                 if answer.refusal != Refusal.claim_again:
                     break
                 answer = await self._ask(Opcode.lease, answer.value)

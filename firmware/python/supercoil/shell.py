@@ -14,7 +14,7 @@ from supercoil.recording import Recording
 if TYPE_CHECKING:
     import pandas
 
-_MOST_FRAMES = 200_000  # ten minutes of one node
+_MAX_FRAMES = 200_000  # ten minutes of one node
 _NAMES = """\
 muscle              arm(), move_to(0.010), hold(10), rest(), disarm(), reset(), identify(), tuning(), telemetry ...
 table(10)           what was heard in the last 10 s, as a table of pandas
@@ -31,8 +31,8 @@ class Shell:
         self._recording = recording
 
     def table(self, seconds: float = 10.0) -> "pandas.DataFrame":
-        heard = self._recording.table()
-        return heard[heard.index >= heard.index.max() - seconds] if len(heard) else heard
+        rows = self._recording.table()
+        return rows[rows.index >= rows.index.max() - seconds] if len(rows) else rows
 
     def plot(self, seconds: float = 10.0, path: str | Path = "supercoil.png") -> Path:
         from supercoil.plots import plot
@@ -55,7 +55,7 @@ def _load_libraries() -> None:
 def _talk(muscle: sync.Muscle) -> None:
     with contextlib.suppress(ImportError):
         import readline  # noqa: F401
-    with muscle.record(most_frames=_MOST_FRAMES) as recording:
+    with muscle.record(most_frames=_MAX_FRAMES) as recording:
         shell = Shell(muscle, recording)
         code.interact(banner=f"node {muscle.node} is {muscle.state}; after {muscle.deadline_s:g} s without a command "
                       f"it is let go\n{_NAMES}", local=shell.names(), exitmsg="")

@@ -83,16 +83,16 @@ class Muscle:
         return self._muscle.record(*kinds, most_frames=most_frames)
 
     def stream(self, kind: type[M]) -> Iterator[M]:
-        told = self._muscle.stream(kind)
+        stream = self._muscle.stream(kind)
 
         async def one() -> M:
-            return await anext(told)
+            return await anext(stream)
 
         try:
             while True:
                 yield run(one())
         finally:
-            run(told.aclose())
+            run(stream.aclose())
 
     def arm(self, timeout_s: float = 5.0) -> None:
         run(self._muscle.arm(timeout_s))

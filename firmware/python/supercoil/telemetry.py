@@ -98,10 +98,10 @@ class Telemetry:
     @property
     def joint(self) -> messages.Joint:
         """From the node of a joint, its agonist's: the newest frame, with the newest values of the other parts."""
-        told = self.of(messages.Joint)
+        joint = self.of(messages.Joint)
         parts = {signal.name: getattr(message, signal.name) for message in self._round(messages.Joint)
                  for signal in codec.LAYOUTS[messages.JOINT].signals if signal.selected_by == message.part}
-        return told._replace(**parts)
+        return joint._replace(**parts)
 
     @property
     def estimates(self) -> dict[names.Parameter, float]:
@@ -116,16 +116,16 @@ class Telemetry:
     @property
     def gains(self) -> dict[names.Gain, float]:
         """The gains of the active controller."""
-        told = {message.gain: message.value for message in self._round(messages.Gain)}
-        return {gain: value for gain, value in sorted(told.items()) if gain != names.Gain.none}
+        gains = {message.gain: message.value for message in self._round(messages.Gain)}
+        return {gain: value for gain, value in sorted(gains.items()) if gain != names.Gain.none}
 
     @property
     def margins(self) -> dict[names.Fault, messages.Margin]:
         """How near each detector is to tripping."""
-        told = {message.fault: message for message in self._round(messages.Margin)}
-        return {fault: margin for fault, margin in sorted(told.items()) if fault != names.Fault.none}
+        margins = {message.fault: message for message in self._round(messages.Margin)}
+        return {fault: margin for fault, margin in sorted(margins.items()) if fault != names.Fault.none}
 
     @property
     def limits(self) -> dict[names.Fault, float]:
-        told = {message.fault: message.limit for message in self._round(messages.Limit)}
-        return {fault: limit for fault, limit in sorted(told.items()) if fault != names.Fault.none}
+        limits = {message.fault: message.limit for message in self._round(messages.Limit)}
+        return {fault: limit for fault, limit in sorted(limits.items()) if fault != names.Fault.none}

@@ -46,12 +46,12 @@ def _place_of(controller: int, estimator: int | None) -> _Place:
                   tunables.ESTIMATOR_CHOICES)
 
 
-def _value_of(choices: tuple[str, ...] | None, told: float) -> Value:
-    if math.isnan(told):
+def _value_of(choices: tuple[str, ...] | None, number: float) -> Value:
+    if math.isnan(number):
         return None
     if choices is None:
-        return told
-    place = int(told)
+        return number
+    place = int(number)
     if choices == _FLAG:
         return bool(place)
     return choices[place] if place < len(choices) else str(place)  # from a newer board
@@ -85,7 +85,7 @@ class Tuning(Learning):
     async def tuning(self, controller: int = 0, *, estimator: int | None = None) -> dict[str, Tuned]:
         """All values of this controller, by name, or of this estimator. Both: places in the configuration, from 0."""
         place = _place_of(controller, estimator)
-        told = {}
+        result = {}
         for tunable, unit in place.units.items():
             choices = place.choices.get(tunable)
             values = {}
@@ -96,10 +96,10 @@ class Tuning(Learning):
                 allowed: tuple[Value, ...] = choices or tunables.RANGES[tunable]
                 if choices == _FLAG:
                     allowed = (False, True)
-                told[str(tunable)] = Tuned(str(tunable), unit, range=allowed, **values)
-            if not told:
+                result[str(tunable)] = Tuned(str(tunable), unit, range=allowed, **values)
+            if not result:
                 raise ValueError(f"node {self.node} has no {place.name} that can be tuned")
-        return told
+        return result
 
     async def tune(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
                    **values: float | str) -> None:

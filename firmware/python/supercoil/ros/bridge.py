@@ -20,7 +20,7 @@ from supercoil.ros.motion import Held, Knot, Trajectory, knots_of
 from supercoil.ros.names import resolved
 from supercoil.ros.options import Options
 
-_DIAGNOSTICS_EVERY_S = 1.0
+_DIAGNOSTICS_PERIOD_S = 1.0
 _log = logging.getLogger("supercoil.ros")
 
 
@@ -66,7 +66,7 @@ class Bridge:
                 else:
                     joint.follow(now_s)
             self._publish_states()
-            if loop.time() - diagnosed_s >= _DIAGNOSTICS_EVERY_S:
+            if loop.time() - diagnosed_s >= _DIAGNOSTICS_PERIOD_S:
                 diagnosed_s = loop.time()
                 self._diagnostics.write(diagnostics_of(list(self._joints.values()), self._stopped))
                 self._arm_at_start()
@@ -186,9 +186,9 @@ class Bridge:
         if self._stopped and do is Joint.arm:
             return False, "the emergency stop is set; publish false on it first"
         done = await asyncio.gather(*(do(joint) for joint in joints), return_exceptions=True)
-        told = []
+        lines = []
         for joint, outcome in zip(joints, done, strict=True):
             if isinstance(outcome, BaseException) and not isinstance(outcome, (SupercoilError, RuntimeError)):
                 raise outcome
-            told.append(f"{joint.name}: {reason_of(outcome) if isinstance(outcome, BaseException) else outcome}")
-        return not any(isinstance(outcome, BaseException) for outcome in done), "; ".join(told)
+            lines.append(f"{joint.name}: {reason_of(outcome) if isinstance(outcome, BaseException) else outcome}")
+        return not any(isinstance(outcome, BaseException) for outcome in done), "; ".join(lines)

@@ -23,11 +23,11 @@ _SHOWN: dict[type[Any], tuple[str, ...]] = {
 def _values(muscle: Muscle) -> list[KeyValue]:
     values = []
     for kind, shown in _SHOWN.items():
-        told = muscle.telemetry.newest(kind)
-        if told is None:
+        newest = muscle.telemetry.newest(kind)
+        if newest is None:
             continue
         for name in shown:
-            value = getattr(told, name)
+            value = getattr(newest, name)
             values.append(KeyValue(name, f"{value:.7g}" if isinstance(value, float) else str(value)))
     return values
 
@@ -36,11 +36,11 @@ def _angles(joint: Joint) -> list[KeyValue]:
     """For a joint that turns: its muscle's values, as angles of the joint."""
     if not joint.turns or joint.muscle is None:
         return []
-    told = [KeyValue("position_rad", f"{joint.position:.7g}")]
+    values = [KeyValue("position_rad", f"{joint.position:.7g}")]
     tracking = joint.muscle.telemetry.newest(messages.Tracking)
     if tracking is not None:
-        told.append(KeyValue("reference_rad", f"{joint.of_m(tracking.reference_m):.7g}"))
-    return told
+        values.append(KeyValue("reference_rad", f"{joint.of_m(tracking.reference_m):.7g}"))
+    return values
 
 
 def _judged(muscle: Muscle, refusal: str, otherwise: str) -> tuple[int, str]:

@@ -22,9 +22,9 @@ M = TypeVar("M", bound=IdlStruct)
 
 _DEPTH = 10  # ROS's default, also for services
 _CLIENT_WITHIN_S = 0.1
-_LOOK_EVERY_S = 0.005
+_POLL_PERIOD_S = 0.005
 # How many messages of a flood are taken at once: the rest is older than what matters.
-_MOST_AT_ONCE = 100
+_MAX_AT_ONCE = 100
 _HANDLE = 0xFFFFFFFFFFFFFFFF
 
 
@@ -41,7 +41,7 @@ def _type_hash(kind: type[IdlStruct]) -> str:
 
 def _taken(reader: DataReader[M]) -> list[M]:
     try:
-        return reader.take(_MOST_AT_ONCE)
+        return reader.take(_MAX_AT_ONCE)
     except (DDSException, ValueError, struct.error) as error:
         _log.warning("damaged messages are skipped: %s", error)
         return []
@@ -115,10 +115,10 @@ class Trigger:
             _log.exception("a service failed")
             success, message = False, f"{type(error).__name__}: {error}"
         # A client that has just joined may not hear the answer yet.
-        for _ in range(int(_CLIENT_WITHIN_S / _LOOK_EVERY_S)):
+        for _ in range(int(_CLIENT_WITHIN_S / _POLL_PERIOD_S)):
             if self._responses.has_readers():
                 break
-            await asyncio.sleep(_LOOK_EVERY_S)
+            await asyncio.sleep(_POLL_PERIOD_S)
         self._responses.write(messages.TriggerResponse(request.client, request.sequence, success, message))
 
 

@@ -15,9 +15,9 @@ from supercoil.ros.motion import Motion
 
 _TRY_AGAIN_S = 1.0
 _STALE_S = 0.5
-_TELL_REFUSALS_S = 5.0
+_REPORT_REFUSALS_S = 5.0
 # A set point that holds is sent again this often, so that a board that others put to rest moves again.
-_SAY_AGAIN_S = 0.5
+_RESEND_PERIOD_S = 0.5
 
 _UNKNOWN_RANGE_M = (-math.inf, math.inf)
 _ENDED = "its connection has ended"  # until the cause is known
@@ -48,7 +48,7 @@ class Joint:
         self._muscle: Muscle | None = None
         self._antagonist: Muscle | None = None
         self._wanted: float | None = None
-        self._look = asyncio.Event()
+        self._wake = asyncio.Event()
         self._arming: asyncio.Task[None] | None = None
         self._range_m = _UNKNOWN_RANGE_M
         self._refusal = ""
@@ -93,7 +93,7 @@ class Joint:
     @property
     def refusal(self) -> str:
         """The refusal of the last seconds; empty: none."""
-        return self._refusal if time.monotonic() - self._refused_at_s < _TELL_REFUSALS_S else ""
+        return self._refusal if time.monotonic() - self._refused_at_s < _REPORT_REFUSALS_S else ""
 
     @property
     def position(self) -> float:
@@ -123,12 +123,12 @@ class Joint:
             self.motion = None
         if wanted != self._wanted:
             self._wanted = wanted
-            self._look.set()
+            self._wake.set()
 
     def let_go(self) -> None:
         self.motion = None
         self._wanted = None
-        self._look.set()
+        self._wake.set()
 
     async def run(self) -> None:
         """Connects, again and again, and obeys while connected."""
@@ -185,9 +185,9 @@ class Joint:
         ours = False  # whether the muscle moves because of us
         while True:
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(_SAY_AGAIN_S):
-                    await self._look.wait()
-            self._look.clear()
+                async with asyncio.timeout(_RESEND_PERIOD_S):
+                    await self._wake.wait()
+            self._wake.clear()
             wanted_m = None if self._wanted is None else self._to_m(self._wanted)
             try:
                 if wanted_m is not None:
@@ -200,7 +200,7 @@ class Joint:
                         await muscle.rest()
                     ours = False
             except (RefusalError, FaultError, _Refused) as error:
-                self.refuse(self._told(error, wanted_m))
+                self.refuse(self._reason(error, wanted_m))
                 self.let_go()  # the muscle then rests, if it moved
 
     def _check(self, muscle: Muscle, position_m: float) -> None:
@@ -218,7 +218,7 @@ class Joint:
         position, nearest = self.of_m(position_m), self.of_m(nearest_m)
         return f"{position:.6f} {self.unit} is out of range; {nearest:.6f} {self.unit} is in range"
 
-    def _told(self, error: Exception, position_m: float | None) -> str:
+    def _reason(self, error: Exception, position_m: float | None) -> str:
         """The error in the joint's unit. Remembers the ends of its range when the board reports them."""
         if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and position_m is not None:
             low_m, high_m = self._range_m

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 else:
     from cyclonedds.idl.types import sequence
 
-_NS_IN_A_SECOND = 1_000_000_000
+_NS_PER_S = 1_000_000_000
 OK, WARN, ERROR, STALE = range(4)  # values of DiagnosticStatus.level
 
 
@@ -26,7 +26,7 @@ class Time(IdlStruct, typename="builtin_interfaces::msg::dds_::Time_"):
 
     @classmethod
     def now(cls) -> "Time":
-        return cls(*divmod(time.time_ns(), _NS_IN_A_SECOND))
+        return cls(*divmod(time.time_ns(), _NS_PER_S))
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Duration(IdlStruct, typename="builtin_interfaces::msg::dds_::Duration_"):
 
 
 def in_seconds(time_or_duration: Time | Duration) -> float:
-    return time_or_duration.sec + time_or_duration.nanosec / _NS_IN_A_SECOND
+    return time_or_duration.sec + time_or_duration.nanosec / _NS_PER_S
 
 
 @dataclass

@@ -9,9 +9,9 @@ from typing import NamedTuple, Protocol
 
 from supercoil.ros import messages
 
-_LONGEST_S = 600.0
+_MAX_DURATION_S = 600.0
 # A wrong clock must not hold a muscle where it is for a year.
-_LATEST_S = 60.0
+_MAX_WAIT_S = 60.0
 
 
 class Motion(Protocol):
@@ -79,15 +79,15 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     ValueError says what is wrong with the message."""
     stamp_s = messages.in_seconds(message.header.stamp)
     begins_s = start.time_s + (stamp_s - wall_clock_s if stamp_s else 0.0)
-    if begins_s > start.time_s + _LATEST_S:
-        raise ValueError(f"begins in {begins_s - start.time_s:.6g} s; must be at most {_LATEST_S:g}. Are both clocks "
+    if begins_s > start.time_s + _MAX_WAIT_S:
+        raise ValueError(f"begins in {begins_s - start.time_s:.6g} s; must be at most {_MAX_WAIT_S:g}. Are both clocks "
                          "right?")
     joints = len(message.joint_names)
     knots: list[Knot] = []
     for number, point in enumerate(message.points):
         after_s = messages.in_seconds(point.time_from_start)
-        if not 0.0 <= after_s <= _LONGEST_S:
-            raise ValueError(f"points[{number}].time_from_start is {after_s:g} s; must be 0 to {_LONGEST_S:g}")
+        if not 0.0 <= after_s <= _MAX_DURATION_S:
+            raise ValueError(f"points[{number}].time_from_start is {after_s:g} s; must be 0 to {_MAX_DURATION_S:g}")
         position = _column(point.positions, joint, joints, "positions", number)
         velocity = _column(point.velocities, joint, joints, "velocities", number)
         assert position is not None

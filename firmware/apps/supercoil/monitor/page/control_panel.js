@@ -139,8 +139,8 @@ export class ControlPanel {
     this.#send(opcode, to_board(value), `${this.number.value} ${unit}`);
   }
 
-  async #send(opcode, value = 0, said = "") {
-    const what = said ? `${opcode} ${said}` : opcode;
+  async #send(opcode, value = 0, value_text = "") {
+    const what = value_text ? `${opcode} ${value_text}` : opcode;
     this.#answer(`${what} …`, true);
     const { obeyed, text } = await this.manual.send(opcode, value);
     this.#answer(`${what}: ${text}`, obeyed);

@@ -2,7 +2,7 @@
 
 import { element, scrolling, show } from "./dom.js";
 import { NONE, bus_time, significant } from "./format.js";
-import { ask_muscle } from "./server.js";
+import { muscle_of } from "./server.js";
 
 // Muscle.quantity → its name and unit; and the coefficients of the model, which follow from these.
 const QUANTITIES = {
@@ -24,7 +24,7 @@ const FOLLOWING = {
 const KEPT = ["theta2_deviation_ratio", "theta3_deviation_ratio", "theta4_deviation_ratio", "stiffness_N_per_m"];
 const SAME_RATIO = 1e-6;
 
-const is_of_same = (answer, heard) => KEPT.every((name) => Math.abs(heard[name] - answer[name]) <= SAME_RATIO * Math.abs(answer[name]));
+const is_of_same = (answer, received) => KEPT.every((name) => Math.abs(received[name] - answer[name]) <= SAME_RATIO * Math.abs(answer[name]));
 
 const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NONE);
 
@@ -43,9 +43,8 @@ function identified_since(store, node, now_s) {
 }
 
 export class Identified {
-  /** may_ask: whether there is a board. */
-  constructor(node, store, may_ask) {
-    Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "", answer: {} });
+  constructor(node, store, has_board) {
+    Object.assign(this, { node, store, has_board, rows: new Map(), problem: "", answer: {} });
     const body = element("tbody");
     for (const [name, [title, unit]] of Object.entries({ ...FOLLOWING, ...QUANTITIES })) {
       const cells = ["value", "deviation", "value"].map((kind) => element("td", { class: kind }, NONE));
@@ -53,27 +52,27 @@ export class Identified {
       this.rows.set(name, cells);
     }
     this.since = element("p", { class: "hint", role: "status" });
-    this.again = element("button", { type: "button", hidden: !may_ask, onclick: () => this.#ask() }, "ask again");
+    this.again = element("button", { type: "button", hidden: !has_board, onclick: () => this.#request() }, "ask again");
     this.element = element("section", { class: "card full-only", "aria-label": `muscle in use, node ${node}` }, element("h2", {}, "Muscle in use"), this.since,
       scrolling(`table of what is in use, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
         ...["parameter", "in use", "unit", "deviation", "board.toml"].map((title) => element("th", { scope: "col" }, title)))), body)), this.again);
   }
 
-  async #ask() {
+  async #request() {
     this.problem = "";
-    await ask_muscle(this.node).then((answer) => (this.answer = answer), ({ message }) => (this.problem = `not known: ${message}`));
+    await muscle_of(this.node).then((answer) => (this.answer = answer), ({ message }) => (this.problem = `not known: ${message}`));
     this.key = undefined;
   }
 
   /** Asks once, and whenever identify or calibrate has ended. */
   update(now_s) {
     const result = this.store.at(this.node, "Status", now_s)?.result;
-    if (this.may_ask && result !== undefined && result !== this.result) this.#ask();
+    if (this.has_board && result !== undefined && result !== this.result) this.#request();
     this.result = result;
-    const heard = {};
-    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) heard[this.store.word("Muscle", "quantity", number)] = value;
+    const received = {};
+    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) received[this.store.word("Muscle", "quantity", number)] = value;
     // The server derives deviations that boards do not send.
-    const known = { ...(is_of_same(this.answer, heard) ? this.answer : {}), ...heard };
+    const known = { ...(is_of_same(this.answer, received) ? this.answer : {}), ...received };
     for (const by of ["", "configured_"]) {
       const physical = { c: known[`${by}thermal_mass_J_per_K`], h: known[`${by}heat_transfer_W_per_K`], k: known[`${by}stiffness_N_per_m`],
         d: known[`${by}damping_Ns_per_m`], m: known[`${by}moving_mass_kg`], force: known[`${by}force_per_kelvin_N_per_K`] };
@@ -85,13 +84,13 @@ export class Identified {
       show(configured, significant(known[`configured_${name}`]));
     }
     // The search goes far back: only do it when something has changed.
-    const key = [result, known.stiffness_N_per_m, known.theta4_deviation_ratio, known.identified_s, this.problem, this.may_ask || Math.floor(now_s)].join();
+    const key = [result, known.stiffness_N_per_m, known.theta4_deviation_ratio, known.identified_s, this.problem, this.has_board || Math.floor(now_s)].join();
     if (key !== this.key) show(this.since, this.problem || this.#since(known, now_s));
     this.key = key;
   }
 
   #since(known, now_s) {
-    if (known.stiffness_N_per_m === undefined) return this.may_ask ? "asking the board …" : "No program asked the board for it in this log.";
+    if (known.stiffness_N_per_m === undefined) return this.has_board ? "asking the board …" : "No program asked the board for it in this log.";
     const since_s = identified_since(this.store, this.node, now_s);
     if (since_s !== null) return `Identified; in use since ${bus_time(since_s)}.`;
     if (known.identified_s > 0) return `Identified ${minute(known.identified_s)}, before the board started.`;

@@ -13,7 +13,7 @@ import { take_results } from "./results.js";
 import { Replay } from "./replay.js";
 import { RunBar } from "./run_bar.js";
 import { Setup } from "./setup.js";
-import { about as ask_about, token } from "./server.js";
+import { about as fetch_about, token } from "./server.js";
 import { StatusLine } from "./status_line.js";
 import { Stop } from "./stop.js";
 import { Store } from "./store.js";
@@ -47,11 +47,11 @@ function begin(about) {
   const fault_page = new FaultPage(by_id("fault-page"));
   const tabs = new NodeTabs(by_id("tabs"), by_id("nodes"));
   const status = new StatusLine(by_id("status"), stream, store, view, is_log);
-  const say_problem = (text) => {
+  const show_problem = (text) => {
     by_id("problem").hidden = false;
     show(by_id("problem"), text);
   };
-  const feed = new Feed(store, stream, is_log, say_problem);
+  const feed = new Feed(store, stream, is_log, show_problem);
 
   const run = new OtherRun(about.protocol);
   new RunBar(by_id("run"), run, store, view, () => tabs.visible.map(({ node }) => node));
@@ -86,21 +86,21 @@ function begin(about) {
 /** Redraws plots when there is new data, texts ten times a second. */
 function draw_forever({ store, view, replay, run, tabs, status, stop }) {
   let stale = true; // new data came
-  let asked = true; // the user waits for it
+  let draw_requested = true; // the user waits for it
   let plots_ms = 0;
   let texts_ms = 0;
-  const ask = () => (asked = true);
+  const request_draw = () => (draw_requested = true);
   store.addEventListener("batch", () => (stale = true));
-  view.addEventListener("change", ask);
-  replay?.addEventListener("change", ask);
-  run.addEventListener("change", ask);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
+  view.addEventListener("change", request_draw);
+  replay?.addEventListener("change", request_draw);
+  run.addEventListener("change", request_draw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", request_draw);
   const frame = (now_ms) => {
     requestAnimationFrame(frame);
     // Skip drawing an hour that scrolls by less than a pixel.
     const enough_ms = Math.max(DRAW_EVERY_MS(), Math.min(1000, view.span_s));
-    if (!store.empty && (asked || (stale && view.live && now_ms - plots_ms >= enough_ms))) {
-      asked = stale = false;
+    if (!store.empty && (draw_requested || (stale && view.live && now_ms - plots_ms >= enough_ms))) {
+      draw_requested = stale = false;
       plots_ms = now_ms;
       for (const node of tabs.visible) node.draw();
     }
@@ -115,7 +115,7 @@ function draw_forever({ store, view, replay, run, tabs, status, stop }) {
   requestAnimationFrame(frame);
 }
 
-ask_about().then(begin, (problem) => {
+fetch_about().then(begin, (problem) => {
   const status = by_id("status");
   status.dataset.kind = "lost";
   show(status.querySelector("b"), "no access");

@@ -13,7 +13,7 @@ const COOLS = new Set(["rest", "disarm"]);
 export class ManualControl extends EventTarget {
   constructor(node, timeout_s) {
     super();
-    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0, following: null });
+    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, waiting: false, answered_ms: 0, release_count: 0, following: null });
   }
 
   /** A manual command; it ends a motion that is playing. Resolves to {obeyed, text}. */
@@ -33,7 +33,7 @@ export class ManualControl extends EventTarget {
     return this.#follow(async () => {
       try {
         const reply = await play(this.node, knots, start);
-        this.#heard();
+        this.#note_answer();
         return reply;
       } catch ({ message }) {
         return { problem: message };
@@ -68,8 +68,8 @@ export class ManualControl extends EventTarget {
   #hold(opcode, begins) {
     this.holds = opcode;
     if (begins) this.since_ms = performance.now();
-    this.#heard();
-    this.#say("");
+    this.#note_answer();
+    this.#show_message("");
     this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
   }
 
@@ -80,7 +80,7 @@ export class ManualControl extends EventTarget {
     this.timer = 0;
     this.holds = null;
     this.dispatchEvent(new Event("release"));
-    this.#say(notice, alarming);
+    this.#show_message(notice, alarming);
   }
 
   /** The board's own state and fault: a mode that has ended, or was ended, is no longer held. */
@@ -93,27 +93,27 @@ export class ManualControl extends EventTarget {
   }
 
   async #live() {
-    if (this.asking) return;
-    this.asking = true;
+    if (this.waiting) return;
+    this.waiting = true;
     try {
       const { holding, reason } = await alive(this.node);
-      this.#heard();
+      this.#note_answer();
       if (!holding && this.holds) this.release_hold(`command ${reason} (${clock_now()})`, reason !== "ended");
-      else if (this.holds) this.#say("");
+      else if (this.holds) this.#show_message("");
     } catch {
-      if (performance.now() - this.heard_ms > 1e3 * this.timeout_s && this.holds)
-        this.#say(`command expired: supercoil monitor has not answered since ${this.heard_at}`);
+      if (performance.now() - this.answered_ms > 1e3 * this.timeout_s && this.holds)
+        this.#show_message(`command expired: supercoil monitor has not answered since ${this.answered_at}`);
     } finally {
-      this.asking = false;
+      this.waiting = false;
     }
   }
 
-  #heard() {
-    this.heard_ms = performance.now();
-    this.heard_at = clock_now();
+  #note_answer() {
+    this.answered_ms = performance.now();
+    this.answered_at = clock_now();
   }
 
-  #say(notice, alarming = true) {
+  #show_message(notice, alarming = true) {
     if (notice === this.notice) return;
     Object.assign(this, { notice, alarming });
     this.dispatchEvent(new Event("notice"));

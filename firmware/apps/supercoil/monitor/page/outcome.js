@@ -63,7 +63,7 @@ export function infeasible_text(store, node, range, rule) {
   const too_much = new Set(rule.limits);
   let all = 0;
   let missed = 0;
-  let longest_s = 0;
+  let max_s = 0;
   let in_a_row = 0;
   let since_s = null;
   let shaped = false;
@@ -79,11 +79,11 @@ export function infeasible_text(store, node, range, rule) {
     shaped ||= name === "cooling";
     if (time_s - since_s < rule.lasts_s) continue;
     missed += in_a_row;
-    longest_s = Math.max(longest_s, time_s - since_s);
+    max_s = Math.max(max_s, time_s - since_s);
     in_a_row = 0;
   }
   if (missed === 0) return "";
-  return `The reference asked for more than the muscle can do, for up to ${significant(longest_s)} s at a time and in ${percent(missed, all)} of the time that it was followed: use a slower or smaller one${shaped ? "" : ", or shape_reference"}.`;
+  return `The reference asked for more than the muscle can do, for up to ${significant(max_s)} s at a time and in ${percent(missed, all)} of the time that it was followed: use a slower or smaller one${shaped ? "" : ", or shape_reference"}.`;
 }
 
 /** Why it was never armed, or "" when it was. */
@@ -94,9 +94,9 @@ export function never_armed_text(store, node, { from_s, to_s }) {
   const [, state, fault] = states.at(-1);
   if (name(state) === "fault") return `Never armed: fault ${fault}, ${words(store.word("Status", "fault", fault))}.`;
   const arm = number_of(store, "Acknowledge", "opcode", "arm");
-  const asked = [...samples(store.table(node, "Acknowledge"), ["opcode", "refusal"], from_s, to_s)].filter(([, opcode]) => opcode === arm);
-  if (asked.length === 0) return "Never armed: no arm command.";
-  return `Never armed: refused, ${refusal_words(store.word("Acknowledge", "refusal", asked.at(-1)[2]))}.`;
+  const attempts = [...samples(store.table(node, "Acknowledge"), ["opcode", "refusal"], from_s, to_s)].filter(([, opcode]) => opcode === arm);
+  if (attempts.length === 0) return "Never armed: no arm command.";
+  return `Never armed: refused, ${refusal_words(store.word("Acknowledge", "refusal", attempts.at(-1)[2]))}.`;
 }
 
 /** {period_s, amplitude_m} of an oscillation with a steady period while the reference was constant, or null. */
@@ -148,7 +148,7 @@ export function cycle_text(store, node, { from_s, to_s }) {
   const middle_s = lasted_s.sort((a, b) => a - b)[Math.floor(lasted_s.length / 2)];
   const alike = lasted_s.filter((each_s) => Math.abs(each_s - middle_s) < ALIKE * middle_s);
   const reference = [...samples(store.table(node, "Tracking"), ["reference_m"], ...newest)].filter(([, value_m]) => Number.isFinite(value_m));
-  const longest_s = OF_REFERENCE * (swing_of(reference)?.period_s ?? Infinity);
-  if (2 * alike.length <= lasted_s.length || middle_s > longest_s) return "";
+  const max_s = OF_REFERENCE * (swing_of(reference)?.period_s ?? Infinity);
+  if (2 * alike.length <= lasted_s.length || middle_s > max_s) return "";
   return `The loop oscillates with a period of ${significant(middle_s)} s while the reference moves: its power goes from one limit to the other. Lower its gains, or identify the muscle.`;
 }

@@ -11,7 +11,7 @@ import { points_of } from "./plot_points.js";
 
 const HEIGHT_PX = 176;
 /** Lets tests measure how soon the first plot appears. */
-function tell_first_plot() {
+function mark_first_plot() {
   if (performance.getEntriesByName("first-plot").length === 0) performance.mark("first-plot");
 }
 
@@ -129,7 +129,7 @@ export class Plot {
       this.chart.setData([bucket_times(range.from_s, range.to_s, buckets), ...lines], false);
       this.chart.setScale("x", { min: range.from_s, max: range.to_s });
     });
-    tell_first_plot();
+    mark_first_plot();
   }
 
   #draw_limits() {

@@ -17,7 +17,7 @@ function take_token() {
 // For STOP; after this time the fallback is tried.
 const STOP_WITHIN_MS = 500;
 
-async function ask(path, options = {}) {
+async function request(path, options = {}) {
   const headers = { ...options.headers, ...(token && { "X-Supercoil-Token": token }) };
   const answer = await fetch(path, { cache: "no-store", ...options, headers });
   if (answer.ok) return answer;
@@ -26,7 +26,7 @@ async function ask(path, options = {}) {
 }
 
 const post = (path, body, options) =>
-  ask(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), ...options });
+  request(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), ...options });
 
 /** Gives up after a time limit, even while the answer is being read. act: gets the options for fetch. */
 async function within(limit_ms, act) {
@@ -37,14 +37,14 @@ async function within(limit_ms, act) {
   }
 }
 
-export const about = async () => (await ask("/api/about")).json();
+export const about = async () => (await request("/api/about")).json();
 
 /** Times of the bus; negative: relative to the newest frame; undefined: all. */
 export async function history_of(from_s, to_s) {
   const query = new URLSearchParams();
   if (from_s !== undefined) query.set("from_s", from_s);
   if (to_s !== undefined) query.set("to_s", to_s);
-  return (await ask(`/api/history?${query}`)).json();
+  return (await request(`/api/history?${query}`)).json();
 }
 
 /** Resolves to the refusal's name; "none": it was obeyed. */
@@ -56,23 +56,23 @@ export async function command(node, opcode, value = 0, options = {}) {
 export const play = async (node, knots, start) => (await post("/api/trajectory", { node, knots, start })).json();
 
 /** All values of a node: {controllers: [{controller, kind: {in_use, …}, …}], estimators: [{estimator, …}], choices: {controllers: {kind: […], …}, estimators}}. */
-export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json();
+export const tuning_of = async (node) => (await request(`/api/tuning/${node}`)).json();
 
 /** The kinds in use of a node: {controllers: ["mrac", …], estimators: […]}. */
-export const kinds_of = async (node) => (await ask(`/api/kinds/${node}`)).json();
+export const kinds_of = async (node) => (await request(`/api/kinds/${node}`)).json();
 
 /** Makes a node report the muscle that it uses: the stream has it too, as Muscle, except for the deviations that the server derives. */
-export const ask_muscle = async (node) => (await ask(`/api/muscle/${node}`)).json();
+export const muscle_of = async (node) => (await request(`/api/muscle/${node}`)).json();
 
 /** Changes values (texts by name), starting from those of a set. Resolves to the refusal's name. */
 export const tune = async (node, place, from, values) =>
   (await (await post("/api/tuning", { node, place, from, values })).json()).refusal;
 
 /** The state of setup: SetupSession's. */
-export const setup_state = async () => (await ask("/api/setup")).json();
+export const setup_state = async () => (await request("/api/setup")).json();
 
-/** asked: {do: "begin", step}, {do: "answer", text}, {do: "end"} or {do: "undo"}. Resolves to the state after it. */
-export const ask_setup = async (asked) => (await post("/api/setup", asked)).json();
+/** order: {do: "begin", step}, {do: "answer", text}, {do: "end"} or {do: "undo"}. Resolves to the state after it. */
+export const request_setup = async (order) => (await post("/api/setup", order)).json();
 
 /** STOP's fallback: an ordinary command with a deadline. */
 export const disarm_within = (limit_ms, node) => within(limit_ms, (options) => command(node, "disarm", 0, options));
@@ -94,4 +94,4 @@ export function stop(port) {
 }
 
 /** A fault's page, as Markdown. */
-export const fault_page = async (name) => (await ask(`/api/fault/${encodeURIComponent(name)}`)).text();
+export const fault_page = async (name) => (await request(`/api/fault/${encodeURIComponent(name)}`)).text();

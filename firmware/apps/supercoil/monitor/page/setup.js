@@ -3,7 +3,7 @@
 
 import { element, show } from "./dom.js";
 import { significant, words } from "./format.js";
-import { ask_setup, setup_state } from "./server.js";
+import { request_setup, setup_state } from "./server.js";
 import { TimeLeft } from "./time_left.js";
 
 const LOOK_EVERY_MS = 400;
@@ -13,14 +13,14 @@ const text_of = (value) => (value === null ? "–" : typeof value === "number" ?
 export class Setup {
   /** opener: the button that opens it. store: while the bus sends data, a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
-    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0, refusal: null, time_left: new TimeLeft() });
+    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, requests: 0, refusal: null, time_left: new TimeLeft() });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
     const [what, answer] = dialog.querySelectorAll(":scope > p");
     Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
     opener.hidden = false;
     opener.addEventListener("click", () => (dialog.open ? dialog.close() : this.open()));
     close.addEventListener("click", () => dialog.close());
-    undo.addEventListener("click", () => this.#ask({ do: "undo" }));
+    undo.addEventListener("click", () => this.#request({ do: "undo" }));
     const look = () => (dialog.open || this.state?.running) && this.look();
     setInterval(look, LOOK_EVERY_MS);
     store.addEventListener("batch", look);
@@ -34,27 +34,27 @@ export class Setup {
   async look() {
     if (performance.now() - this.looked_ms < LOOK_EVERY_MS) return;
     this.looked_ms = performance.now();
-    const { asked } = this;
+    const { requests } = this;
     try {
       const state = await setup_state();
       // Ignores a state that was read before the latest request.
-      if (asked === this.asked) this.#take(state);
+      if (requests === this.requests) this.#take(state);
     } catch (problem) {
-      this.#say(problem.message, true);
+      this.#show_message(problem.message, true);
     }
   }
 
-  async #ask(asked) {
-    this.asked++;
+  async #request(order) {
+    this.requests++;
     try {
-      const { done, ...state } = await ask_setup(asked);
+      const { done, ...state } = await request_setup(order);
       this.refusal = null;
       this.#take(state);
-      this.#say(done);
+      this.#show_message(done);
     } catch (problem) {
       const { question } = this.state;
-      if (asked.do === "answer" && question) return this.#refuse_answer(question.key, problem.message);
-      this.#say(problem.message, true);
+      if (order.do === "answer" && question) return this.#refuse_answer(question.key, problem.message);
+      this.#show_message(problem.message, true);
       this.answer.scrollIntoView({ block: "nearest" });
     }
   }
@@ -66,7 +66,7 @@ export class Setup {
     this.#draw_progress();
   }
 
-  #say(text, refused = false) {
+  #show_message(text, refused = false) {
     show(this.answer, text);
     this.answer.classList.toggle("refused", refused);
   }
@@ -94,8 +94,8 @@ export class Setup {
         element("h3", {}, step.name, step.optional ? " (optional)" : ""), element("p", {}, step.does),
         this.#found(step),
         ...(step.name === last ? this.#what_happens(runs) : []),
-        runs ? element("button", { type: "button", onclick: () => this.#ask({ do: "end" }) }, `end ${step.name}`)
-          : element("button", { type: "button", disabled: running !== null, onclick: () => this.#ask({ do: "begin", step: step.name }) },
+        runs ? element("button", { type: "button", onclick: () => this.#request({ do: "end" }) }, `end ${step.name}`)
+          : element("button", { type: "button", disabled: running !== null, onclick: () => this.#request({ do: "begin", step: step.name }) },
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
     }));
     const input = this.list.querySelector("form input");
@@ -138,7 +138,7 @@ export class Setup {
       input.setAttribute("aria-invalid", "true");
       input.setAttribute("aria-describedby", "setup-refusal");
     }
-    return element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#ask({ do: "answer", text: input.value.trim() }); } },
+    return element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#request({ do: "answer", text: input.value.trim() }); } },
       element("label", { for: input.id }, text), element("p", { class: "hint" }, `${range}${fallback === null ? "" : `; empty means ${fallback}`}`),
       input, " ", element("button", { type: "submit" }, "next"),
       refused ? element("p", { class: "answer refused", role: "alert", id: "setup-refusal" }, this.refusal.text) : "");

@@ -35,7 +35,7 @@ export class Stop {
   observe(statuses) {
     if (this.notice.dataset.kind !== "failed" || this.notice.hidden || statuses.length === 0) return;
     if (!statuses.every((status) => status && OFF.has(status.state) && status.time_s > this.pressed_s)) return;
-    this.#say(`every node reports its muscle off (${clock_now()}); STOP itself failed: ${this.problem}`, "done");
+    this.#show_message(`every node reports its muscle off (${clock_now()}); STOP itself failed: ${this.problem}`, "done");
   }
 
   async press() {
@@ -45,7 +45,7 @@ export class Stop {
     this.button.classList.add("pressed");
     try {
       const nodes = await stop(this.port);
-      this.#say(nodes.length ? `stopped node ${nodes.join(", ")} (${clock_now()})` : "stopped; no node was ever heard", "done");
+      this.#show_message(nodes.length ? `stopped node ${nodes.join(", ")} (${clock_now()})` : "stopped; no node was ever heard", "done");
     } catch (problem) {
       await this.#by_commands(problem);
     } finally {
@@ -56,17 +56,17 @@ export class Stop {
   /** The fallback, when the STOP port does not answer. */
   async #by_commands(problem) {
     this.problem = problem.message;
-    this.#say(`STOP did not get through (${problem.message}); disarming each node …`, "failed");
+    this.#show_message(`STOP did not get through (${problem.message}); disarming each node …`, "failed");
     const answers = await Promise.allSettled(this.nodes().map((node) => disarm_within(DISARM_WITHIN_MS, node)));
     const obeyed = answers.length > 0 && answers.every(({ value }) => value === "none");
     if (obeyed) {
-      this.#say(`disarmed each node; the stop's own port did not answer: ${problem.message}`, "done");
+      this.#show_message(`disarmed each node; the stop's own port did not answer: ${problem.message}`, "done");
     } else {
-      this.#say(`STOP FAILED: ${problem.message}. Use the stop button of the board.`, "failed");
+      this.#show_message(`STOP FAILED: ${problem.message}. Use the stop button of the board.`, "failed");
     }
   }
 
-  #say(text, kind) {
+  #show_message(text, kind) {
     show(this.notice, text);
     this.notice.dataset.kind = kind;
     this.notice.hidden = false;

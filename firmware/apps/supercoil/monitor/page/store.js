@@ -22,12 +22,12 @@ export class Store extends EventTarget {
     this.bus = new Table(["load", "frames_per_s", "error_frames", "dropped", "foreign_per_s"], this.keep_s);
     this.oldest_s = NaN;
     this.newest_s = NaN;
-    this.heard_ms = NaN;
+    this.received_ms = NaN;
   }
 
   /** Time since the last data, on this page's own clock: 0 in a log. */
   get silent_s() {
-    return this.keep_s === Infinity ? 0 : (performance.now() - this.heard_ms) / 1e3;
+    return this.keep_s === Infinity ? 0 : (performance.now() - this.received_ms) / 1e3;
   }
 
   get empty() {
@@ -46,7 +46,7 @@ export class Store extends EventTarget {
       this.bus.append({ time_s: [batch.newest_s], ...row });
     }
     this.newest_s = batch.newest_s;
-    this.heard_ms = performance.now();
+    this.received_ms = performance.now();
     this.dispatchEvent(new CustomEvent("batch", { detail: batch }));
   }
 

@@ -5,7 +5,7 @@ const pages = [];
 let source = null;
 let lost = null; // the message, while the source is lost
 
-function tell(message) {
+function post(message) {
   if (message.kind === "lost") lost = message;
   if (message.kind === "found" || message.kind === "open") lost = null;
   for (const page of pages) page.postMessage(message);
@@ -13,12 +13,12 @@ function tell(message) {
 
 function open(url) {
   source = new EventSource(url);
-  source.onopen = () => tell({ kind: "open" });
-  source.onmessage = (event) => tell({ kind: "batch", data: event.data });
-  source.addEventListener("lost", (event) => tell({ kind: "lost", data: event.data }));
-  source.addEventListener("found", () => tell({ kind: "found" }));
+  source.onopen = () => post({ kind: "open" });
+  source.onmessage = (event) => post({ kind: "batch", data: event.data });
+  source.addEventListener("lost", (event) => post({ kind: "lost", data: event.data }));
+  source.addEventListener("found", () => post({ kind: "found" }));
   source.onerror = () => {
-    tell({ kind: "closed" });
+    post({ kind: "closed" });
     // The browser does not reopen a refused stream (too many of them).
     if (source.readyState === EventSource.CLOSED) setTimeout(open, 1000, url);
   };

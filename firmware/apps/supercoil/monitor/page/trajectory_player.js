@@ -18,7 +18,7 @@ export class TrajectoryPlayer extends EventTarget {
     Object.assign(this, { manual, position, run: null });
     manual.addEventListener("release", () => this.stop("the muscle was let go"));
     manual.addEventListener("taken", () => this.stop("commanded by hand"));
-    document.addEventListener("visibilitychange", () => this.#see());
+    document.addEventListener("visibilitychange", () => this.#stop_if_hidden());
   }
 
   get playing() {
@@ -58,19 +58,19 @@ export class TrajectoryPlayer extends EventTarget {
   }
 
   /** A hidden page does not play: it is too slow to refill the board's knots. */
-  #see() {
+  #stop_if_hidden() {
     if (!document.hidden || !this.playing) return;
     this.stop("the page was hidden; the muscle rests");
     this.manual.send("rest");
   }
 
-  #tell(text) {
+  #report(text) {
     this.dispatchEvent(new CustomEvent("progress", { detail: text }));
   }
 
   /** Goes to the first point. Returns why it did not arrive, or null. */
   async #arrive(run, near_m) {
-    this.#tell("goes to its first point");
+    this.#report("goes to its first point");
     const { obeyed, text } = await this.manual.follow(run.first_m);
     if (!obeyed) return this.#end(run, text);
     const begin_ms = performance.now();
@@ -127,14 +127,14 @@ export class TrajectoryPlayer extends EventTarget {
     if (refusal !== "none" && refusal !== "queue_full") return `${starts ? "its start" : `the knot at ${(run.next[0]?.time_s ?? run.taken_s).toFixed(2)} s`} was refused: ${refusal_words(refusal)}`;
     if (playback === "ended") return this.#end(run, "played to its end");
     run.started ||= starts;
-    this.#say_where(run);
+    this.#report_progress(run);
     return "";
   }
 
-  #say_where(run) {
+  #report_progress(run) {
     const { end_s } = run.motion;
-    if (!run.started) return this.#tell("sends the motion ahead");
+    if (!run.started) return this.#report("sends the motion ahead");
     const whole = Number.isFinite(end_s) ? ` of ${end_s.toFixed(1)}` : "";
-    this.#tell(`${(run.taken_s - run.buffered_s).toFixed(1)}${whole} s, ${run.buffered_s.toFixed(1)} s ahead on the board`);
+    this.#report(`${(run.taken_s - run.buffered_s).toFixed(1)}${whole} s, ${run.buffered_s.toFixed(1)} s ahead on the board`);
   }
 }

@@ -46,7 +46,7 @@ export class Tuning {
   }
 
   async read() {
-    this.#say("reading …");
+    this.#show_message("reading …");
     try {
       const { controllers, estimators, choices } = await tuning_of(this.node);
       this.all = [...controllers.map((values, place) => ({ what: "controller", number: place, place, values, choices: choices.controllers })),
@@ -54,9 +54,9 @@ export class Tuning {
       this.kinds = { controllers: controllers.map(({ kind }) => kind.in_use) };
       this.shown = Math.min(this.shown, this.all.length - 1);
       this.#draw();
-      this.#say("");
+      this.#show_message("");
     } catch (problem) {
-      this.#say(problem.message, true);
+      this.#show_message(problem.message, true);
     }
   }
 
@@ -88,7 +88,7 @@ export class Tuning {
 
   async #use(from, values) {
     const what = Object.entries(values).map(([name, value]) => `${name} = ${value}`).join(", ") || (from === "configured" ? "as board.toml" : "no change");
-    if (this.all.length === 0) return this.#say("the values are not read yet", true);
+    if (this.all.length === 0) return this.#show_message("the values are not read yet", true);
     const { what: of, number, place } = this.all[this.shown];
     await this.#do(`${of} ${number}: ${what}`, () => tune(this.node, place, from, values), "in use");
   }
@@ -98,20 +98,20 @@ export class Tuning {
   }
 
   async #do(what, act, done) {
-    this.#say("…");
+    this.#show_message("…");
     try {
       const refusal = await act();
       const obeyed = refusal === "none";
       const text = `${what}: ${obeyed ? done : `refused: ${refusal_words(refusal)}`}`;
       if (obeyed) await this.read();
-      this.#say(text, !obeyed);
+      this.#show_message(text, !obeyed);
       this.log(text, obeyed ? "" : "warn");
     } catch (problem) {
-      this.#say(problem.message, true);
+      this.#show_message(problem.message, true);
     }
   }
 
-  #say(text, refused = false) {
+  #show_message(text, refused = false) {
     show(this.answer, text);
     this.answer.classList.toggle("refused", refused);
   }

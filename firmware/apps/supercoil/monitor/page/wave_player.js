@@ -8,7 +8,7 @@ const EVERY_MS = 50;
 export class WavePlayer extends EventTarget {
   constructor(manual) {
     super();
-    Object.assign(this, { manual, wave: null, time_s: 0, asking: false });
+    Object.assign(this, { manual, wave: null, time_s: 0, waiting: false });
     // STOP, a fault, another mode: anything that lets go of the muscle ends the waveform at once.
     manual.addEventListener("release", () => this.stop("the muscle was let go"));
     manual.addEventListener("taken", () => this.stop("commanded by hand"));
@@ -40,13 +40,13 @@ export class WavePlayer extends EventTarget {
 
   /** A set point waits for the previous answer: a slow line gets fewer set points, not late ones. */
   async #tick() {
-    if (this.asking) return;
+    if (this.waiting) return;
     const { wave } = this;
     this.time_s = Math.min((performance.now() - this.begin_ms) / 1e3, wave.end_s);
     const ends = this.time_s >= wave.end_s;
-    this.asking = true;
+    this.waiting = true;
     const { obeyed, text } = await this.manual.follow(wave.at(this.time_s));
-    this.asking = false;
+    this.waiting = false;
     if (wave !== this.wave) return;
     if (!obeyed) return this.stop(text);
     this.dispatchEvent(new CustomEvent("progress", { detail: `${fixed(this.time_s, 1)} s` }));

@@ -37,10 +37,10 @@ export class WaveformCard {
     this.element = element("details", { class: "card full-only waveform", "aria-label": `waveform for node ${manual.node}` },
       element("summary", {}, element("h2", {}, "Waveform")), form, this.answer);
     for (const player of [set_points, trajectory]) {
-      player.addEventListener("progress", ({ detail }) => this.#say(`${this.shape}: ${detail}`));
+      player.addEventListener("progress", ({ detail }) => this.#show_message(`${this.shape}: ${detail}`));
       player.addEventListener("stop", ({ detail }) => {
         this.stop_button.disabled = true;
-        this.#say(`${this.shape}: ${detail}`);
+        this.#show_message(`${this.shape}: ${detail}`);
         log(`waveform ${this.shape}: ${detail}`);
       });
     }
@@ -53,7 +53,7 @@ export class WaveformCard {
     for (const [name, { row }] of this.fields) row.hidden = !(name in SHAPES[shape]);
     this.file_row.hidden = shape !== "file";
     this.choice.hidden = shape === "steps";
-    this.#say_way(shape === "steps" ? "it jumps" : this.by_set_points.checked ? "it was chosen" : "");
+    this.#show_choice(shape === "steps" ? "it jumps" : this.by_set_points.checked ? "it was chosen" : "");
   }
 
   async #start() {
@@ -64,15 +64,15 @@ export class WaveformCard {
       this.player = why ? this.set_points : this.trajectory;
       this.player.start(why ? wave : motion, this.max_m);
       this.stop_button.disabled = false;
-      this.#say_way(why);
+      this.#show_choice(why);
       this.log(`waveform ${this.shape}: started ${why ? "as set points" : "as a trajectory"}`);
     } catch (problem) {
-      this.#say(problem.message, true);
+      this.#show_message(problem.message, true);
     }
   }
 
   /** why: the reason for playing it as set points; "" or undefined: as a trajectory. */
-  #say_way(why) {
+  #show_choice(why) {
     show(this.way, why ? `As set points, 20 per second: ${why}.` : "As a trajectory: the board gets the motion ahead of time.");
   }
 
@@ -93,7 +93,7 @@ export class WaveformCard {
     return { wave, motion: no_way ? { why: no_way } : swinging(this.shape, values, this.measure) };
   }
 
-  #say(text, refused = false) {
+  #show_message(text, refused = false) {
     show(this.answer, text);
     this.answer.classList.toggle("refused", refused);
   }

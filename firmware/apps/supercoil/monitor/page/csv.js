@@ -1,7 +1,7 @@
 // The received data as CSV: a row for each frame, its signals in columns named MESSAGE.SIGNAL, times of the bus.
 // SI units, as the signals' names say; names for enumerations; empty: not available, or another message.
 
-const ROWS_A_PART = 20000;
+const ROWS_PER_PART = 20000;
 
 function header(store, messages) {
   const columns = [];
@@ -40,7 +40,7 @@ export async function csv(store, nodes, { from_s, to_s }) {
   let part = [];
   for (const line of lines(store, nodes, from_s, to_s)) {
     part.push(line);
-    if (part.length < ROWS_A_PART) continue;
+    if (part.length < ROWS_PER_PART) continue;
     parts.push(new Blob([part.join("")]));
     part = [];
     await new Promise((resume) => setTimeout(resume));

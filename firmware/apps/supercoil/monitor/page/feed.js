@@ -2,8 +2,8 @@
 
 import { history_of } from "./server.js";
 
-const FIRST_S = 60;
-const PIECE_S = 30;
+const INITIAL_SPAN_S = 60;
+const FETCH_SPAN_S = 30;
 
 export class Feed {
   #waiting = null; // batches of the stream while history is being fetched; null: no fetch is under way
@@ -48,14 +48,14 @@ export class Feed {
 
   #missing(known) {
     if (this.is_log) return [];
-    return known ? [this.store.newest_s] : [-FIRST_S];
+    return known ? [this.store.newest_s] : [-INITIAL_SPAN_S];
   }
 
   async #fetch_older(turn) {
     const { store } = this;
     const end_s = store.newest_s - store.keep_s;
     while (turn === this.#older && store.oldest_s > end_s) {
-      const older = await history_of(store.oldest_s - PIECE_S, store.oldest_s);
+      const older = await history_of(store.oldest_s - FETCH_SPAN_S, store.oldest_s);
       if (turn !== this.#older || !store.prepend(older)) return;
     }
   }

@@ -11,7 +11,7 @@ const QUANTITIES = {
   cold_resistance_Ohm: ["cold resistance", "Ω"], position_offset_m: ["sensor at zero", "m"], position_scale: ["position scale", ""],
   response_ratio: ["response to small motions", ""], unexplained_ratio: ["unexplained power fraction", ""],
 };
-const FOLLOWING = {
+const DERIVED = {
   time_constant: ["time constant", "s", ({ c, h }) => c / h],
   gain: ["gain", "mm/W", ({ h, k, force }) => (1e3 * force) / (h * k)],
   theta1: ["θ1", "m", ({ c, force }) => c / force],
@@ -21,10 +21,10 @@ const FOLLOWING = {
 };
 
 // Identifies the muscle that an answer described; in single precision, as text.
-const KEPT = ["theta2_deviation_ratio", "theta3_deviation_ratio", "theta4_deviation_ratio", "stiffness_N_per_m"];
+const COMPARED = ["theta2_deviation_ratio", "theta3_deviation_ratio", "theta4_deviation_ratio", "stiffness_N_per_m"];
 const SAME_RATIO = 1e-6;
 
-const is_of_same = (answer, received) => KEPT.every((name) => Math.abs(received[name] - answer[name]) <= SAME_RATIO * Math.abs(answer[name]));
+const is_same_muscle = (answer, received) => COMPARED.every((name) => Math.abs(received[name] - answer[name]) <= SAME_RATIO * Math.abs(answer[name]));
 
 const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NONE);
 
@@ -46,7 +46,7 @@ export class Identified {
   constructor(node, store, has_board) {
     Object.assign(this, { node, store, has_board, rows: new Map(), problem: "", answer: {} });
     const body = element("tbody");
-    for (const [name, [title, unit]] of Object.entries({ ...FOLLOWING, ...QUANTITIES })) {
+    for (const [name, [title, unit]] of Object.entries({ ...DERIVED, ...QUANTITIES })) {
       const cells = ["value", "deviation", "value"].map((kind) => element("td", { class: kind }, NONE));
       body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, unit), ...cells.slice(1)));
       this.rows.set(name, cells);
@@ -72,11 +72,11 @@ export class Identified {
     const received = {};
     for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) received[this.store.word("Muscle", "quantity", number)] = value;
     // The server derives deviations that boards do not send.
-    const known = { ...(is_of_same(this.answer, received) ? this.answer : {}), ...received };
+    const known = { ...(is_same_muscle(this.answer, received) ? this.answer : {}), ...received };
     for (const by of ["", "configured_"]) {
       const physical = { c: known[`${by}thermal_mass_J_per_K`], h: known[`${by}heat_transfer_W_per_K`], k: known[`${by}stiffness_N_per_m`],
         d: known[`${by}damping_Ns_per_m`], m: known[`${by}moving_mass_kg`], force: known[`${by}force_per_kelvin_N_per_K`] };
-      for (const [name, [, , of]] of Object.entries(FOLLOWING)) known[`${by}${name}`] = of(physical);
+      for (const [name, [, , of]] of Object.entries(DERIVED)) known[`${by}${name}`] = of(physical);
     }
     for (const [name, [value, deviation, configured]] of this.rows) {
       show(value, significant(known[name]));

@@ -21,9 +21,9 @@ import { Stream } from "./stream.js";
 import { connect_tools } from "./tools.js";
 import { View } from "./view.js";
 
-const TEXT_EVERY_MS = 100;
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
-const DRAW_EVERY_MS = () => (calm.matches ? 500 : 33);
+const TEXT_PERIOD_MS = 100;
+const reduced_motion = matchMedia("(prefers-reduced-motion: reduce)");
+const draw_period_ms = () => (reduced_motion.matches ? 500 : 33);
 
 const by_id = (id) => document.getElementById(id);
 
@@ -98,13 +98,13 @@ function draw_forever({ store, view, replay, run, tabs, status, stop }) {
   const frame = (now_ms) => {
     requestAnimationFrame(frame);
     // Skip drawing an hour that scrolls by less than a pixel.
-    const enough_ms = Math.max(DRAW_EVERY_MS(), Math.min(1000, view.span_s));
+    const enough_ms = Math.max(draw_period_ms(), Math.min(1000, view.span_s));
     if (!store.empty && (draw_requested || (stale && view.live && now_ms - plots_ms >= enough_ms))) {
       draw_requested = stale = false;
       plots_ms = now_ms;
       for (const node of tabs.visible) node.draw();
     }
-    if (now_ms - texts_ms >= TEXT_EVERY_MS) {
+    if (now_ms - texts_ms >= TEXT_PERIOD_MS) {
       texts_ms = now_ms;
       status.update();
       for (const node of tabs.views.values()) node.update();

@@ -4,9 +4,9 @@ import { alive, command, play } from "./server.js";
 import { clock_now } from "./format.js";
 import { refusal_words } from "./refusals.js";
 
-const ALIVE_EVERY_MS = 300;
+const ALIVE_PERIOD_MS = 300;
 // After an obeyed command the muscle's own state follows within a heartbeat or two.
-const SETTLES_MS = 1000;
+const SETTLING_MS = 1000;
 const HEATS = new Set(["position", "power", "identify", "calibrate"]);
 const COOLS = new Set(["rest", "disarm"]);
 
@@ -70,7 +70,7 @@ export class ManualControl extends EventTarget {
     if (begins) this.since_ms = performance.now();
     this.#note_answer();
     this.#show_message("");
-    this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
+    this.timer ||= setInterval(() => this.#report_alive(), ALIVE_PERIOD_MS);
   }
 
   /** This page no longer commands anything that heats. */
@@ -85,14 +85,14 @@ export class ManualControl extends EventTarget {
 
   /** The board's own state and fault: a mode that has ended, or was ended, is no longer held. */
   observe({ state, fault }) {
-    const settled = performance.now() - this.since_ms >= SETTLES_MS;
+    const settled = performance.now() - this.since_ms >= SETTLING_MS;
     if (!this.holds || !settled || state === "active" || state === "silent") return;
     if (fault === "command_timeout") this.release_hold(`command expired: it was not renewed in time (${clock_now()})`);
     else if (state === "armed") this.release_hold(`${this.holds} has ended`, false);
     else this.release_hold(`${this.holds} has ended: the muscle is ${state}`);
   }
 
-  async #live() {
+  async #report_alive() {
     if (this.waiting) return;
     this.waiting = true;
     try {

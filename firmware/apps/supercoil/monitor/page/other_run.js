@@ -55,20 +55,20 @@ export class OtherRun extends EventTarget {
     this.store = new Store(this.protocol, true);
     this.store.append(batch);
     this.name = name;
-    this.#lie(0);
+    this.#shift_by(0);
   }
 
   drop() {
     this.store = null;
-    this.#lie(0);
+    this.#shift_by(0);
   }
 
   /** Moves its beginning to another time. */
   begin_at(time_s) {
-    if (this.store) this.#lie(time_s - this.store.oldest_s);
+    if (this.store) this.#shift_by(time_s - this.store.oldest_s);
   }
 
-  #lie(later_s) {
+  #shift_by(later_s) {
     this.later_s = later_s;
     this.dispatchEvent(new Event("change"));
   }

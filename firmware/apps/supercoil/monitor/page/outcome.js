@@ -5,16 +5,16 @@ import { fixed, significant, words } from "./format.js";
 import { refusal_words } from "./refusals.js";
 
 // Searches for a self-sustained oscillation only in the newest part, while the reference is constant.
-const SWING_S = 60;
+const WINDOW_S = 60;
 const STILL_M = 1e-5;
 const MIN_PERIODS = 4;
 const MIN_SHARE = 0.0005; // else 0.0 %
 // Max ratio of the periods' spread to their mean: noise crosses without a rhythm.
-const RHYTHM = 0.2;
+const MAX_SPREAD_RATIO = 0.2;
 // In a loop that oscillates from limit to limit most cycles have similar lengths, at most a third of the reference's own period.
 const MIN_CYCLES = 12;
-const ALIKE = 0.25;
-const OF_REFERENCE = 1 / 3;
+const SIMILAR_RATIO = 0.25;
+const MAX_PERIOD_RATIO = 1 / 3;
 
 /** [time, value, …] of some columns of a table. */
 function* samples(table, columns, from_s, to_s) {
@@ -118,11 +118,11 @@ export function swing_of(points) {
   if (periods_s.length < MIN_PERIODS) return null;
   const period_s = periods_s.reduce((sum, each_s) => sum + each_s, 0) / periods_s.length;
   const spread_s = Math.sqrt(periods_s.reduce((sum, each_s) => sum + (each_s - period_s) ** 2, 0) / periods_s.length);
-  return spread_s < RHYTHM * period_s ? { period_s, amplitude_m: Math.SQRT2 * rms_m } : null;
+  return spread_s < MAX_SPREAD_RATIO * period_s ? { period_s, amplitude_m: Math.SQRT2 * rms_m } : null;
 }
 
 export function oscillation_text(store, node, { from_s, to_s }) {
-  const all = [...samples(store.table(node, "Tracking"), ["error_m", "reference_m"], Math.max(from_s, to_s - SWING_S), to_s)];
+  const all = [...samples(store.table(node, "Tracking"), ["error_m", "reference_m"], Math.max(from_s, to_s - WINDOW_S), to_s)];
   // Backwards while the reference has its present value; a gap ends it.
   let first = all.length;
   while (first > 0 && Math.abs(all[first - 1][2] - all.at(-1)[2]) < STILL_M && Number.isFinite(all[first - 1][1])) --first;
@@ -132,7 +132,7 @@ export function oscillation_text(store, node, { from_s, to_s }) {
 
 /** Reports that the power goes from limit to limit and back with its own period while the reference moves, as the simulator's summary finds it; or "". */
 export function cycle_text(store, node, { from_s, to_s }) {
-  const newest = [Math.max(from_s, to_s - SWING_S), to_s];
+  const newest = [Math.max(from_s, to_s - WINDOW_S), to_s];
   const lasted_s = [];
   let last = null;
   let risen_s = null;
@@ -146,9 +146,9 @@ export function cycle_text(store, node, { from_s, to_s }) {
   }
   if (lasted_s.length < MIN_CYCLES || oscillation_text(store, node, { from_s, to_s })) return "";
   const middle_s = lasted_s.sort((a, b) => a - b)[Math.floor(lasted_s.length / 2)];
-  const alike = lasted_s.filter((each_s) => Math.abs(each_s - middle_s) < ALIKE * middle_s);
+  const alike = lasted_s.filter((each_s) => Math.abs(each_s - middle_s) < SIMILAR_RATIO * middle_s);
   const reference = [...samples(store.table(node, "Tracking"), ["reference_m"], ...newest)].filter(([, value_m]) => Number.isFinite(value_m));
-  const max_s = OF_REFERENCE * (swing_of(reference)?.period_s ?? Infinity);
+  const max_s = MAX_PERIOD_RATIO * (swing_of(reference)?.period_s ?? Infinity);
   if (2 * alike.length <= lasted_s.length || middle_s > max_s) return "";
   return `The loop oscillates with a period of ${significant(middle_s)} s while the reference moves: its power goes from one limit to the other. Lower its gains, or identify the muscle.`;
 }

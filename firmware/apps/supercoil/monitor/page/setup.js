@@ -6,14 +6,14 @@ import { significant, words } from "./format.js";
 import { request_setup, setup_state } from "./server.js";
 import { TimeLeft } from "./time_left.js";
 
-const LOOK_EVERY_MS = 400;
+const POLL_PERIOD_MS = 400;
 
 const text_of = (value) => (value === null ? "–" : typeof value === "number" ? significant(value) : String(value));
 
 export class Setup {
   /** opener: the button that opens it. store: while the bus sends data, a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
-    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, requests: 0, refusal: null, time_left: new TimeLeft() });
+    Object.assign(this, { dialog, state: null, shown: "", polled_ms: 0, requests: 0, refusal: null, time_left: new TimeLeft() });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
     const [what, answer] = dialog.querySelectorAll(":scope > p");
     Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
@@ -21,19 +21,19 @@ export class Setup {
     opener.addEventListener("click", () => (dialog.open ? dialog.close() : this.open()));
     close.addEventListener("click", () => dialog.close());
     undo.addEventListener("click", () => this.#request({ do: "undo" }));
-    const look = () => (dialog.open || this.state?.running) && this.look();
-    setInterval(look, LOOK_EVERY_MS);
-    store.addEventListener("batch", look);
+    const poll_if_active = () => (dialog.open || this.state?.running) && this.poll();
+    setInterval(poll_if_active, POLL_PERIOD_MS);
+    store.addEventListener("batch", poll_if_active);
   }
 
   open() {
     this.dialog.show();
-    this.look();
+    this.poll();
   }
 
-  async look() {
-    if (performance.now() - this.looked_ms < LOOK_EVERY_MS) return;
-    this.looked_ms = performance.now();
+  async poll() {
+    if (performance.now() - this.polled_ms < POLL_PERIOD_MS) return;
+    this.polled_ms = performance.now();
     const { requests } = this;
     try {
       const state = await setup_state();
@@ -93,7 +93,7 @@ export class Setup {
       return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
         element("h3", {}, step.name, step.optional ? " (optional)" : ""), element("p", {}, step.does),
         this.#found(step),
-        ...(step.name === last ? this.#what_happens(runs) : []),
+        ...(step.name === last ? this.#step_details(runs) : []),
         runs ? element("button", { type: "button", onclick: () => this.#request({ do: "end" }) }, `end ${step.name}`)
           : element("button", { type: "button", disabled: running !== null, onclick: () => this.#request({ do: "begin", step: step.name }) },
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
@@ -113,7 +113,7 @@ export class Setup {
         element("tr", {}, element("th", { scope: "row", title: key }, words(key)), element("td", {}, text_of(value))))));
   }
 
-  #what_happens(runs) {
+  #step_details(runs) {
     const { lines, question, error, kept, steps, last } = this.state;
     const found = steps.find(({ name }) => name === last)?.found;
     const items = lines.map((line) => element("li", {}, line));
@@ -151,10 +151,10 @@ export class Setup {
     this.progress.parentElement.hidden = question !== null;
     if (progress?.done == null) this.progress.removeAttribute("value");
     else this.progress.value = progress.done;
-    show(this.progress_text, progress ? ` ${words(progress.what)}${progress.done == null ? "" : this.#how_far(progress)}` : "");
+    show(this.progress_text, progress ? ` ${words(progress.what)}${progress.done == null ? "" : this.#done_text(progress)}` : "");
   }
 
-  #how_far({ what, done }) {
+  #done_text({ what, done }) {
     return `, ${Math.round(100 * done)} %${this.time_left.text(what, performance.now() / 1000, done)}`;
   }
 }

@@ -3,10 +3,10 @@
 import { refusal_words } from "./refusals.js";
 
 const KNOTS_AT_ONCE = 8;
-const EVERY_MS = 150;
+const PERIOD_MS = 150;
 const SETTLED_MS = 500;
-const ARRIVES_S = 30;
-const NEAR = 0.01; // of the travel
+const ARRIVAL_TIMEOUT_S = 30;
+const NEAR_RATIO = 0.01; // of the travel
 
 const sleep = (duration_ms) => new Promise((resolve) => setTimeout(resolve, duration_ms));
 
@@ -34,7 +34,7 @@ export class TrajectoryPlayer extends EventTarget {
     const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, answered_ms: 0, started: false };
     this.run = run;
     this.#draw(run);
-    const why = (await this.#arrive(run, NEAR * max_m)) ?? (await this.#play(run));
+    const why = (await this.#arrive(run, NEAR_RATIO * max_m)) ?? (await this.#play(run));
     if (run !== this.run) return;
     if (run.ended) this.stop(why);
     else this.hold(why);
@@ -75,9 +75,9 @@ export class TrajectoryPlayer extends EventTarget {
     if (!obeyed) return this.#end(run, text);
     const begin_ms = performance.now();
     for (let near_since_ms = Infinity, now_ms = begin_ms; run === this.run && now_ms - near_since_ms < SETTLED_MS; now_ms = performance.now()) {
-      if (now_ms - begin_ms > 1e3 * ARRIVES_S) return `did not come within ${(1e3 * near_m).toFixed(2)} mm of its first point in ${ARRIVES_S} s`;
+      if (now_ms - begin_ms > 1e3 * ARRIVAL_TIMEOUT_S) return `did not come within ${(1e3 * near_m).toFixed(2)} mm of its first point in ${ARRIVAL_TIMEOUT_S} s`;
       near_since_ms = Math.abs(this.position() - run.first_m) < near_m ? Math.min(near_since_ms, now_ms) : Infinity;
-      await sleep(EVERY_MS / 3);
+      await sleep(PERIOD_MS / 3);
     }
     return null;
   }
@@ -99,7 +99,7 @@ export class TrajectoryPlayer extends EventTarget {
       const why = this.#take(run, reply, starts);
       if (why) return why;
       const behind = batch.length === KNOTS_AT_ONCE && run.room >= KNOTS_AT_ONCE;
-      if (run.started && !behind) await sleep(EVERY_MS);
+      if (run.started && !behind) await sleep(PERIOD_MS);
     }
     return "";
   }

@@ -90,14 +90,14 @@ export class Tuning {
     const what = Object.entries(values).map(([name, value]) => `${name} = ${value}`).join(", ") || (from === "configured" ? "as board.toml" : "no change");
     if (this.all.length === 0) return this.#show_message("the values are not read yet", true);
     const { what: of, number, place } = this.all[this.shown];
-    await this.#do(`${of} ${number}: ${what}`, () => tune(this.node, place, from, values), "in use");
+    await this.#run(`${of} ${number}: ${what}`, () => tune(this.node, place, from, values), "in use");
   }
 
   async #keep(value, done) {
-    await this.#do("tuning", () => command(this.node, "store", value), done);
+    await this.#run("tuning", () => command(this.node, "store", value), done);
   }
 
-  async #do(what, act, done) {
+  async #run(what, act, done) {
     this.#show_message("…");
     try {
       const refusal = await act();

@@ -1,6 +1,6 @@
 // The time shown: the newest (live), or a fixed part of the past (paused).
 
-const SHORTEST_S = 0.5;
+const MIN_SPAN_S = 0.5;
 
 export class View extends EventTarget {
   /** now_s: a function that returns the newest time available; oldest_s: likewise. */
@@ -57,7 +57,7 @@ export class View extends EventTarget {
   }
 
   #set(span_s, end_s) {
-    this.span_s = Math.max(SHORTEST_S, span_s);
+    this.span_s = Math.max(MIN_SPAN_S, span_s);
     this.end_s = end_s;
     this.dispatchEvent(new Event("change"));
   }

@@ -2,7 +2,7 @@
 
 import { fixed } from "./format.js";
 
-const EVERY_MS = 50;
+const PERIOD_MS = 50;
 
 /** Fires "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
 export class WavePlayer extends EventTarget {
@@ -22,7 +22,7 @@ export class WavePlayer extends EventTarget {
   start(wave) {
     this.stop("another one starts");
     Object.assign(this, { wave, time_s: 0, begin_ms: performance.now() });
-    this.timer = setInterval(() => this.#tick(), EVERY_MS);
+    this.timer = setInterval(() => this.#tick(), PERIOD_MS);
     this.#tick();
   }
 

@@ -140,7 +140,7 @@ class CanBoardLink final : public BoardLink {
   Result<Received*> receive(const std::string& channel);
   Result<Commander*> commander(std::uint8_t node);
   /// The kinds of the active controllers by node; omits nodes that do not report them.
-  std::map<int, std::string> laws(const FrameHistory& frame_history);
+  std::map<int, std::string> controller_kinds(const FrameHistory& frame_history);
   /// Listens for a while and returns describe() of the frames received.
   Answer collect_frames(const std::function<std::string(const FrameHistory&)>& describe);
 

@@ -124,10 +124,10 @@ Result<double> CanBoardLink::progress(const std::string& channel) {
   return receive(channel).map([](const Received* received) { return received->progress; });
 }
 
-std::map<int, std::string> CanBoardLink::laws(const FrameHistory& frame_history) {
+std::map<int, std::string> CanBoardLink::controller_kinds(const FrameHistory& frame_history) {
   constexpr std::size_t kind = 0;
   std::map<int, std::string> known;
-  for (const auto& [node, place] : controllers_at_work(frame_history)) {
+  for (const auto& [node, place] : active_controllers(frame_history)) {
     const auto value = tuning(std::to_string(node), place, kind, TuningSet::in_use);
     if (value && std::isfinite(*value))
       known[node] = tuning_text(Tuned::controller, control::tunables()[kind], *value);
@@ -149,7 +149,7 @@ BoardLink::Answer CanBoardLink::collect_frames(
 
 BoardLink::Answer CanBoardLink::state() {
   return collect_frames([this](const FrameHistory& frame_history) {
-    return state_text(frame_history, laws(frame_history));
+    return state_text(frame_history, controller_kinds(frame_history));
   });
 }
 
@@ -157,10 +157,10 @@ BoardLink::Answer CanBoardLink::state_json() {
   return collect_frames([this](const FrameHistory& frame_history) {
     using Json = nlohmann::ordered_json;
     Json state = operating::state_json(frame_history);
-    const auto known = laws(frame_history);
+    const auto known = controller_kinds(frame_history);
     for (auto& node : state["nodes"]) {
-      const auto law = known.find(node["node"].get<int>());
-      node["controller_kind"] = law == known.end() ? Json(nullptr) : Json(law->second);
+      const auto kind = known.find(node["node"].get<int>());
+      node["controller_kind"] = kind == known.end() ? Json(nullptr) : Json(kind->second);
     }
     return state.dump() + "\n";
   });

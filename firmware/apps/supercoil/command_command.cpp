@@ -38,7 +38,7 @@ bool is_answer(std::string_view answer) {
 }
 
 /// A board's answer as an exit status; prints anything but "ok".
-int judged(const std::string& line, const std::string& answer) {
+int exit_status_of(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
   return fail(is_answer(answer) ? exit_failed : exit_wrong_input,
               line + ": " + answer_with_reason(line, answer));
@@ -53,7 +53,7 @@ std::optional<double> number_of(std::string_view text) {
 
 /// The nearest position that would be obeyed, for a request in degrees: rounded towards 0, so that
 /// it is obeyed.
-std::string in_degrees(const CommandOptions& options, double position_m) {
+std::string degrees_text(const CommandOptions& options, double position_m) {
   constexpr double per_deg = 1e4;
   const double angle_deg = deg_per_rad * options.joint.angle_rad(position_m);
   return number_text(std::trunc(per_deg * angle_deg) / per_deg, 7) + "deg";
@@ -62,7 +62,7 @@ std::string in_degrees(const CommandOptions& options, double position_m) {
 std::string with_degrees(const CommandOptions& options, const std::string& answer) {
   const auto reply = parse_answer(answer);
   if (options.joint.direction == 0 || !reply || std::isnan(reply->nearest)) return answer;
-  return answer + " (" + in_degrees(options, reply->nearest) + ")";
+  return answer + " (" + degrees_text(options, reply->nearest) + ")";
 }
 
 /// The range, after an out-of-range value: "; -0.025 to 0.025 are in range". Empty: the board does
@@ -81,7 +81,7 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
   if (!(min_m < max_m)) return "";
   const auto shown = [&](double position_m) {
     return options.joint.direction == 0 ? number_text(position_m, digits)
-                                        : in_degrees(options, position_m);
+                                        : degrees_text(options, position_m);
   };
   // An antagonist's positions grow as the angle falls.
   const bool turned = options.joint.direction < 0;
@@ -90,8 +90,8 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
 }
 
 /// Reports a command's result, as text or as JSON on standard output.
-int concluded(const CommandOptions& options, const std::string& line,
-              const BoardLink::Answer& answer, const std::string& range = "") {
+int report_answer(const CommandOptions& options, const std::string& line,
+                  const BoardLink::Answer& answer, const std::string& range = "") {
   if (options.json) {
     nlohmann::ordered_json report{{"command", line}};
     report[answer && is_answer(*answer) ? "answer" : "error"] =
@@ -99,20 +99,20 @@ int concluded(const CommandOptions& options, const std::string& line,
     if (!range.empty()) report["range"] = range.substr(range.find_first_not_of("; "));
     std::printf("%s\n", report.dump().c_str());
   }
-  return answer ? judged(line, with_degrees(options, *answer) + range)
+  return answer ? exit_status_of(line, with_degrees(options, *answer) + range)
                 : fail(exit_failed, answer.error().text());
 }
 
 /// A held command was refused: its channel may not heat, or no longer may. Tells by which fault.
-int stopped(BoardLink& board, const CommandOptions& options, const std::string& line,
-            const std::string& answer) {
+int report_stopped(BoardLink& board, const CommandOptions& options, const std::string& line,
+                   const std::string& answer) {
   std::string fault = present_fault(board, options.words[0]);
   // The known state of the board may be slightly older than its refusal.
   for (int i = 0; fault.empty() && i < 5; ++i) {
     board.wait(std::chrono::milliseconds(100));
     fault = present_fault(board, options.words[0]);
   }
-  if (fault.empty()) return concluded(options, line, answer);
+  if (fault.empty()) return report_answer(options, line, answer);
   if (options.json) {
     const nlohmann::ordered_json report{{"command", line}, {"answer", answer}, {"cause", fault}};
     std::printf("%s\n", report.dump().c_str());
@@ -123,7 +123,7 @@ int stopped(BoardLink& board, const CommandOptions& options, const std::string& 
 int send_line(BoardLink& board, const CommandOptions& options, const std::string& line) {
   const auto answer = board.ask(line);
   const std::string range = answer ? range_of_refused(board, options, *answer) : "";
-  return concluded(options, line, answer, range);
+  return report_answer(options, line, answer, range);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -220,7 +220,7 @@ int report_ending(BoardLink& board, const CommandOptions& options, const Channel
 }
 
 /// Reports the result of an ended mode, if it has one. own: as in report_ending().
-int ended(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
+int report_endings(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
   if (!has_result(options)) return exit_done;
   const auto all = endings(board, options.words[0]);
   if (!all) return refused(options, exit_failed, all.error().text());
@@ -231,7 +231,7 @@ int ended(BoardLink& board, const CommandOptions& options, const std::string& ow
 }
 
 /// Progress: the board's for a mode that ends by itself, otherwise that of the time.
-double done(BoardLink& board, const CommandOptions& options, double time_s) {
+double progress_ratio(BoardLink& board, const CommandOptions& options, double time_s) {
   if (has_result(options)) return board.progress(options.words[0]).value_or(NAN);
   return std::isfinite(options.hold_s) ? time_s / options.hold_s : NAN;
 }
@@ -239,25 +239,25 @@ double done(BoardLink& board, const CommandOptions& options, double time_s) {
 /// Holds a command until its time is over or it is interrupted; then the muscle rests.
 int hold(BoardLink& board, const CommandOptions& options) {
   watch_for_interrupts();
-  const bool renews_itself = options.words.size() == 3;
+  const bool resends_value = options.words.size() == 3;
   Progress progress(joined(options.words), false);
   // The first call takes a moment, in which a command to heat would expire.
-  if (progress.shows()) done(board, options, 0.0);
+  if (progress.shows()) progress_ratio(board, options, 0.0);
   const auto begin = Clock::now();
   auto next = begin;
   for (;;) {
     const double time_s = std::chrono::duration<double>(Clock::now() - begin).count();
     const bool first = next == begin;
     const std::string line =
-        first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
+        first || resends_value ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
     const bool is_over = answer && refuses(*answer, Refusal::wrong_state);
     const bool goes_on = answer && *answer == "ok";
     if (!goes_on) progress.end();
-    if (is_over && !first && !renews_itself) return ended(board, options);
-    if (is_over) return stopped(board, options, line, *answer);
-    if (!goes_on) return concluded(options, line, answer);
-    if (progress.shows()) progress.show(done(board, options, time_s), "");
+    if (is_over && !first && !resends_value) return report_endings(board, options);
+    if (is_over) return report_stopped(board, options, line, *answer);
+    if (!goes_on) return report_answer(options, line, answer);
+    if (progress.shows()) progress.show(progress_ratio(board, options, time_s), "");
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 50);
     std::this_thread::sleep_until(next);
@@ -268,7 +268,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
   const auto answer = board.ask(rest);
   const std::string own =
       std::string("by ") + (interrupted != 0 ? interrupter() : "the end of --for");
-  return answer ? ended(board, options, own) : concluded(options, rest, answer);
+  return answer ? report_endings(board, options, own) : report_answer(options, rest, answer);
 }
 
 int print_state(BoardLink& board, const CommandOptions& options) {
@@ -280,7 +280,7 @@ int print_state(BoardLink& board, const CommandOptions& options) {
 
 /// For a position in degrees: reads the joint, which its channel must be in. Returns an exit
 /// status.
-int take_joint(BoardLink& board, CommandOptions& options) {
+int read_joint(BoardLink& board, CommandOptions& options) {
   if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
   if (!muscle) return refused(options, exit_failed, muscle.error().text());
@@ -313,7 +313,7 @@ std::string sine_problem(const CommandOptions& options) {
 /// Replaces the kind of a controller or an estimator by its place. The board refuses wrong numbers
 /// itself, except for `tune`, where its nearest value would be that of the wire. Returns an exit
 /// status.
-int take_place(BoardLink& board, CommandOptions& options) {
+int resolve_place(BoardLink& board, CommandOptions& options) {
   auto& words = options.words;
   if (words.size() != 3) return exit_done;
   const bool tunes = words[1] == name(Verb::tune);
@@ -348,14 +348,14 @@ int command_command(CommandOptions options) {
   }
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error().text());
-  if (const int status = take_joint(**board, options); status != exit_done) return status;
-  if (const int status = take_place(**board, options); status != exit_done) return status;
+  if (const int status = read_joint(**board, options); status != exit_done) return status;
+  if (const int status = resolve_place(**board, options); status != exit_done) return status;
   options.hold_s = held_s(options);
   const std::string line = line_at(options, 0.0);
   if (line == "state") return print_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);
   const bool arms = options.words.size() == 2 && options.words[1] == name(Verb::arm);
-  return arms ? concluded(options, line, arm(**board, options.words[0]))
+  return arms ? report_answer(options, line, arm(**board, options.words[0]))
               : send_line(**board, options, line);
 }
 

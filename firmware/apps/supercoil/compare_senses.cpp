@@ -29,8 +29,8 @@ std::size_t channel_of(const DoctorOptions& options, const config::BoardConfig& 
 }
 
 /// The safe power follows from the file, so the board must run with it. Empty: it does.
-std::string other_board(BoardLink& board, const DoctorOptions& options,
-                        const config::BoardConfig& config, std::size_t place) {
+std::string board_differences(BoardLink& board, const DoctorOptions& options,
+                              const config::BoardConfig& config, std::size_t place) {
   const auto differences =
       differences_of_board(board, first_address(options, config), config.settings, place - 1);
   if (!differences) return differences.error().text();
@@ -39,8 +39,8 @@ std::string other_board(BoardLink& board, const DoctorOptions& options,
          "; start the board with it, or name the file it runs with: --config FILE";
 }
 
-int concluded(const Result<board::SenseComparison>& found, const ComparisonPlan& plan, bool json,
-              const std::string& bounds) {
+int report_result(const Result<board::SenseComparison>& found, const ComparisonPlan& plan,
+                  bool json, const std::string& bounds) {
   if (json) {
     nlohmann::ordered_json report{{"channel", std::stoi(plan.channel)}, {"power_W", plan.power_W}};
     if (found) {
@@ -85,7 +85,7 @@ int compare_senses(const DoctorOptions& options) {
   const auto board = open_link(options.can, options.socket);
   if (!board) return refuse(options.json, exit_failed, board.error().text());
   if (config) {
-    if (const std::string why = other_board(**board, options, *config, place); !why.empty())
+    if (const std::string why = board_differences(**board, options, *config, place); !why.empty())
       return refuse(options.json, exit_failed, why);
   }
   std::FILE* out = options.json ? stderr : stdout;
@@ -101,7 +101,7 @@ int compare_senses(const DoctorOptions& options) {
   std::string bounds;
   if (found && config)
     bounds = power_bounds_text(config->settings.channels[place - 1], config->settings, *found);
-  return concluded(found, plan, options.json, bounds);
+  return report_result(found, plan, options.json, bounds);
 }
 
 }  // namespace supercoil::operating

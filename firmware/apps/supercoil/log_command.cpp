@@ -38,7 +38,7 @@ int print(const std::string& text, storage::Files& files) {
   return written ? exit_done : fail(exit_failed, written.error().text());
 }
 
-int into_standard_output(const std::string& nothing, const Produce& produce) {
+int write_to_stdout(const std::string& nothing, const Produce& produce) {
   storage::PosixFiles files;
   const auto count = produce([&](std::string_view part) -> Result<void> {
     const auto written = files.write({STDOUT_FILENO, "standard output"}, part);
@@ -78,7 +78,7 @@ std::string wrong_choice(const LogOptions& o, const recorder::Recording& recordi
 }  // namespace
 
 int write_output(const std::string& path, const std::string& nothing, const Produce& produce) {
-  if (path.empty()) return into_standard_output(nothing, produce);
+  if (path.empty()) return write_to_stdout(nothing, produce);
   storage::PosixFiles files;
   auto file = OutputFile::open(path, files);
   if (!file) return fail(exit_wrong_input, file.error().text());

@@ -34,7 +34,7 @@ Result<Source> open_source(const MonitorOptions& options) {
   Source source;
   std::error_code ignored;
   source.log =
-      !names_socketcand(options.source) && std::filesystem::exists(options.source, ignored);
+      !is_socketcand_name(options.source) && std::filesystem::exists(options.source, ignored);
   source.frame_history =
       std::make_unique<FrameHistory>(source.log ? 0.0 : options.keep_s, options.bit_rate);
   if (source.log) {
@@ -48,7 +48,7 @@ Result<Source> open_source(const MonitorOptions& options) {
     return source;
   }
   auto bus = open_bus(options.source);
-  if (!bus && !names_socketcand(options.source)) {
+  if (!bus && !is_socketcand_name(options.source)) {
     // An interface's name has no slash, and hardly ever a dot.
     const bool file = options.source.find_first_of("./") != std::string::npos;
     return failure(file ? options.source + ": no such log"

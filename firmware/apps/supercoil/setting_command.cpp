@@ -63,7 +63,7 @@ std::string range_of_refused(const can_client::Master::Setting& answer, double v
 }
 
 /// Suggests what was meant, also of another command.
-std::string no_setting(const SettingOptions& options) {
+std::string unknown_setting_text(const SettingOptions& options) {
   const std::string& written = options.name;
   if (const auto renamed = config::renamed_to("setting", written); !renamed.empty())
     return "was renamed in 0.2.0: write " + std::string(renamed);
@@ -106,7 +106,8 @@ int print_all(Commander& node, bool json) {
 int setting_command(const SettingOptions& options) {
   const auto setting = setting_of(options.name);
   if (!options.name.empty() && !setting)
-    return refuse(options.json, exit_wrong_input, "'" + options.name + "' " + no_setting(options));
+    return refuse(options.json, exit_wrong_input,
+                  "'" + options.name + "' " + unknown_setting_text(options));
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, can_client::answer_ids(id));
   if (!bus) return refuse(options.json, exit_failed, bus.error().text());

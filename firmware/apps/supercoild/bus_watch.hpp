@@ -19,7 +19,8 @@ namespace supercoil::daemon {
 class BusWatch {
  public:
   /// Lines for the log. buses: always the same ones, in the same order.
-  std::vector<std::string> news(const std::vector<linux_board::BusReport>& buses, hal::Time now) {
+  std::vector<std::string> new_warnings(const std::vector<linux_board::BusReport>& buses,
+                                        hal::Time now) {
     std::vector<std::string> lines;
     reported_.resize(buses.size());
     for (std::size_t i = 0; i < buses.size(); ++i) {

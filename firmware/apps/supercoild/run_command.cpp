@@ -27,14 +27,14 @@ namespace supercoil::daemon {
 
 namespace {
 
-constexpr hal::Duration round = std::chrono::milliseconds(20);
+constexpr hal::Duration round_period = std::chrono::milliseconds(20);
 /// The loop hangs if no row arrives in this many rounds: a second. Rounds are counted, not time,
 /// because this thread may itself be delayed, and may wake before the threads that bring the rows.
-constexpr int hangs_after_rounds = 50;
+constexpr int max_rounds_without_rows = 50;
 /// Duties and enable lines are off a tick after the command; this is far longer.
-constexpr hal::Duration cool_within = std::chrono::seconds(2);
+constexpr hal::Duration cooling_timeout = std::chrono::seconds(2);
 /// Bus threads must not hold up the loop.
-constexpr int below_the_loop = 10;
+constexpr int priority_offset = 10;
 
 /// The daemon's parts, in the order of their creation; they are destroyed in reverse.
 struct Parts {
@@ -75,7 +75,7 @@ Result<void> start(Parts& parts, const config::BoardConfig& config, const RunOpt
   const double rate_Hz = config.settings.rate_Hz;
   const bool realtime = options.priority > 0;
   if (realtime) log_steps({hal_linux::lock_memory(), parts.wakeful.hold()});
-  const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
+  const int bus_priority = realtime ? std::max(1, options.priority - priority_offset) : 0;
   auto warning = parts.board->start(rate_Hz, bus_priority);
   if (!warning) return tl::unexpected(warning.error());
   warn(*warning);
@@ -102,16 +102,16 @@ bool keep_until_signal(Parts& parts, Service& service) {
   std::uint64_t rows = 0;
   int rounds_without = 0;
   BusWatch buses;
-  while (!ending_signal_within(round)) {
+  while (!ending_signal_within(round_period)) {
     const hal::Time now = clock.now();
     parts.storage_worker->poll(*parts.loop, now);
-    for (const std::string& line : buses.news(parts.board->buses(), now))
+    for (const std::string& line : buses.new_warnings(parts.board->buses(), now))
       log(Level::warning, line);
     if (parts.storage_worker->rows() != rows) {
       rows = parts.storage_worker->rows();
       rounds_without = 0;
       service.alive(now);
-    } else if (++rounds_without > hangs_after_rounds) {
+    } else if (++rounds_without > max_rounds_without_rows) {
       return false;
     }
   }
@@ -123,16 +123,16 @@ bool cool(Parts& parts) {
   parts.telemetry->cool();
   hal_linux::MonotonicClock clock;
   const hal::Time begin = clock.now();
-  const timespec a_round{0, static_cast<decltype(timespec::tv_nsec)>(round.count())};
+  const timespec round_time{0, static_cast<decltype(timespec::tv_nsec)>(round_period.count())};
   do {
-    nanosleep(&a_round, nullptr);
+    nanosleep(&round_time, nullptr);
     parts.storage_worker->poll(*parts.loop, clock.now());
-    if (clock.now() - begin > cool_within) return false;
+    if (clock.now() - begin > cooling_timeout) return false;
   } while (!parts.storage_worker->all_off());
   parts.thread->stop();
   parts.thread.reset();
   // The last rows come through the telemetry thread.
-  nanosleep(&a_round, nullptr);
+  nanosleep(&round_time, nullptr);
   parts.storage_worker->poll(*parts.loop, clock.now());
   parts.storage_worker->finish();
   return true;

@@ -108,7 +108,7 @@ void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
       forget(channel, label);
       continue;
     }
-    date(channel, label, update->senses);
+    set_comparison_date(channel, label, update->senses);
     const auto saved = (*stores_)[channel].save(*update);
     if (saved) {
       log(Level::info, label + " learned; stored as version " + std::to_string(*saved));
@@ -119,8 +119,8 @@ void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
 }
 
 /// The loop has no calendar: the storage worker dates the comparisons that it made.
-void StorageWorker::date(std::size_t channel, const std::string& label,
-                         board::SenseComparison& senses) {
+void StorageWorker::set_comparison_date(std::size_t channel, const std::string& label,
+                                        board::SenseComparison& senses) {
   board::SenseComparison& known = senses_[channel];
   const bool is_known = senses.supply_gain == known.supply_gain &&
                         senses.current_gain == known.current_gain &&

@@ -42,7 +42,8 @@ class StorageWorker {
   void watch(const Row& row);
   void store_learned(Loop& loop, std::size_t channel);
   void forget(std::size_t channel, const std::string& label);
-  void date(std::size_t channel, const std::string& label, board::SenseComparison& senses);
+  void set_comparison_date(std::size_t channel, const std::string& label,
+                           board::SenseComparison& senses);
   void log_notes();
   static void report_lost(std::size_t lost, std::size_t& reported, const char* why);
 

@@ -13,7 +13,7 @@ constexpr std::string_view protocol = "socketcand:";
 
 }  // namespace
 
-bool names_socketcand(const std::string& name) {
+bool is_socketcand_name(const std::string& name) {
   return name.starts_with(protocol);
 }
 
@@ -43,7 +43,7 @@ Result<SocketcandAddress> parse_socketcand(const std::string& name) {
 
 Result<std::unique_ptr<hal::CanBus>> open_bus(const std::string& name,
                                               const std::vector<std::uint16_t>& listen) {
-  if (names_socketcand(name)) {
+  if (is_socketcand_name(name)) {
     const auto address = parse_socketcand(name);
     if (!address) return tl::unexpected(address.error());
     auto bus = SocketcandBus::open(*address);

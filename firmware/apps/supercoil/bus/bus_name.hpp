@@ -19,7 +19,7 @@ struct SocketcandAddress {
 
 /// "socketcand:[HOST:]PORT[/INTERFACE]". The error says what is wrong with the name.
 Result<SocketcandAddress> parse_socketcand(const std::string& name);
-bool names_socketcand(const std::string& name);
+bool is_socketcand_name(const std::string& name);
 
 /// listen: wanted identifiers; empty: all. Others may arrive too. The error names the bus, and
 /// says what is available instead.

@@ -9,19 +9,19 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr std::chrono::milliseconds answer_within{500};
+constexpr std::chrono::milliseconds answer_timeout{500};
 /// Commands to heat expire after 250 ms by default; by then a renewal was sent three times.
-constexpr std::array<std::chrono::milliseconds, 3> renewal_within{
+constexpr std::array<std::chrono::milliseconds, 3> renewal_timeouts{
     std::chrono::milliseconds(60), std::chrono::milliseconds(120), std::chrono::milliseconds(320)};
 /// A lease lasts a second by default; one that may have run out is claimed again.
-constexpr auto lease_lasts = std::chrono::milliseconds(400);
+constexpr auto lease_duration = std::chrono::milliseconds(400);
 /// A board that sends the nearest value does so right after the answer.
-constexpr auto nearest_within = std::chrono::milliseconds(50);
-constexpr int claims_in_a_row = 3;
-constexpr auto nap = std::chrono::milliseconds(1);
+constexpr auto nearest_timeout = std::chrono::milliseconds(50);
+constexpr int max_claims = 3;
+constexpr auto poll_period = std::chrono::milliseconds(1);
 
 /// Whether obeying the command twice has the same effect as once.
-bool may_come_twice(Verb verb) {
+bool is_repeatable(Verb verb) {
   return verb == Verb::renew || verb == Verb::position || verb == Verb::power ||
          verb == Verb::disarm;
 }
@@ -48,11 +48,11 @@ template <class Content>
 Result<Content> Commander::exchange(
     const hal::CanFrame& frame,
     const std::function<std::optional<Content>(const hal::CanFrame&)>& parse,
-    std::chrono::milliseconds within) {
-  const auto deadline = Clock::now() + within;
+    std::chrono::milliseconds timeout) {
+  const auto deadline = Clock::now() + timeout;
   hal::Status sent = bus_->send(frame);
   while (sent == hal::Status::busy && Clock::now() < deadline) {
-    std::this_thread::sleep_for(nap);
+    std::this_thread::sleep_for(poll_period);
     sent = bus_->send(frame);
   }
   if (sent != hal::Status::ok) return failure(std::string("cannot send on the bus: ") + text(sent));
@@ -60,29 +60,29 @@ Result<Content> Commander::exchange(
     for (hal::CanFrame received; bus_->receive(received) == hal::Status::ok;) {
       if (const auto answer = parse(received)) return *answer;
     }
-    std::this_thread::sleep_for(nap);
+    std::this_thread::sleep_for(poll_period);
   } while (Clock::now() < deadline);
   return failure("no answer from node " + std::to_string(master_.node()) + " within 0.5 s",
                  std::errc::timed_out);
 }
 
 Commander::Answer Commander::exchange(const hal::CanFrame& frame,
-                                      std::chrono::milliseconds within) {
+                                      std::chrono::milliseconds timeout) {
   const auto parse = [&](const hal::CanFrame& received) -> std::optional<Refusal> {
     const auto answer = master_.receive_acknowledge(received);
     if (!answer) return std::nullopt;
     return answer->refusal;
   };
-  return exchange<Refusal>(frame, parse, within);
+  return exchange<Refusal>(frame, parse, timeout);
 }
 
 Commander::Answer Commander::claim() {
-  if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
+  if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_duration) return Refusal::none;
   const bool is_new_claim = !master_.holds_lease();
-  Answer answer = exchange(master_.claim(), answer_within);
+  Answer answer = exchange(master_.claim(), answer_timeout);
   // Another master may have used the nonce first.
-  for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
-    answer = exchange(master_.claim(), answer_within);
+  for (int i = 0; i < max_claims && answer && *answer == Refusal::claim_again; ++i)
+    answer = exchange(master_.claim(), answer_timeout);
   // A board of an older version takes the claim for a command without a lease.
   if (is_new_claim && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
   return answer;
@@ -93,10 +93,10 @@ Commander::Answer Commander::command(Verb verb, double value) {
     Answer claimed = claim();
     if (!claimed || *claimed != Refusal::none) return claimed;
   }
-  if (!may_come_twice(verb)) return exchange(master_.command(verb, value), answer_within);
+  if (!is_repeatable(verb)) return exchange(master_.command(verb, value), answer_timeout);
   Answer answer;
-  for (const auto within : renewal_within) {
-    answer = exchange(master_.command(verb, value), within);
+  for (const auto timeout : renewal_timeouts) {
+    answer = exchange(master_.command(verb, value), timeout);
     if (answer) break;
   }
   return answer;
@@ -118,13 +118,13 @@ Result<Refusal> Commander::ask(Verb verb, double value) {
 }
 
 double Commander::nearest() {
-  const auto deadline = Clock::now() + nearest_within;
+  const auto deadline = Clock::now() + nearest_timeout;
   do {
     for (hal::CanFrame received; bus_->receive(received) == hal::Status::ok;) {
       if (const auto nearest = can_client::receive_nearest(master_.node(), received))
         return *nearest;
     }
-    std::this_thread::sleep_for(nap);
+    std::this_thread::sleep_for(poll_period);
   } while (Clock::now() < deadline);
   return NAN;
 }
@@ -133,8 +133,8 @@ template <class Content>
 Result<Content> Commander::read_value(
     const hal::CanFrame& frame,
     const std::function<std::optional<Content>(const hal::CanFrame&)>& parse) {
-  auto answer = exchange(frame, parse, answer_within);
-  return answer ? answer : exchange(frame, parse, answer_within);
+  auto answer = exchange(frame, parse, answer_timeout);
+  return answer ? answer : exchange(frame, parse, answer_timeout);
 }
 
 Commander::Setting Commander::read(std::uint8_t setting) {
@@ -155,7 +155,7 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
     return exchange<can_client::Master::Setting>(
         master_.setting_write(setting, value),
         [&](const hal::CanFrame& frame) { return master_.receive_setting(frame, true); },
-        answer_within);
+        answer_timeout);
   });
 }
 
@@ -175,7 +175,7 @@ Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double 
     return exchange<can_client::TunedValue>(
         master_.tuning_write(place, value),
         [&](const hal::CanFrame& frame) { return master_.receive_tuning(place, frame); },
-        answer_within);
+        answer_timeout);
   });
 }
 
@@ -187,7 +187,7 @@ Commander::Played Commander::play(const std::function<hal::CanFrame()>& frame) {
       return can_client::Played{*claimed, PlaybackState::empty, 0, NAN};
     return exchange<can_client::Played>(
         frame(), [&](const hal::CanFrame& received) { return master_.receive_played(received); },
-        answer_within);
+        answer_timeout);
   });
 }
 
@@ -227,7 +227,7 @@ Result<KnownMuscle> Commander::muscle() {
 }
 
 void Commander::release() {
-  if (master_.holds_lease()) static_cast<void>(exchange(master_.release(), answer_within));
+  if (master_.holds_lease()) static_cast<void>(exchange(master_.release(), answer_timeout));
 }
 
 }  // namespace supercoil::operating

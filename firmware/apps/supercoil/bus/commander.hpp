@@ -56,8 +56,8 @@ class Commander {
   template <class Content>
   Result<Content> exchange(const hal::CanFrame& frame,
                            const std::function<std::optional<Content>(const hal::CanFrame&)>& parse,
-                           std::chrono::milliseconds within);
-  Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds within);
+                           std::chrono::milliseconds timeout);
+  Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds timeout);
   /// frame(): builds a new frame for each attempt.
   Played play(const std::function<hal::CanFrame()>& frame);
   /// Reading changes nothing, so it is repeated once when the request or its answer was lost.

@@ -41,7 +41,7 @@ void FrameHistory::add(const std::vector<hal::CanFrame>& frames) {
   };
   while (!frames_.empty() && old()) {
     frames_.pop_front();
-    ++forgotten_;
+    ++dropped_;
   }
 }
 
@@ -54,15 +54,15 @@ std::optional<hal::CanFrame> FrameHistory::first_cause(std::uint8_t node) const 
 FrameHistory::Part FrameHistory::since(std::uint64_t from) const {
   const std::lock_guard lock(mutex_);
   Part part;
-  part.next = forgotten_ + frames_.size();
-  const std::uint64_t first = std::clamp(from, forgotten_, part.next) - forgotten_;
+  part.next = dropped_ + frames_.size();
+  const std::uint64_t first = std::clamp(from, dropped_, part.next) - dropped_;
   part.frames.assign(frames_.begin() + static_cast<std::ptrdiff_t>(first), frames_.end());
   return part;
 }
 
 std::uint64_t FrameHistory::end() const {
   const std::lock_guard lock(mutex_);
-  return forgotten_ + frames_.size();
+  return dropped_ + frames_.size();
 }
 
 std::vector<hal::CanFrame> FrameHistory::between(hal::Time from, hal::Time to) const {

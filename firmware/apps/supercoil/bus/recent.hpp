@@ -55,7 +55,7 @@ class FrameHistory {
   double bit_rate_;
   mutable std::mutex mutex_;
   std::deque<hal::CanFrame> frames_;
-  std::uint64_t forgotten_ = 0;
+  std::uint64_t dropped_ = 0;
   std::uint64_t nodes_ = 0;  ///< one bit for each
   std::map<std::uint8_t, hal::CanFrame> first_causes_;
   std::string lost_;

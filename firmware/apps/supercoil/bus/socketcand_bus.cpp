@@ -12,11 +12,11 @@ using boost::asio::ip::tcp;
 
 namespace {
 
-constexpr auto first_try = std::chrono::seconds(2);
-constexpr auto later_try = std::chrono::seconds(1);
+constexpr auto first_timeout = std::chrono::seconds(2);
+constexpr auto retry_timeout = std::chrono::seconds(1);
 
 /// What happened, and the likely cause. request: empty before the greeting.
-std::string silence(const std::string& request, bool is_open) {
+std::string problem_text(const std::string& request, bool is_open) {
   if (!is_open) return "closed the connection";
   if (!request.empty()) return "did not answer '" + request + "' in time: it is stopped or busy";
   return "accepted the connection but did not send '< hi >' in time: it is stopped or busy, or not "
@@ -27,13 +27,13 @@ std::string silence(const std::string& request, bool is_open) {
 
 Result<std::unique_ptr<SocketcandBus>> SocketcandBus::open(const SocketcandAddress& address) {
   auto bus = std::make_unique<SocketcandBus>(address);
-  if (auto connected = bus->connect(first_try); !connected)
+  if (auto connected = bus->connect(first_timeout); !connected)
     return tl::unexpected(connected.error());
   return bus;
 }
 
-Result<void> SocketcandBus::connect(Clock::duration within) {
-  const auto deadline = Clock::now() + within;
+Result<void> SocketcandBus::connect(Clock::duration timeout) {
+  const auto deadline = Clock::now() + timeout;
   next_try_ = deadline;
   reader_ = {};
   boost::system::error_code error = boost::asio::error::timed_out;
@@ -46,11 +46,11 @@ Result<void> SocketcandBus::connect(Clock::duration within) {
   io_.restart();
   io_.run_until(deadline);
   const auto fail = [&](const std::string& why) -> Result<void> {
-    lose();
+    disconnect();
     return failure(why);
   };
   if (!io_.stopped()) {
-    lose();
+    disconnect();
     io_.run();
     return fail("no answer");
   }
@@ -63,7 +63,7 @@ Result<void> SocketcandBus::connect(Clock::duration within) {
     const std::string expected = request.empty() ? "hi" : "ok";
     if (!request.empty() && !write(request)) return fail("closed the connection");
     const auto answer = element_until(deadline);
-    if (!answer) return fail(silence(request, socket_.is_open()));
+    if (!answer) return fail(problem_text(request, socket_.is_open()));
     if (*answer != expected) return fail("answered '" + *answer + "' to '" + request + "'");
   }
   return {};
@@ -78,7 +78,7 @@ std::optional<std::string> SocketcandBus::element_until(Clock::time_point deadli
   return reader_.take();
 }
 
-void SocketcandBus::lose() {
+void SocketcandBus::disconnect() {
   boost::system::error_code ignored;
   socket_.close(ignored);
 }
@@ -88,7 +88,7 @@ bool SocketcandBus::write(const std::string& text) {
   boost::system::error_code error;
   const std::size_t sent = socket_.write_some(boost::asio::buffer(text), error);
   if (error == boost::asio::error::would_block) return false;
-  if (error || sent != text.size()) lose();
+  if (error || sent != text.size()) disconnect();
   return socket_.is_open();
 }
 
@@ -96,7 +96,7 @@ void SocketcandBus::read() {
   boost::system::error_code error;
   const std::size_t bytes = socket_.read_some(boost::asio::buffer(buffer_), error);
   if (error == boost::asio::error::would_block) return;
-  if (error) return lose();
+  if (error) return disconnect();
   reader_.put({buffer_.data(), bytes});
 }
 
@@ -108,7 +108,7 @@ hal::Status SocketcandBus::send(const hal::CanFrame& frame) {
 
 hal::Status SocketcandBus::receive(hal::CanFrame& frame) {
   if (!socket_.is_open()) {
-    if (Clock::now() < next_try_ || !connect(later_try)) return hal::Status::gone;
+    if (Clock::now() < next_try_ || !connect(retry_timeout)) return hal::Status::gone;
   }
   for (bool has_read = false;;) {
     const auto element = reader_.take();

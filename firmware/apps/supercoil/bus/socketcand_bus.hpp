@@ -35,12 +35,12 @@ class SocketcandBus final : public hal::CanBus {
  private:
   using Clock = std::chrono::steady_clock;
 
-  Result<void> connect(Clock::duration within);
+  Result<void> connect(Clock::duration timeout);
   /// The next element from the server; empty: none arrived in time.
   std::optional<std::string> element_until(Clock::time_point deadline);
   bool write(const std::string& text);
   void read();
-  void lose();
+  void disconnect();
 
   SocketcandAddress address_;
   boost::asio::io_context io_;

@@ -98,14 +98,14 @@ std::string program_text(const Newest& node) {
   return version + '\n';
 }
 
-std::string node_text(int number, const Newest& node, const std::string& law) {
+std::string node_text(int number, const Newest& node, const std::string& kind) {
   const std::string fault = named(node, "Status", "fault");
   const std::string state = named(node, "Status", "state");
   std::string text =
       "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
   const double controller = value(node, "Status", "controller");
-  if (!law.empty() && std::isfinite(controller))
-    text += ", " + law + " (controller " + std::to_string(std::lround(controller)) + ")";
+  if (!kind.empty() && std::isfinite(controller))
+    text += ", " + kind + " (controller " + std::to_string(std::lround(controller)) + ")";
   if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
   if (fault != "none" && fault != "-") text += ", FAULT " + fault + margin_text(node);
   const std::string limit = named(node, "Power", "limited_by");
@@ -155,7 +155,7 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
 
 }  // namespace
 
-std::map<int, int> controllers_at_work(const FrameHistory& frame_history) {
+std::map<int, int> active_controllers(const FrameHistory& frame_history) {
   std::map<int, int> places;
   for (const auto& [number, node] : newest_of(frame_history)) {
     const double place = value(node, "Status", "controller");
@@ -164,7 +164,8 @@ std::map<int, int> controllers_at_work(const FrameHistory& frame_history) {
   return places;
 }
 
-std::string state_text(const FrameHistory& frame_history, const std::map<int, std::string>& laws) {
+std::string state_text(const FrameHistory& frame_history,
+                       const std::map<int, std::string>& controller_kinds) {
   std::map<int, Newest> nodes = newest_of(frame_history);
   const auto frames = frame_history.between(-std::chrono::seconds(3), hal::Time::max());
   const hal::Time newest = frames.empty() ? hal::Time{} : frames.back().received;
@@ -181,7 +182,8 @@ std::string state_text(const FrameHistory& frame_history, const std::map<int, st
   std::string text = head.data();
   if (nodes.empty()) text += "no supercoil node is heard\n";
   for (const auto& [number, node] : nodes)
-    text += node_text(number, node, laws.contains(number) ? laws.at(number) : "");
+    text += node_text(number, node,
+                      controller_kinds.contains(number) ? controller_kinds.at(number) : "");
   return text;
 }
 

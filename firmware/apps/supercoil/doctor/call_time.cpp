@@ -16,8 +16,8 @@ namespace supercoil::doctor {
 namespace {
 
 /// The first calls meet cold memory and caches.
-constexpr int first_calls = 20;
-constexpr int counted_calls = 200;
+constexpr int warm_up_calls = 20;
+constexpr int timed_calls = 200;
 constexpr int max_interrupted = 200;
 
 /// Involuntary context switches of the calling thread.
@@ -27,15 +27,15 @@ std::int64_t times_preempted() {
   return usage.ru_nivcsw;
 }
 
-CallTime measured(const std::function<void()>& call) {
+CallTime measure(const std::function<void()>& call) {
   using hal_linux::MonotonicClock;
-  for (int i = 0; i < first_calls; ++i)
+  for (int i = 0; i < warm_up_calls; ++i)
     call();
   CallTime time;
   hal::Duration sum{};
   std::vector<hal::Duration> all;
-  all.reserve(counted_calls);
-  while (time.calls < counted_calls && time.interrupted < max_interrupted) {
+  all.reserve(timed_calls);
+  while (time.calls < timed_calls && time.interrupted < max_interrupted) {
     const std::int64_t preempted = times_preempted();
     const hal::Time before = MonotonicClock::time();
     call();
@@ -68,27 +68,27 @@ CallTime time_calls(const std::function<void()>& call, int priority) {
   CallTime time;
   const auto body = [&] {
     const bool real_time = hal_linux::set_fifo_priority(::pthread_self(), priority).succeeded;
-    time = measured(call);
+    time = measure(call);
     time.real_time = real_time;
   };
   // The thread is joined at the end of this statement.
   if (!hal_linux::Thread::start({"doctor"}, body).map([](hal_linux::Thread&&) {})) {
-    time = measured(call);
+    time = measure(call);
   }
   return time;
 }
 
-std::string shown(const CallTime& time) {
+std::string time_text(const CallTime& time) {
   std::string text = in_us(time.mean) + " on average, 99 % within " + in_us(time.p99) + ", " +
                      in_us(time.worst) + " at most, of " + std::to_string(time.calls) + " calls";
   if (time.interrupted > 0) text += ", " + std::to_string(time.interrupted) + " interrupted";
   return time.real_time ? text : text + " (without real-time priority)";
 }
 
-hal::Finding judged(const std::string& what, const std::string& found, const CallTime& time,
+hal::Finding assess(const std::string& what, const std::string& found, const CallTime& time,
                     const std::string& remedy) {
   using hal::Severity;
-  const std::string all = found + "; " + shown(time);
+  const std::string all = found + "; " + time_text(time);
   if (time.calls == 0) {
     return {what, Severity::warning, all + ": cannot be timed",
             "stop other programs that use this processor"};

@@ -28,11 +28,11 @@ struct CallTime {
 CallTime time_calls(const std::function<void()>& call, int priority);
 
 /// "3.1 us on average, 99 % within 3.9 us, 8.2 us at most, of 200 calls".
-std::string shown(const CallTime& time);
+std::string time_text(const CallTime& time);
 
 /// The finding on a direct device of which only the call time is left to judge. found: the other
 /// results; remedy: for a slow device.
-hal::Finding judged(const std::string& what, const std::string& found, const CallTime& time,
+hal::Finding assess(const std::string& what, const std::string& found, const CallTime& time,
                     const std::string& remedy);
 
 }  // namespace supercoil::doctor

@@ -115,14 +115,14 @@ void judge(Candidate& candidate, const hal_linux::Machine& machine, int priority
                  "/sys/bus/iio/devices)"});
   }
   const hal::Finding finding =
-      judged(part.what, config::shown(*candidate.address), candidate.readings, candidate.expected,
+      assess(part.what, config::shown(*candidate.address), candidate.readings, candidate.expected,
              hal_linux::count_range(linux_board::converter_place(*candidate.address, machine)));
   if (candidate.address->access.buffered() || finding.severity == Severity::problem) {
     return sink(finding);
   }
   const CallTime time = time_calls([&] { static_cast<void>((*part.device)->latest()); }, priority);
   const hal::Finding direct =
-      judged(part.what, finding.found, time, "make it buffered: bus = \"…\" in its table");
+      assess(part.what, finding.found, time, "make it buffered: bus = \"…\" in its table");
   sink(direct.severity == Severity::ok
            ? hal::Finding{part.what, finding.severity, direct.found, finding.remedy}
            : direct);

@@ -10,7 +10,7 @@ namespace {
 
 /// Sums the times of each bus's devices. A bus with a missing device gets no sum: a partial one
 /// would look too good.
-BusTimes sums(const std::vector<BusShare>& shares) {
+BusTimes bus_times(const std::vector<BusShare>& shares) {
   BusTimes times;
   std::set<std::string> incomplete;
   for (const BusShare& share : shares) {
@@ -31,7 +31,7 @@ BusTimes check_devices(const config::BoardConfig& config, const hal_linux::Machi
   std::vector<BusShare> shares;
   check_pwms(config.wiring, parts, priority, sink, shares);
   check_converters(config, machine, parts, priority, sink, shares);
-  return sums(shares);
+  return bus_times(shares);
 }
 
 }  // namespace supercoil::doctor

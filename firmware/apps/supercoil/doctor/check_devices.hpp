@@ -26,7 +26,7 @@ void check_buses(const config::BoardConfig& config, const BusTimes& measured,
                  const hal::FindingSink& sink);
 
 /// Judges what an enable line does when the firmware dies. found: the line while undriven.
-hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& found);
+hal::Finding assess(const std::string& what, const hal_linux::UndrivenLine& found);
 
 /// Releases each enable line for a moment to see its level, if its channel's duty is certainly 0,
 /// and takes it again.

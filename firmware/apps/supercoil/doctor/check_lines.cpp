@@ -40,7 +40,7 @@ void check_output(const config::LineAddress& address, linux_board::OutputPart& p
                  config::shown(address) + " cannot be set: " + hal::text(status),
                  "check the kernel log (dmesg) for its chip"});
   }
-  sink(judged(part.what, config::shown(address) + ", low", time, line_is_slow));
+  sink(assess(part.what, config::shown(address) + ", low", time, line_is_slow));
 }
 
 void check_stop(const config::LineAddress& address, linux_board::InputPart& part, int priority,
@@ -57,7 +57,7 @@ void check_stop(const config::LineAddress& address, linux_board::InputPart& part
     sink({part.what, Severity::warning, where + ": open (pressed, or one of its wires is off)",
           "close it: nothing can be armed until then"});
   } else {
-    sink(judged(part.what, where + ": closed", time, line_is_slow));
+    sink(assess(part.what, where + ": closed", time, line_is_slow));
   }
 }
 
@@ -76,7 +76,7 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
   enable.device->reset();
   const auto at_rest = hal_linux::read_undriven(name, machine.dev);
   enable.device = hal_linux::GpioOutput::open(name, machine.dev);
-  if (at_rest && enable.device) return sink(judged(what, *at_rest));
+  if (at_rest && enable.device) return sink(assess(what, *at_rest));
   const std::string& why = at_rest ? enable.device.error().text() : at_rest.error().text();
   sink({what, Severity::problem, "released for a moment: " + why,
         "stop the other program that uses this line"});
@@ -84,7 +84,7 @@ void check_released(const config::LineAddress& address, const hal_linux::Machine
 
 }  // namespace
 
-hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& found) {
+hal::Finding assess(const std::string& what, const hal_linux::UndrivenLine& found) {
   using hal_linux::Bias;
   constexpr const char* fit_resistor =
       "make sure a resistor on the board pulls it down: without one the gate may open when the "

@@ -36,9 +36,9 @@ void check(const config::PwmAddress& address, linux_board::PwmPart& part, int pr
   const std::string found = where + " took its period of " + std::to_string(address.period_ns) +
                             " ns, not inversed, duty 0";
   if (access.buffered()) {
-    sink({part.what, Severity::ok, found + "; on " + access.bus + ", " + shown(time), ""});
+    sink({part.what, Severity::ok, found + "; on " + access.bus + ", " + time_text(time), ""});
   } else {
-    sink(judged(part.what, found, time, "make it buffered: bus = \"…\" in its table"));
+    sink(assess(part.what, found, time, "make it buffered: bus = \"…\" in its table"));
   }
   share();
 }

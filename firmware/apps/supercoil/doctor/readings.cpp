@@ -58,7 +58,7 @@ hal::Duration Readings::mean_time() const {
   return all == 0 ? hal::Duration{} : time_ / all;
 }
 
-Finding judged(const std::string& what, const std::string& where, const Readings& readings,
+Finding assess(const std::string& what, const std::string& where, const Readings& readings,
                const Expected& expected, const std::optional<hal_linux::CountRange>& range) {
   const std::int64_t all = readings.good() + readings.failed();
   if (readings.failed() > 0) {

@@ -52,7 +52,7 @@ struct Expected {
 };
 
 /// range: of the converter's counts, if it is known.
-hal::Finding judged(const std::string& what, const std::string& where, const Readings& readings,
+hal::Finding assess(const std::string& what, const std::string& where, const Readings& readings,
                     const Expected& expected, const std::optional<hal_linux::CountRange>& range);
 
 }  // namespace supercoil::doctor

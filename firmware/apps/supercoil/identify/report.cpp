@@ -14,7 +14,7 @@ using identification::EvaluatedModel;
 using identification::Fit;
 
 /// With less motion than this share of the stroke, no model can be judged.
-constexpr double still = 0.1;
+constexpr double min_stroke_ratio = 0.1;
 
 // NOLINTNEXTLINE(cert-dcl50-cpp): printf's own form
 [[gnu::format(printf, 2, 3)]] void print(std::string& text, const char* format, ...) {
@@ -32,7 +32,7 @@ void add_model(std::string& text, const Comparison& c, const EvaluatedModel& mod
         name(model.fit.effects).c_str(), model.fitted_rms_m * percent,
         model.fit.cross_validated_m * percent, model.unseen_rms_m * percent,
         100.0 * model.fitted_explained);
-  if (c.unseen_stroke_ratio < still) {
+  if (c.unseen_stroke_ratio < min_stroke_ratio) {
     print(text, "        –\n");
   } else {
     print(text, " %8.2f %%\n", 100.0 * model.unseen_explained);
@@ -46,7 +46,7 @@ void add_models(std::string& text, const Comparison& c) {
   for (std::size_t i = 0; i < c.models.size(); ++i)
     add_model(text, c, c.models[i], i == c.chosen && c.rejection_reason.empty());
   add_model(text, c, c.transformation, false);
-  if (c.unseen_stroke_ratio < still) {
+  if (c.unseen_stroke_ratio < min_stroke_ratio) {
     print(text,
           "The unseen part moves by only %.1f %% of the stroke and judges little: choose another "
           "with --fit and --judge.\n",

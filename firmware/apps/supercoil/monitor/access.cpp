@@ -21,7 +21,7 @@ bool same(const std::string& a, const std::string& b) {
 }
 
 /// "HOST:PORT" of this server, as a browser would name it.
-bool names_us(const Access& access, const std::string& host_and_port, int port) {
+bool names_this_server(const Access& access, const std::string& host_and_port, int port) {
   const std::string end = ":" + std::to_string(port);
   if (host_and_port == access.host + end) return true;
   if (access.loopback) return host_and_port == "localhost" + end;
@@ -63,7 +63,7 @@ bool is_loopback(const std::string& host) {
 }
 
 bool is_own_host(const Access& access, const httplib::Request& request, int port) {
-  return names_us(access, request.get_header_value("Host"), port);
+  return names_this_server(access, request.get_header_value("Host"), port);
 }
 
 bool has_token(const Access& access, const httplib::Request& request) {
@@ -80,7 +80,8 @@ bool has_token_header(const Access& access, const httplib::Request& request) {
 bool is_same_origin(const Access& access, const httplib::Request& request) {
   const std::string origin = request.get_header_value("Origin");
   const std::string scheme = "http://";
-  return origin.starts_with(scheme) && names_us(access, origin.substr(scheme.size()), access.port);
+  return origin.starts_with(scheme) &&
+         names_this_server(access, origin.substr(scheme.size()), access.port);
 }
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
@@ -93,7 +94,7 @@ void answer_json(httplib::Response& response, const std::string& json) {
   response.set_content(json, "application/json; charset=utf-8");
 }
 
-httplib::Server::Handler shown(const Access& access, httplib::Server::Handler handler) {
+httplib::Server::Handler with_view_access(const Access& access, httplib::Server::Handler handler) {
   return [&access, handler = std::move(handler)](const auto& request, auto& response) {
     const std::string refused = refuse_to_show(access, request);
     if (!refused.empty()) return refuse(response, 403, refused);
@@ -101,7 +102,8 @@ httplib::Server::Handler shown(const Access& access, httplib::Server::Handler ha
   };
 }
 
-httplib::Server::Handler commanded(const Access& access, httplib::Server::Handler handler) {
+httplib::Server::Handler with_command_access(const Access& access,
+                                             httplib::Server::Handler handler) {
   return [&access, handler = std::move(handler)](const auto& request, auto& response) {
     const std::string refused = refuse_to_command(access, request);
     if (!refused.empty()) return refuse(response, 403, refused);

@@ -39,8 +39,9 @@ void refuse(httplib::Response& response, int status, const std::string& why);
 void answer_json(httplib::Response& response, const std::string& json);
 /// Wraps a handler: for clients that may watch, or may command. Others are refused with 403. access
 /// outlives it.
-httplib::Server::Handler shown(const Access& access, httplib::Server::Handler handler);
-httplib::Server::Handler commanded(const Access& access, httplib::Server::Handler handler);
+httplib::Server::Handler with_view_access(const Access& access, httplib::Server::Handler handler);
+httplib::Server::Handler with_command_access(const Access& access,
+                                             httplib::Server::Handler handler);
 
 /// Why it is refused; empty: it is allowed.
 std::string refuse_to_show(const Access& access, const httplib::Request& request);

@@ -182,26 +182,31 @@ void Api::answer_from_node(const Request& request, Response& response, Read read
 void Api::serve_with(httplib::Server& server) {
   add_headers(server, access_, about_.stop_port);
   serve_files(server);
-  const auto shown = [this](auto handler) { return operating::shown(access_, handler); };
-  const auto commanded = [this](httplib::Server::Handler handler) -> httplib::Server::Handler {
-    if (!about_.log) return operating::commanded(access_, std::move(handler));
+  const auto with_view_access = [this](auto handler) {
+    return operating::with_view_access(access_, handler);
+  };
+  const auto with_command_access =
+      [this](httplib::Server::Handler handler) -> httplib::Server::Handler {
+    if (!about_.log) return operating::with_command_access(access_, std::move(handler));
     return [](const Request&, Response& response) {
       refuse(response, 403, "a log cannot be commanded");
     };
   };
-  server.Get("/api/about", shown([this](const auto& q, auto& a) { about(q, a); }));
-  server.Get("/api/history", shown([this](const auto& q, auto& a) { history(q, a); }));
-  server.Get("/api/stream", shown([this](const auto& q, auto& a) { stream(q, a); }));
+  server.Get("/api/about", with_view_access([this](const auto& q, auto& a) { about(q, a); }));
+  server.Get("/api/history", with_view_access([this](const auto& q, auto& a) { history(q, a); }));
+  server.Get("/api/stream", with_view_access([this](const auto& q, auto& a) { stream(q, a); }));
   server.Get(R"(/api/fault/([a-z_]+))", [](const Request& request, Response& response) {
     const Asset* text = find_asset(fault_pages(), request.matches[1].str());
     if (text == nullptr) return refuse(response, 404, "there is no such fault");
     answer_with(response, *text, "text/markdown; charset=utf-8");
   });
-  server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
-  server.Post("/api/trajectory", commanded([this](const auto& q, auto& a) { play(q, a); }));
+  server.Post("/api/command",
+              with_command_access([this](const auto& q, auto& a) { command(q, a); }));
+  server.Post("/api/trajectory",
+              with_command_access([this](const auto& q, auto& a) { play(q, a); }));
   const auto from_node = [this](auto read) {
     // this->, because clang 14 otherwise reports the captured this as unused.
-    return operating::shown(
+    return operating::with_view_access(
         access_, [this, read](const auto& q, auto& a) { this->answer_from_node(q, a, read); });
   };
   server.Get(R"(/api/tuning/(\d+))", from_node([this](std::uint8_t node) {
@@ -212,8 +217,8 @@ void Api::serve_with(httplib::Server& server) {
   server.Get(R"(/api/muscle/(\d+))", from_node([this](std::uint8_t node) {
                return controls_->read_muscle(node).map(muscle_json);
              }));
-  server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
-  server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
+  server.Post("/api/tuning", with_command_access([this](const auto& q, auto& a) { tune(q, a); }));
+  server.Post("/api/alive", with_command_access([this](const auto& q, auto& a) { alive(q, a); }));
 }
 
 void Api::about(const Request& request, Response& response) const {

@@ -10,7 +10,7 @@ namespace supercoil::operating {
 namespace {
 
 /// Five renewals before a command expires by default.
-constexpr auto renew_every = std::chrono::milliseconds(50);
+constexpr auto renewal_period = std::chrono::milliseconds(50);
 /// The board refuses a start whose time has passed when its loop gets it.
 constexpr double start_after_s = 0.1;
 
@@ -38,7 +38,7 @@ ManualControl::~ManualControl() {
 }
 
 ManualControl::Answer ManualControl::ask(Verb verb, double value) {
-  return wait_for([this, verb, value] { return obey(verb, value); });
+  return wait_for([this, verb, value] { return execute(verb, value); });
 }
 
 ManualControl::Answer ManualControl::prepare(const can_client::TunedPlace& place, double value) {
@@ -60,7 +60,7 @@ Result<ManualControl::Sent> ManualControl::play(const std::vector<NextKnot>& kno
 }
 
 ManualControl::Answer ManualControl::wait_for(Act act) {
-  const std::lock_guard turn(asking_);
+  const std::lock_guard turn(request_mutex_);
   std::future<Answer> answer;
   {
     const std::lock_guard lock(mutex_);
@@ -105,7 +105,7 @@ ManualControl::Answer ManualControl::command(Verb verb, double value) {
   return with_commander([&](Commander& commander) { return commander.ask(verb, value); });
 }
 
-ManualControl::Answer ManualControl::obey(Verb verb, double value) {
+ManualControl::Answer ManualControl::execute(Verb verb, double value) {
   Answer answer = command(verb, value);
   const bool obeyed = answer && *answer == Refusal::none;
   if (obeyed && heats(verb)) {
@@ -165,13 +165,13 @@ void ManualControl::run() {
     std::optional<PendingCommand> order;
     {
       std::unique_lock lock(mutex_);
-      woken_.wait_for(lock, renew_every, [&] { return ending_ || pending_; });
+      woken_.wait_for(lock, renewal_period, [&] { return ending_ || pending_; });
       if (ending_) break;
       order = std::exchange(pending_, std::nullopt);
     }
     if (order) order->answer.set_value(order->act());
     // Also renew between orders in quick succession: a command to heat would expire.
-    if (order && Clock::now() - renewed < renew_every) continue;
+    if (order && Clock::now() - renewed < renewal_period) continue;
     renewed = Clock::now();
     renew();
   }

@@ -70,7 +70,7 @@ class ManualControl {
 
   Answer wait_for(Act act);
   void run();
-  Answer obey(Verb verb, double value);
+  Answer execute(Verb verb, double value);
   Answer send_knots(const std::vector<NextKnot>& knots, bool start, Sent& sent);
   void renew();
   Answer with_commander(const std::function<Answer(Commander&)>& act);
@@ -80,7 +80,7 @@ class ManualControl {
   std::uint8_t node_;
   OpenBus open_bus_;
   std::unique_ptr<Commander> commander_;  ///< used by the thread
-  std::mutex asking_;                     ///< held while a request waits
+  std::mutex request_mutex_;              ///< held while a request waits
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::optional<PendingCommand> pending_;

@@ -14,11 +14,11 @@ using Clock = std::chrono::steady_clock;
 
 /// If the bus loses a frame, the next one makes up for it.
 constexpr int repetitions = 3;
-constexpr auto between = std::chrono::milliseconds(10);
+constexpr auto repetition_pause = std::chrono::milliseconds(10);
 constexpr auto max_busy_time = std::chrono::milliseconds(500);
 /// Between stops: received frames are read, and a lost bus is reopened.
-constexpr auto read_every = std::chrono::milliseconds(50);
-constexpr auto try_every = std::chrono::seconds(1);
+constexpr auto read_period = std::chrono::milliseconds(50);
+constexpr auto retry_period = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void StopServer::take(const httplib::Request& request, const StopListener::Answe
   release_hold_();
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back({answer, origin});
+    pending_.push_back({answer, origin});
   }
   woken_.notify_one();
 }
@@ -73,27 +73,27 @@ void StopServer::take(const httplib::Request& request, const StopListener::Answe
 void StopServer::run() {
   take_precedence();
   for (;;) {
-    std::vector<Waiting> waiting;
+    std::vector<PendingStop> pending;
     {
       std::unique_lock lock(mutex_);
-      woken_.wait_for(lock, read_every, [&] { return ending_ || !waiting_.empty(); });
+      woken_.wait_for(lock, read_period, [&] { return ending_ || !pending_.empty(); });
       if (ending_) return;
-      waiting.swap(waiting_);
+      pending.swap(pending_);
     }
-    if (waiting.empty()) {
-      keep_bus();
+    if (pending.empty()) {
+      maintain_bus();
     } else {
-      stop(waiting);
+      stop(pending);
     }
   }
 }
 
 /// The next stop answers all requests that came during a stop together.
-void StopServer::stop(const std::vector<Waiting>& waiting) {
+void StopServer::stop(const std::vector<PendingStop>& pending) {
   const std::string failed = disarm_all();
   nlohmann::json result{{"nodes", frame_history_->nodes()}};
   if (!failed.empty()) result["error"] = failed;
-  for (const auto& [answer, origin] : waiting)
+  for (const auto& [answer, origin] : pending)
     answer({failed.empty() ? 200 : 502, origin, result.dump()});
 }
 
@@ -107,13 +107,13 @@ std::string StopServer::open_bus() {
 }
 
 /// A silent loss of the bus only shows when reading; the frames are dropped.
-void StopServer::keep_bus() {
+void StopServer::maintain_bus() {
   if (bus_) {
     for (hal::CanFrame dropped; bus_->receive(dropped) == hal::Status::ok;) {
     }
   } else if (Clock::now() >= next_try_) {
     open_bus();
-    next_try_ = Clock::now() + try_every;
+    next_try_ = Clock::now() + retry_period;
   }
 }
 
@@ -137,7 +137,7 @@ std::string StopServer::send_disarm() {
       }
       if (sent != hal::Status::ok) return std::string("cannot send on the bus: ") + text(sent);
     }
-    std::this_thread::sleep_for(between);
+    std::this_thread::sleep_for(repetition_pause);
   }
   return {};
 }

@@ -36,19 +36,19 @@ class StopServer {
  private:
   StopServer(Access access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
              std::function<void()> release_hold);
-  struct Waiting {
+  struct PendingStop {
     StopListener::Answer answer;
     std::string allowed_origin;
   };
 
   void take(const httplib::Request& request, const StopListener::Answer& answer);
   void run();
-  void stop(const std::vector<Waiting>& waiting);
+  void stop(const std::vector<PendingStop>& pending);
   /// Returns the error; empty: done.
   std::string disarm_all();
   std::string send_disarm();
   std::string open_bus();
-  void keep_bus();
+  void maintain_bus();
 
   Access access_;
   ManualControl::OpenBus new_bus_;
@@ -58,7 +58,7 @@ class StopServer {
   std::chrono::steady_clock::time_point next_try_{};
   std::mutex mutex_;
   std::condition_variable woken_;
-  std::vector<Waiting> waiting_;
+  std::vector<PendingStop> pending_;
   bool ending_ = false;
   std::unique_ptr<StopListener> listener_;
   std::thread thread_;

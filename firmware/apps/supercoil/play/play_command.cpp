@@ -14,14 +14,14 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr auto turn = std::chrono::milliseconds(20);
+constexpr auto step_period = std::chrono::milliseconds(20);
 
 /// Repeats the step until it is done, there is a problem, or Ctrl-C.
 template <class Step, class Done>
 Player::Problem repeat(const Step& step, const Done& done) {
   while (interrupted == 0 && !done()) {
     if (auto problem = step()) return problem;
-    std::this_thread::sleep_for(turn);
+    std::this_thread::sleep_for(step_period);
   }
   return std::nullopt;
 }
@@ -39,7 +39,7 @@ Player::Problem play(Player& player, const PlayOptions& options, Progress& progr
   if (auto problem = player.start()) return problem;
   const auto go_on = [&] {
     progress.show(player.progress(), "");
-    return player.go_on();
+    return player.continue_playing();
   };
   if (auto problem = repeat(go_on, [&] { return player.ended(); })) return problem;
   if (!options.hold) return std::nullopt;

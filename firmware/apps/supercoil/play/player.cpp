@@ -15,15 +15,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto renew_every = 80ms;
-constexpr auto sync_every = 1s;
+constexpr auto renewal_period = 80ms;
+constexpr auto sync_period = 1s;
 /// Knots sent in a row before all commands are renewed.
-constexpr int knots_in_a_row = 6;
+constexpr int max_knots_at_once = 6;
 /// From Play to the start: time to tell each node in turn and to send Sync.
 constexpr double start_after_s = 0.1;
 /// Over the socket the start time counts from when the first channel was told.
 constexpr double start_after_s_per_channel = 0.05;
-constexpr auto started_within = 2s;
+constexpr auto start_timeout = 2s;
 
 std::string seconds_text(double time_s) {
   std::string text = std::to_string(time_s);
@@ -83,7 +83,7 @@ Player::Problem Player::go_to_start() {
 }
 
 Player::Problem Player::renew(Node& node) {
-  if (Clock::now() - node.renewed < renew_every) return std::nullopt;
+  if (Clock::now() - node.renewed < renewal_period) return std::nullopt;
   node.renewed = Clock::now();
   const auto answer = node.link->ask(Verb::renew, 0.0);
   if (!answer) return prefix_of(node) + answer.error().text();
@@ -95,7 +95,7 @@ Player::Problem Player::renew(Node& node) {
 
 // A board takes some 10 ms per answer: one after the other, two nodes would not get 50 knots a
 // second.
-Player::Problem Player::for_each_at_once(Problem (Player::*step)(Node&)) {
+Player::Problem Player::run_in_parallel(Problem (Player::*step)(Node&)) {
   std::vector<std::future<Problem>> others;
   for (std::size_t i = 1; i < nodes_.size(); ++i)
     others.push_back(std::async(std::launch::async, step, this, std::ref(nodes_[i])));
@@ -108,12 +108,12 @@ Player::Problem Player::for_each_at_once(Problem (Player::*step)(Node&)) {
 }
 
 Player::Problem Player::renew() {
-  return for_each_at_once(&Player::renew);
+  return run_in_parallel(&Player::renew);
 }
 
 Player::Problem Player::load(Node& node) {
   const auto& knots = node.motion.knots;
-  for (int i = 0; i < knots_in_a_row && !node.has_sent_all(); ++i) {
+  for (int i = 0; i < max_knots_at_once && !node.has_sent_all(); ++i) {
     const bool first = node.next == 0;
     if (!first && node.played.room == 0) break;
     const control::Knot& knot = knots[node.next];
@@ -133,7 +133,7 @@ Player::Problem Player::load(Node& node) {
 }
 
 Player::Problem Player::load() {
-  if (auto problem = for_each_at_once(&Player::load)) return problem;
+  if (auto problem = run_in_parallel(&Player::load)) return problem;
   return renew();
 }
 
@@ -165,8 +165,8 @@ void Player::send_sync() {
   nodes_.front().link->send_sync(sync_, time_s);
 }
 
-Player::Problem Player::go_on() {
-  if (Clock::now() - synced_ >= sync_every) send_sync();
+Player::Problem Player::continue_playing() {
+  if (Clock::now() - synced_ >= sync_period) send_sync();
   if (auto problem = load()) return problem;
   for (const Node& node : nodes_) {
     if (auto problem = stopped(node)) return problem;
@@ -185,7 +185,7 @@ Player::Problem Player::stopped(const Node& node) const {
   if (state == PlaybackState::empty)
     return prefix_of(node) + "received another command in the meantime";
   const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
-  if (waits && Clock::now() - started_ > started_within)
+  if (waits && Clock::now() - started_ > start_timeout)
     return prefix_of(node) + "has not started: " + node.link->why_not_started();
   return std::nullopt;
 }

@@ -36,7 +36,7 @@ class Player {
   /// Starts all together: at the Sync that this sends, or at a time of the board.
   Problem start();
   /// Like load() and renew(), and sends a Sync every second.
-  Problem go_on();
+  Problem continue_playing();
   /// Whether all nodes hold their last knots.
   bool ended() const;
   /// 0 to 1.
@@ -63,7 +63,7 @@ class Player {
   Problem take(Node& node, Verb verb, const std::string& what, const MotionLink::Played& played);
   /// Runs the step for each node on its own thread, as each has its own connection. Returns the
   /// first problem in the order of the nodes.
-  Problem for_each_at_once(Problem (Player::*step)(Node&));
+  Problem run_in_parallel(Problem (Player::*step)(Node&));
   Problem renew(Node& node);
   Problem load(Node& node);
   /// The problem that ended a motion early, by the node's last answer.

@@ -49,7 +49,7 @@ double cold_after(const ChannelSettings& channel) {
 }
 
 /// Half of the random muscles (tests/setup/setup_study.cpp) are identified within this time.
-double usual_identify_s(const ChannelSettings& channel) {
+double typical_identify_s(const ChannelSettings& channel) {
   const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
   return 20.0 + std::min(23.0 * tau_s, 100.0 + 6.0 * tau_s);
 }
@@ -90,7 +90,7 @@ Commission::Done Commission::ask(const std::string& command) {
   return failure(with_present_fault(command + ": " + *answer, board_, channel_));
 }
 
-Commission::Done Commission::only_found(const std::string& mode, const ResultText& result) {
+Commission::Done Commission::require_found(const std::string& mode, const ResultText& result) {
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
@@ -221,7 +221,7 @@ StepResult Commission::report_each(Report report) {
 
 StepResult Commission::calibrate() {
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
-  if (auto done = only_found("calibrate", calibrate_when_cold()); !done)
+  if (auto done = require_found("calibrate", calibrate_when_cold()); !done)
     return tl::unexpected(done.error());
   return report_each(&Commission::report_calibration);
 }
@@ -312,13 +312,13 @@ StepResult Commission::limits() {
 }
 
 StepResult Commission::identify() {
-  const double takes_s = max_time_s(usual_identify_s) * (antagonist() ? 2.0 : 1.0);
+  const double takes_s = max_time_s(typical_identify_s) * (antagonist() ? 2.0 : 1.0);
   user_.show(
       "takes about " + duration_text(takes_s) +
       " if the file's time constant is right, and up to three times that if the muscle is far "
       "from linear");
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
-  if (auto done = only_found("identify", run_mode("identify", max_identify_s)); !done)
+  if (auto done = require_found("identify", run_mode("identify", max_identify_s)); !done)
     return tl::unexpected(done.error());
   return report_each(&Commission::report_muscle);
 }

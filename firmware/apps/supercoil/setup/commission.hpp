@@ -58,7 +58,7 @@ class Commission {
   /// Reports a fault from before this step, and resets it if wanted.
   Done reset_faults();
   /// Succeeds only if the mode ended with "found".
-  Done only_found(const std::string& mode, const ResultText& result);
+  Done require_found(const std::string& mode, const ResultText& result);
   Done arm();
   /// Runs identify or calibrate until it ends; returns how it ended.
   ResultText run_mode(const std::string& mode, double max_s);

@@ -17,15 +17,15 @@ constexpr double gravity_m_per_s2 = 9.81;
 /// Nylon 6,6 between 25 and 100 °C, plated with silver, which has less: 1.4 to 1.9.
 constexpr double specific_heat_J_per_gK = 1.65;
 /// A swing that decays within one period, as with most muscles with a hanging load.
-constexpr double usual_damping_ratio = 0.7;
+constexpr double typical_damping_ratio = 0.7;
 
 /// Free convection, up to 0.7 of a muscle's cooling, falls with the fourth root of its rise: below
 /// an eighth of the rise at which half_cooling_s was taken, it cools slower by this ratio.
 constexpr double nearly_cold_ratio = 1.25;
 
 /// Values derived from answers have no more digits than the answers; an answer keeps its own.
-constexpr int digits_that_follow = 4;
-constexpr int digits_of_answers = 9;
+constexpr int derived_digits = 4;
+constexpr int answer_digits = 9;
 
 /// How far the answers may be wrong, as ratios of the true value to the derived one.
 struct Spread {
@@ -81,7 +81,7 @@ PhysicalParameters muscle_of(const MuscleAnswers& a, const Heat& heat) {
       a.of(QuestionId::stretch_weight_g) * gravity_m_per_s2 / a.of(QuestionId::stretch_mm);
   m.moving_mass_kg = 1e-3 * a.of(QuestionId::load_g);
   m.damping_Ns_per_m =
-      2.0 * usual_damping_ratio * std::sqrt(m.stiffness_N_per_m * m.moving_mass_kg);
+      2.0 * typical_damping_ratio * std::sqrt(m.stiffness_N_per_m * m.moving_mass_kg);
   const double rise_K = a.of(QuestionId::heated_W) / m.heat_transfer_W_per_K;
   m.force_per_kelvin_N_per_K = m.stiffness_N_per_m * 1e-3 * a.of(QuestionId::heated_mm) / rise_K;
   return m;
@@ -89,8 +89,7 @@ PhysicalParameters muscle_of(const MuscleAnswers& a, const Heat& heat) {
 
 void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h, double error) {
   const auto add = [&](const char* key, double value, const char* reason) {
-    entries.push_back(
-        {std::string("thermal.") + key, number_text(value, digits_that_follow), reason});
+    entries.push_back({std::string("thermal.") + key, number_text(value, derived_digits), reason});
   };
   const char* all = "all answers wrong in the same direction";
   add("min_mass_J_per_K", h.mass_J_per_K * h.mass.low, all);
@@ -122,7 +121,7 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
     return failure(message.str());
   }
   const auto add = [&](const char* path, double value, const char* reason) {
-    d.entries.push_back({path, number_text(value, digits_that_follow), reason});
+    d.entries.push_back({path, number_text(value, derived_digits), reason});
   };
   const char* by_heat = a.of(QuestionId::thread_g) > 0.0 ? "thread_g and half_cooling_s"
                                                          : "heated_W, heated_K, half_cooling_s";
@@ -135,7 +134,7 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
       "heated_mm at heated_W, and the stiffness");
   add_heat(d.entries, a, heat, error);
   const auto keep = [&](const char* path, double value) {
-    d.entries.push_back({path, number_text(value, digits_of_answers), "as answered"});
+    d.entries.push_back({path, number_text(value, answer_digits), "as answered"});
   };
   keep("heater.cold_resistance_Ohm", a.of(QuestionId::cold_resistance_Ohm));
   keep("limits.max_W", a.of(QuestionId::max_W));

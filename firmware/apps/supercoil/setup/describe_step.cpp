@@ -38,7 +38,8 @@ Result<double> ask_and_store(Question q, SetupRecord& record, Operator& user) {
 }
 
 /// Asks the questions one after the other.
-Result<DescribeAnswers> answered(const BoardRanges& board, SetupRecord& record, Operator& user) {
+Result<DescribeAnswers> ask_questions(const BoardRanges& board, SetupRecord& record,
+                                      Operator& user) {
   DescribeAnswers answers;
   const auto has = ask_and_store(has_nameplate, record, user);
   if (!has) return tl::unexpected(has.error());
@@ -59,15 +60,15 @@ Result<DescribeAnswers> answered(const BoardRanges& board, SetupRecord& record, 
 }
 
 /// The error for a value that the board does not allow, worded like the question to a person.
-Error beyond(const Question& q, double value, const std::string& script, int line) {
+Error out_of_range_error(const Question& q, double value, const std::string& script, int line) {
   return {script, line, "muscle." + std::string(q.key),
           "must be " + range_text(q.allowed) + " here: " + std::string(q.text),
           number_text(value, range_digits)};
 }
 
 /// Fills in what a script leaves open, or returns an error for each gap.
-Result<DescribeAnswers> completed(const Script& script, const SetupOptions& options,
-                                  const BoardRanges& board) {
+Result<DescribeAnswers> complete_script(const Script& script, const SetupOptions& options,
+                                        const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
   std::string wrong;
   for (std::size_t i = 0; i < questions.size(); ++i) {
@@ -75,7 +76,7 @@ Result<DescribeAnswers> completed(const Script& script, const SetupOptions& opti
       const Question q = next_question(i, answers, board);
       const double value = answers.of(static_cast<QuestionId>(i));
       if (value > q.allowed.highest)
-        wrong += beyond(q, value, options.script, script.lines[i]).text() + "\n";
+        wrong += out_of_range_error(q, value, options.script, script.lines[i]).text() + "\n";
       continue;
     }
     const Question& q = questions[i];
@@ -108,7 +109,7 @@ void fit_travel(const std::string& text, int channel, std::vector<Entry>& entrie
 }
 
 /// A list of controllers was chosen by a person: it stays, with the model for its laws.
-bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
+bool is_kept(const Entry& entry, const std::string& text, std::size_t channel) {
   if (entry.path != "controller" && entry.path != "reference_model") return false;
   const toml::table document = toml::parse(text);
   return document.at_path("channel[" + std::to_string(channel) + "].controller").is_array();
@@ -143,7 +144,8 @@ Result<Json> write_description(const DescribeAnswers& answers, const SetupOption
   for (Entry& limit : answers.nameplate.limits(trip_in_file_C(text, options.channel)))
     described->entries.push_back(std::move(limit));
   const auto index = static_cast<std::size_t>(options.channel) - 1;
-  std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, text, index); });
+  std::erase_if(described->entries,
+                [&](const Entry& entry) { return is_kept(entry, text, index); });
   fit_travel(text, options.channel, described->entries, user);
   const auto config = write_entries(options, "describe", text, described->entries);
   if (!config) return tl::unexpected(config.error());
@@ -173,13 +175,13 @@ Result<Json> describe_step(const SetupOptions& options, Operator& user) {
   if (!asks) {
     const auto script = read_script(options.script);
     if (!script) return tl::unexpected(script.error());
-    answers = completed(*script, options, ranges);
+    answers = complete_script(*script, options, ranges);
   }
   if (joint) show_joint_measurement(*joint, user);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
     if (!record) return failure(record.error().text() + "\n");
-    answers = answered(ranges, *record, user);
+    answers = ask_questions(ranges, *record, user);
   }
   if (!answers) return tl::unexpected(answers.error());
   auto written = write_description(*answers, options, *text, user);

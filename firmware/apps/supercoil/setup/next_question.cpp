@@ -9,7 +9,7 @@ namespace supercoil::operating {
 namespace {
 
 /// An unknown limit leaves the question's own limit.
-void allow_at_most(double highest, Question& q) {
+void limit_max(double highest, Question& q) {
   if (highest >= q.allowed.lowest)
     q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest, range_digits));
 }
@@ -40,11 +40,11 @@ Question next_question(std::size_t place, const MuscleAnswers& answers, const Bo
     case QuestionId::heated_K:
       return answers.of(QuestionId::thread_g) > 0.0 ? q : needed_heated_K;
     case QuestionId::max_W:
-      allow_at_most(
+      limit_max(
           board.min_supply_V * board.min_supply_V / answers.of(QuestionId::cold_resistance_Ohm), q);
       return q;
     case QuestionId::max_travel_mm:
-      allow_at_most(1e3 * board.max_position_m, q);
+      limit_max(1e3 * board.max_position_m, q);
       return q;
     default:
       return q;

@@ -54,7 +54,7 @@ bool takes(const SetupStep& step, const SetupOptions& options,
   return false;
 }
 
-int concluded(const SetupOptions& options, const Json& results, int status, std::string error) {
+int report_result(const SetupOptions& options, const Json& results, int status, std::string error) {
   // Errors in a file consist of whole lines.
   if (error.ends_with('\n')) error.pop_back();
   if (options.json) {
@@ -75,14 +75,15 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   std::optional<ScriptedAnswers> scripted;
   if (!options.script.empty()) {
     const auto script = read_script(options.script);
-    if (!script) return concluded(options, Json::object(), exit_wrong_input, script.error().text());
+    if (!script)
+      return report_result(options, Json::object(), exit_wrong_input, script.error().text());
     scripted = script->answers;
     terminal.take(*scripted);
   }
   SetupBoard board(options, terminal);
   if (options.steps.empty()) {
     if (const auto compared = board.compare_with(record); !compared)
-      return concluded(options, Json::object(), exit_failed, compared.error().text());
+      return report_result(options, Json::object(), exit_failed, compared.error().text());
   }
   Json results = Json::object();
   int status = exit_done;
@@ -99,7 +100,8 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
       continue;
     }
     if (!takes(step, options, scripted, terminal)) {
-      if (terminal.interrupted()) return concluded(options, results, exit_failed, "interrupted");
+      if (terminal.interrupted())
+        return report_result(options, results, exit_failed, "interrupted");
       continue;
     }
     const bool describes = name == "describe";
@@ -107,12 +109,13 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (!found) {
       const int why = describes && !terminal.interrupted() ? exit_wrong_input : exit_failed;
       terminal.end_progress();
-      if (!describes) return concluded(options, results, why, of_step(name, found.error().text()));
-      return concluded(options, results, why, found.error().text());
+      if (!describes)
+        return report_result(options, results, why, of_step(name, found.error().text()));
+      return report_result(options, results, why, found.error().text());
     }
     results[name] = *found;
     if (auto kept = record.add(name, *found); !kept)
-      return concluded(options, results, exit_failed, kept.error().text());
+      return report_result(options, results, exit_failed, kept.error().text());
     if (!Commission::kept(*found)) status = exit_failed;
     // The board must run with the file as it is now.
     if (wrote_file(*found) && options.steps.empty()) {
@@ -124,7 +127,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   }
   if (results.empty() && !some_left)
     std::fprintf(out, "every step is done; name one to do it again\n");
-  return concluded(options, results, status, "");
+  return report_result(options, results, status, "");
 }
 
 /// At a terminal the user may decide on the spot.
@@ -211,9 +214,9 @@ int setup_command(const SetupOptions& options) {
   if (options.undo) return undo_command(options);
   if (const std::string missing = missing_channel(options.config, options.channel);
       !missing.empty())
-    return concluded(options, Json::object(), exit_wrong_input, missing);
+    return report_result(options, Json::object(), exit_wrong_input, missing);
   auto record = SetupRecord::open(options.config, options.channel);
-  if (!record) return concluded(options, Json::object(), exit_failed, record.error().text());
+  if (!record) return report_result(options, Json::object(), exit_failed, record.error().text());
   return run_steps(options, *record, options.json ? stderr : stdout);
 }
 

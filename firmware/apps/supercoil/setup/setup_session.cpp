@@ -31,11 +31,12 @@ SetupSession::~SetupSession() {
 }
 
 void SetupSession::serve_with(httplib::Server& server, const Access& access) {
-  server.Get("/api/setup", shown(access, [&](const auto& request, auto& response) {
+  server.Get("/api/setup", with_view_access(access, [&](const auto& request, auto& response) {
                if (has_token(access, request)) page_.alive();
                answer_json(response, state().dump());
              }));
-  server.Post("/api/setup", commanded(access, [this](const auto& request, auto& response) {
+  server.Post("/api/setup",
+              with_command_access(access, [this](const auto& request, auto& response) {
                 const Json command = Json::parse(request.body, nullptr, false);
                 if (!command.is_object())
                   return refuse(response, 400, "the request is not a JSON object");

@@ -13,12 +13,12 @@ using namespace supercoil::test;
 using namespace std::chrono_literals;
 
 TEST_GROUP(DoctorFindings){static hal::Finding direct(hal::Duration p99, bool real_time){
-    return judged("heartbeat", "GPIO17 of soc", {3us, p99, 90us, 200, 0, real_time},
+    return assess("heartbeat", "GPIO17 of soc", {3us, p99, 90us, 200, 0, real_time},
                   "use another line");
 }
 static hal::Finding released(bool high, hal_linux::Bias bias,
                              hal::Status status = hal::Status::ok) {
-  return judged("channel 1, enable released", {{high, status}, bias});
+  return assess("channel 1, enable released", {{high, status}, bias});
 }
 static hal::Finding bus(const BusTimes& measured, double rate_Hz = 100.0) {
   config::BoardConfig config;
@@ -47,10 +47,10 @@ TEST(DoctorFindings, ADirectCallTakes20UsAtMost) {
 TEST(DoctorFindings, CallsInWhichOthersRanAreNotTheDevices) {
   const CallTime some{3us, 4us, 8us, 200, 7, true};
   check_finding("ok", "8.0 us at most, of 200 calls, 7 interrupted", "",
-                judged("light", "GPIO3 of soc", some, "use another line"));
+                assess("light", "GPIO3 of soc", some, "use another line"));
   const CallTime all{0us, 0us, 0us, 0, 200, true};
   check_finding("warning", "cannot be timed", "stop other programs",
-                judged("light", "GPIO3 of soc", all, "use another line"));
+                assess("light", "GPIO3 of soc", all, "use another line"));
 }
 
 TEST(DoctorFindings, CallsAreTimedOneByOne) {

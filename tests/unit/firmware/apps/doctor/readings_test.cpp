@@ -18,7 +18,7 @@ TEST_GROUP(DoctorReadings) {
       readings.add({value, hal::Time{}, hal::Status::ok}, std::chrono::microseconds(100));
   }
   hal::Finding found(std::optional<hal_linux::CountRange> range = {}) const {
-    return judged("channel 1, position", "voltage0 of ads1115", readings, position, range);
+    return assess("channel 1, position", "voltage0 of ads1115", readings, position, range);
   }
 };
 

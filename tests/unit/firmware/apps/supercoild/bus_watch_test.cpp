@@ -11,24 +11,24 @@ TEST_GROUP(BusWatch) {
 };
 
 TEST(BusWatch, HasNothingToSayOfABusThatKeepsUp) {
-  CHECK(watch.news({{"i2c-1", 0, 0.0005}}, 0s).empty());
-  CHECK(watch.news({{"i2c-1", 0, 0.0009}}, 100s).empty());
+  CHECK(watch.new_warnings({{"i2c-1", 0, 0.0005}}, 0s).empty());
+  CHECK(watch.new_warnings({{"i2c-1", 0, 0.0009}}, 100s).empty());
 }
 
 TEST(BusWatch, TellsAtOnceAndThenOnceAMinuteWhileRoundsAreLeftOut) {
-  const auto first = watch.news({{"i2c-1", 2, 0.0031}}, 1s);
+  const auto first = watch.new_warnings({{"i2c-1", 2, 0.0031}}, 1s);
   LONGS_EQUAL(1, first.size());
   STRCMP_EQUAL(
       "bus i2c-1 is too slow for the loop: 2 rounds left out so far, the longest took 3.1 ms",
       first[0].c_str());
-  CHECK(watch.news({{"i2c-1", 5, 0.0031}}, 60s).empty());
-  CHECK(watch.news({{"i2c-1", 5, 0.0031}}, 61s).size() == 1);
-  CHECK(watch.news({{"i2c-1", 5, 0.0031}}, 200s).empty());
+  CHECK(watch.new_warnings({{"i2c-1", 5, 0.0031}}, 60s).empty());
+  CHECK(watch.new_warnings({{"i2c-1", 5, 0.0031}}, 61s).size() == 1);
+  CHECK(watch.new_warnings({{"i2c-1", 5, 0.0031}}, 200s).empty());
 }
 
 TEST(BusWatch, TellsOfEachBusByItself) {
-  CHECK(watch.news({{"i2c-1", 1, 0.002}, {"i2c-3", 0, 0.001}}, 1s).size() == 1);
-  const auto second = watch.news({{"i2c-1", 2, 0.002}, {"i2c-3", 4, 0.002}}, 2s);
+  CHECK(watch.new_warnings({{"i2c-1", 1, 0.002}, {"i2c-3", 0, 0.001}}, 1s).size() == 1);
+  const auto second = watch.new_warnings({{"i2c-1", 2, 0.002}, {"i2c-3", 4, 0.002}}, 2s);
   LONGS_EQUAL(1, second.size());
   CHECK(second[0].starts_with("bus i2c-3 "));
 }

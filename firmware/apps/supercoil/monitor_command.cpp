@@ -99,12 +99,12 @@ int serve_page(const MonitorOptions& options, Source& source) {
       [&](std::uint8_t node) { return open_for(can_client::answer_ids(node)); });
   std::unique_ptr<SetupSession> setup;
   if (!options.setup.empty()) {
-    SetupOptions asked;
-    asked.config = options.setup;
-    asked.channel = options.channel;
-    asked.can = options.source;
-    setup =
-        std::make_unique<SetupSession>(asked, [&] { controls.release_hold("setup took over"); });
+    SetupOptions setup_options;
+    setup_options.config = options.setup;
+    setup_options.channel = options.channel;
+    setup_options.can = options.source;
+    setup = std::make_unique<SetupSession>(setup_options,
+                                           [&] { controls.release_hold("setup took over"); });
   }
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {

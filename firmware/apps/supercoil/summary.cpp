@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "apps/supercoil/happened.hpp"
+#include "apps/supercoil/fault_history.hpp"
 #include "recorder/names.hpp"
 
 namespace supercoil::operating {
@@ -105,7 +105,7 @@ void print_last(Lines& lines, const Row& r) {
 }
 
 void print_channel(Lines& lines, const recorder::Recording& recording, int number_,
-                   const ChannelStory& c) {
+                   const ChannelHistory& c) {
   lines.add("channel %d", number_ + 1);
   if (c.last_before != nullptr) print_last(lines, *c.last_before);
   if (c.powers > 0) {
@@ -118,7 +118,7 @@ void print_channel(Lines& lines, const recorder::Recording& recording, int numbe
   }
 }
 
-void print_margins(Lines& lines, const ChannelStory& c, const recorder::Recording& recording) {
+void print_margins(Lines& lines, const ChannelHistory& c, const recorder::Recording& recording) {
   if (c.margins.empty()) return;
   lines.add("  last margins up to the fault, largest first:");
   for (const Row* row : c.ranked_margins()) {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/happened.hpp"
+#include "apps/supercoil/fault_history.hpp"
 #include "apps/supercoil/summary.hpp"
 #include "recorder/names.hpp"
 #include "text/program_version.hpp"
@@ -70,7 +70,7 @@ Json last_of(const Row* row) {
           {"resistance_age_s", json_of(row->resistance_age_s)}};
 }
 
-Json margins_of(const ChannelStory& c, const recorder::Recording& recording) {
+Json margins_of(const ChannelHistory& c, const recorder::Recording& recording) {
   Json margins = Json::array();
   for (const Row* row : c.ranked_margins()) {
     margins.push_back({{"detector", recorder::fault_name(row->margin_selector)},
@@ -82,7 +82,7 @@ Json margins_of(const ChannelStory& c, const recorder::Recording& recording) {
   return margins;
 }
 
-Json channel_of(int number, const ChannelStory& c, const recorder::Recording& recording) {
+Json channel_of(int number, const ChannelHistory& c, const recorder::Recording& recording) {
   const bool hot = c.hottest != nullptr;
   return {{"channel", number + 1},
           {"just_before", last_of(c.last_before)},

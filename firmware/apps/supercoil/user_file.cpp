@@ -48,7 +48,7 @@ Result<void> OutputFile::commit() {
   return result;
 }
 
-Result<std::string> read_whole(const std::string& path) {
+Result<std::string> read_file(const std::string& path) {
   namespace fs = std::filesystem;
   constexpr std::uintmax_t max_bytes = 1ULL << 30;
   std::error_code error;
@@ -61,7 +61,7 @@ Result<std::string> read_whole(const std::string& path) {
   return files.read(path, bytes);
 }
 
-Result<void> write_whole(const std::string& path, const std::string& text) {
+Result<void> write_file(const std::string& path, const std::string& text) {
   storage::PosixFiles files;
   auto file = OutputFile::open(path, files);
   if (!file) return tl::unexpected(file.error());

@@ -38,9 +38,9 @@ class OutputFile {
 };
 
 /// Reads at most 1 GiB. The error names the file and the reason.
-Result<std::string> read_whole(const std::string& path);
+Result<std::string> read_file(const std::string& path);
 
 /// Writes a whole file, replacing an existing one.
-Result<void> write_whole(const std::string& path, const std::string& text);
+Result<void> write_file(const std::string& path, const std::string& text);
 
 }  // namespace supercoil::operating

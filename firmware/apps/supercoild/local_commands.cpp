@@ -162,7 +162,7 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), muscle_text(loop));
     return true;
   }
-  if (const auto tuning_answer = answer_about_tuning(text, loop)) {
+  if (const auto tuning_answer = answer_tuning_request(text, loop)) {
     answer(client.number(), *tuning_answer);
     return true;
   }

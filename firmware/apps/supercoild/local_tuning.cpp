@@ -25,27 +25,27 @@ std::optional<TuningSet> set_named(std::string_view word) {
   return static_cast<TuningSet>(found - tuning_set_names.begin());
 }
 
-std::string wrong(std::string_view word, std::string_view what) {
+std::string wrong_text(std::string_view word, std::string_view what) {
   return "wrong: '" + std::string(word) + "' is not a " + std::string(what);
 }
 
-std::string prepared(Tuner& tuner, std::size_t place, std::string_view name,
-                     std::string_view value) {
+std::string prepare_value(Tuner& tuner, std::size_t place, std::string_view name,
+                          std::string_view value) {
   if (name == "all") {
     const auto set = set_named(value);
-    if (!set) return wrong(value, "set of values");
+    if (!set) return wrong_text(value, "set of values");
     return answer_text(tuner.prepare_from(*set, place) ? Refusal::none : Refusal::out_of_range,
                        NAN);
   }
   const auto wanted = number(value);
-  if (!wanted) return wrong(value, "number");
+  if (!wanted) return wrong_text(value, "number");
   const Reply reply = tuner.prepare(place, control::tunable_named(name), *wanted);
   return answer_text(reply.refusal, reply.nearest);
 }
 
 }  // namespace
 
-std::optional<std::string> answer_about_tuning(std::string_view text, Loop& loop) {
+std::optional<std::string> answer_tuning_request(std::string_view text, Loop& loop) {
   const std::string_view request = next_word(text);
   if (request != "tuning" && request != "prepare") return std::nullopt;
   const std::string_view channel_word = next_word(text);
@@ -54,14 +54,14 @@ std::optional<std::string> answer_about_tuning(std::string_view text, Loop& loop
   const std::string_view last = next_word(text);
   const auto channel = number(channel_word);
   if (!channel || !(*channel >= 1.0 && *channel <= static_cast<double>(loop.channels())))
-    return wrong(channel_word, "channel");
+    return wrong_text(channel_word, "channel");
   const auto place = number(place_word);
-  if (!place || !(*place >= 0.0 && *place <= 255.0)) return wrong(place_word, "controller");
+  if (!place || !(*place >= 0.0 && *place <= 255.0)) return wrong_text(place_word, "controller");
   Tuner& tuner = loop.channel(static_cast<std::size_t>(*channel) - 1).tuner();
   const auto at = static_cast<std::size_t>(*place);
-  if (request == "prepare") return prepared(tuner, at, name, last);
+  if (request == "prepare") return prepare_value(tuner, at, name, last);
   const auto set = set_named(last);
-  if (!set) return wrong(last, "set of values");
+  if (!set) return wrong_text(last, "set of values");
   std::ostringstream value_text;
   value_text.precision(17);
   value_text << tuner.value(*set, at, control::tunable_named(name));

@@ -129,7 +129,7 @@ int identify_command(const IdentifyOptions& options) {
     return refuse(options.json, exit_failed, written.error().text());
   if (!table) return fail(exit_failed, table.error().text());
   if (options.muscle.empty()) return exit_done;
-  const auto written = write_whole(options.muscle, *table);
+  const auto written = write_file(options.muscle, *table);
   return written ? exit_done : fail(exit_failed, written.error().text());
 }
 

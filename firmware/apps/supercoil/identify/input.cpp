@@ -40,7 +40,7 @@ std::string to_text(const std::string& file, const Problem& problem) {
 }
 
 Result<Recording> read_input(const IdentifyOptions& o) {
-  const auto content = read_whole(o.file);
+  const auto content = read_file(o.file);
   if (!content) return tl::unexpected(content.error());
   const auto text_of = [&](const Problem& problem) { return failure(to_text(o.file, problem)); };
   const bool flight = content->starts_with("supercoil flight recording");

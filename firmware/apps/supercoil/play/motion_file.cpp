@@ -179,7 +179,7 @@ class MotionReader {
 }  // namespace
 
 Result<std::vector<Motion>> read_motions(const std::string& path, std::uint8_t node) {
-  const auto text = read_whole(path);
+  const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
   return MotionReader(*text, path, node).read();
 }

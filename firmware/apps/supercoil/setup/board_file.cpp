@@ -61,10 +61,10 @@ Result<config::BoardConfig> write_entries(const SetupOptions& options, const std
   auto record = SetupRecord::open(options.config, options.channel);
   if (!record) return failure(record.error().text() + "\n");
   const std::string before = free_name(options.config + before_setup);
-  auto written = write_whole(before, text);
+  auto written = write_file(before, text);
   if (written)
     written = record->add_write({options.channel, step, before, storage::crc32(changed)});
-  if (written) written = write_whole(options.config, changed);
+  if (written) written = write_file(options.config, changed);
   if (!written) return failure(written.error().text() + "\n");
   return std::move(*config);
 }

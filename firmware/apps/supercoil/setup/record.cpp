@@ -60,14 +60,14 @@ Result<Json> SetupRecord::read(const std::string& path, const std::string& chann
 }
 
 bool SetupRecord::has(const std::string& step) const {
-  return counts(step) && contains(step);
+  return is_counted(step) && contains(step);
 }
 
 bool SetupRecord::contains(const std::string& step) const {
   return document_.contains(channel_) && document_[channel_].contains(step);
 }
 
-bool SetupRecord::counts(const std::string& step) const {
+bool SetupRecord::is_counted(const std::string& step) const {
   for (const SetupStep& known : setup_steps) {
     if (known.name == discounted_from_) return false;
     if (known.name == step) break;
@@ -75,8 +75,8 @@ bool SetupRecord::counts(const std::string& step) const {
   return true;
 }
 
-bool SetupRecord::is_past(const std::string& step) const {
-  if (!counts(step)) return false;
+bool SetupRecord::has_later_step(const std::string& step) const {
+  if (!is_counted(step)) return false;
   bool after = false;
   for (const SetupStep& known : setup_steps) {
     if (after && !known.of_machine && contains(std::string(known.name))) return true;
@@ -93,10 +93,10 @@ Result<void> SetupRecord::add(const std::string& step, const Json& found) {
   if (auto read = read_again(); !read) return read;
   Json own = found;
   if (const auto other = own.find(antagonist_key); other != own.end()) {
-    put(name_of(other->at("channel").get<int>()), step, *other);
+    store(name_of(other->at("channel").get<int>()), step, *other);
     own.erase(other);
   }
-  put(channel_, step, own);
+  store(channel_, step, own);
   return write();
 }
 
@@ -128,7 +128,7 @@ Result<void> SetupRecord::add_write(const Write& w) {
   return write();
 }
 
-Result<void> SetupRecord::take_back() {
+Result<void> SetupRecord::remove_last_write() {
   const auto last = last_write();
   if (!last) return {};
   Json& writes = document_[writes_key];
@@ -136,7 +136,7 @@ Result<void> SetupRecord::take_back() {
   if (writes.empty()) document_.erase(writes_key);
   if (const auto channel = document_.find(name_of(last->channel)); channel != document_.end()) {
     channel->erase(last->step);
-    forget_after(*channel, last->step);
+    remove_later_steps(*channel, last->step);
     if (channel->empty()) document_.erase(channel);
   }
   return write();
@@ -159,17 +159,17 @@ Result<void> SetupRecord::write() {
     return failed_call(path_, error.value());
   }
   document_["schema_version"] = 1;
-  return write_whole(path_, document_.dump(2) + "\n");
+  return write_file(path_, document_.dump(2) + "\n");
 }
 
-void SetupRecord::put(const std::string& name, const std::string& step, const Json& found) {
+void SetupRecord::store(const std::string& name, const std::string& step, const Json& found) {
   Json& channel = document_[name];
   if (channel.is_null()) channel = Json::object();
-  forget_after(channel, step);
+  remove_later_steps(channel, step);
   channel[step] = found;
 }
 
-void SetupRecord::forget_after(Json& channel, const std::string& step) {
+void SetupRecord::remove_later_steps(Json& channel, const std::string& step) {
   bool after = false;
   for (const SetupStep& known : setup_steps) {
     if (after) channel.erase(std::string(known.name));

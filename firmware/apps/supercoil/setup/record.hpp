@@ -25,7 +25,7 @@ class SetupRecord {
 
   bool has(const std::string& step) const;
   /// Whether a later step is done.
-  bool is_past(const std::string& step) const;
+  bool has_later_step(const std::string& step) const;
   /// What a step found; null: it was not done.
   nlohmann::ordered_json found(const std::string& step) const;
   /// From this step on nothing counts as done. It stays in the file until it is done again, because
@@ -54,7 +54,7 @@ class SetupRecord {
   std::optional<Write> last_write() const;
   Result<void> add_write(const Write& write);
   /// Records that the last one was undone: its step and later ones must be done again.
-  Result<void> take_back();
+  Result<void> remove_last_write();
 
  private:
   SetupRecord(std::string path, std::string channel, nlohmann::ordered_json document)
@@ -65,10 +65,10 @@ class SetupRecord {
   Result<void> read_again();
   /// An empty record removes the file.
   Result<void> write();
-  void put(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
-  void forget_after(nlohmann::ordered_json& channel, const std::string& step);
+  void store(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
+  void remove_later_steps(nlohmann::ordered_json& channel, const std::string& step);
 
-  bool counts(const std::string& step) const;
+  bool is_counted(const std::string& step) const;
   bool contains(const std::string& step) const;
 
   std::string path_;

@@ -38,7 +38,7 @@ std::vector<std::string> step_names() {
 /// Without a name: the steps after all that are done.
 bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecord& record) {
   const std::string name(step.name);
-  if (options.steps.empty()) return !record.has(name) && !record.is_past(name);
+  if (options.steps.empty()) return !record.has(name) && !record.has_later_step(name);
   return std::ranges::find(options.steps, name) != options.steps.end();
 }
 

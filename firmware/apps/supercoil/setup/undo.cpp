@@ -76,9 +76,9 @@ Result<Undone> undo_setup(const SetupOptions& options,
   if (!record) return tl::unexpected(record.error());
   const auto last = own_write(options, *record);
   if (!last) return tl::unexpected(last.error());
-  const auto before = read_whole(last->before);
+  const auto before = read_file(last->before);
   if (!before) return tl::unexpected(before.error());
-  const auto now = read_whole(options.config);
+  const auto now = read_file(options.config);
   if (!now) return tl::unexpected(now.error());
   // A write that was cut short left the file as it was before.
   if (storage::crc32(*now) != last->crc32 && *now != *before) {
@@ -88,11 +88,11 @@ Result<Undone> undo_setup(const SetupOptions& options,
   }
   Undone undone{last->channel, last->step, free_name(options.config + ".undone"),
                 left_on_board(options, *record, last->step)};
-  if (auto kept = write_whole(undone.kept_as, *now); !kept) return tl::unexpected(kept.error());
+  if (auto kept = write_file(undone.kept_as, *now); !kept) return tl::unexpected(kept.error());
   std::error_code error;
   std::filesystem::rename(last->before, options.config, error);
   if (error) return failed_call(last->before, error.value());
-  if (auto removed = record->take_back(); !removed) return tl::unexpected(removed.error());
+  if (auto removed = record->remove_last_write(); !removed) return tl::unexpected(removed.error());
   return undone;
 }
 

@@ -97,7 +97,7 @@ Panel panel_of(const char* title, const Histogram& histogram) {
   return panel;
 }
 
-std::string how(const LatencyConditions& conditions) {
+std::string conditions_text(const LatencyConditions& conditions) {
   if (conditions.priority == 0) return "as an ordinary thread";
   return "with priority " + std::to_string(conditions.priority) + " of SCHED_FIFO";
 }
@@ -108,8 +108,8 @@ std::string latency_text(const Latency& latency, const LatencyConditions& condit
   std::string text;
   add_line(text, "%llu ticks at %g Hz, %zu channel%s, %s; overruns: %" PRId64,
            static_cast<unsigned long long>(latency.late.count()), conditions.rate_Hz,
-           conditions.channels, conditions.channels == 1 ? "" : "s", how(conditions).c_str(),
-           latency.overruns);
+           conditions.channels, conditions.channels == 1 ? "" : "s",
+           conditions_text(conditions).c_str(), latency.overruns);
   add_histogram(text, "\nwoke after its time", latency.late);
   add_histogram(text, "\na tick took", latency.tick);
   return text;
@@ -135,7 +135,7 @@ Figure latency_figure(const Latency& latency, const LatencyConditions& condition
   std::array<char, 120> title{};
   std::snprintf(title.data(), title.size(), "Woke after its time: %llu ticks at %g Hz, %s",
                 static_cast<unsigned long long>(latency.late.count()), conditions.rate_Hz,
-                how(conditions).c_str());
+                conditions_text(conditions).c_str());
   figure.panels = {panel_of(title.data(), latency.late), panel_of("A tick took", latency.tick)};
   return figure;
 }

@@ -46,10 +46,10 @@ TEST(SetupRecord, AStepThatIsDoneAgainMakesThoseBehindItUndone) {
 TEST(SetupRecord, ACheckedMachineSaysNothingOfItsMuscle) {
   CHECK_TRUE(opened().add("doctor", {{"problems", 0}}).has_value());
   CHECK_TRUE(opened().has("doctor"));
-  CHECK_FALSE(opened().is_past("describe"));
+  CHECK_FALSE(opened().has_later_step("describe"));
   CHECK_TRUE(opened().add("senses", {{"done", true}}).has_value());
-  CHECK_TRUE(opened().is_past("describe"));
-  CHECK_TRUE(opened().is_past("doctor"));
+  CHECK_TRUE(opened().has_later_step("describe"));
+  CHECK_TRUE(opened().has_later_step("doctor"));
 }
 
 TEST(SetupRecord, ADamagedRecordIsRefusedAndKept) {

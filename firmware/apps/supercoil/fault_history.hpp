@@ -1,4 +1,4 @@
-// A fault's story from a flight recording, for text and JSON.
+// A fault's history from a flight recording, for text and JSON.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct OtherFault {
 };
 
 /// What a channel did up to the fault, and its maxima over the whole recording.
-struct ChannelStory {
+struct ChannelHistory {
   const Row* last_before = nullptr;
   const Row* hottest = nullptr;
   double sum_W = 0.0;
@@ -40,7 +40,7 @@ struct ChannelStory {
 
 Gaps gaps_of(const recorder::Recording& recording);
 std::vector<OtherFault> other_faults_of(const recorder::Recording& recording);
-/// By channel, from 0. The stories point into the recording.
-std::map<int, ChannelStory> channels_of(const recorder::Recording& recording);
+/// By channel, from 0. The histories point into the recording.
+std::map<int, ChannelHistory> channels_of(const recorder::Recording& recording);
 
 }  // namespace supercoil::operating

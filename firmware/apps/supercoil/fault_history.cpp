@@ -1,4 +1,4 @@
-#include "apps/supercoil/happened.hpp"
+#include "apps/supercoil/fault_history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace supercoil::operating {
 
-void ChannelStory::add(const Row& row, double time_s) {
+void ChannelHistory::add(const Row& row, double time_s) {
   if (!std::isnan(row.hottest_C) && (hottest == nullptr || row.hottest_C > hottest->hottest_C))
     hottest = &row;
   max_W = std::fmax(max_W, row.applied_W);
@@ -20,7 +20,7 @@ void ChannelStory::add(const Row& row, double time_s) {
   if (time_s <= 0.0 && row.margin_selector != 0) margins[row.margin_selector] = &row;
 }
 
-std::vector<const Row*> ChannelStory::ranked_margins() const {
+std::vector<const Row*> ChannelHistory::ranked_margins() const {
   std::vector<const Row*> rows;
   for (const auto& [margin_selector, row] : margins)
     rows.push_back(row);
@@ -51,15 +51,16 @@ std::vector<OtherFault> other_faults_of(const recorder::Recording& recording) {
   for (const Row& row : recording.rows) {
     const bool changed = row.fault != last[row.channel];
     last[row.channel] = row.fault;
-    const bool the_one = row.channel == recording.header.fault_channel &&
-                         row.time_ns == recording.header.fault_time_ns;
-    if (changed && !the_one) others.push_back({recording.time_s(row), row.channel, row.fault});
+    const bool is_recorded_fault = row.channel == recording.header.fault_channel &&
+                                   row.time_ns == recording.header.fault_time_ns;
+    if (changed && !is_recorded_fault)
+      others.push_back({recording.time_s(row), row.channel, row.fault});
   }
   return others;
 }
 
-std::map<int, ChannelStory> channels_of(const recorder::Recording& recording) {
-  std::map<int, ChannelStory> channels;
+std::map<int, ChannelHistory> channels_of(const recorder::Recording& recording) {
+  std::map<int, ChannelHistory> channels;
   for (const Row& row : recording.rows)
     channels[row.channel].add(row, recording.time_s(row));
   return channels;

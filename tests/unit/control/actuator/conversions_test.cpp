@@ -66,7 +66,7 @@ TEST(Conversions, FormsAgreeWithNumpy) {
   }
 }
 
-TEST(Conversions, SlowestRealRootIsNumpys) {
+TEST(Conversions, SlowestRealRootAgreesWithNumpy) {
   for (const auto& c : supercoil::test::reference("actuator", "cases")) {
     const auto theta = supercoil::test::vector_from<Theta>(c.at("theta"));
     const double mass = c.at("parameters").at("moving_mass_kg");
@@ -76,7 +76,7 @@ TEST(Conversions, SlowestRealRootIsNumpys) {
   }
 }
 
-TEST(Conversions, SlowestOfThreeRealRootsIsFoundEvenWhenItIsHitExactly) {
+TEST(Conversions, SlowestOfThreeRealRootsIsFoundEvenWhenHitExactly) {
   DOUBLES_EQUAL(-1.0, *slowest_real_root(1.0, 6.0, 11.0, 6.0), 1e-14);
   DOUBLES_EQUAL(-0.5, *slowest_real_root(2.0, 131.0, 1565.0, 750.0), 1e-12);
   CHECK(rc::check("three real roots", [] {
@@ -91,7 +91,7 @@ TEST(Conversions, SlowestOfThreeRealRootsIsFoundEvenWhenItIsHitExactly) {
   }));
 }
 
-TEST(Conversions, PhysicalToThetaAndBackIsTheSame) {
+TEST(Conversions, PhysicalToThetaRoundTrips) {
   CHECK(rc::check("through theta", [] {
     const auto p = *muscles();
     const auto back = physical_from(theta_from(p), {p.force_per_kelvin_N_per_K, p.moving_mass_kg});
@@ -100,7 +100,7 @@ TEST(Conversions, PhysicalToThetaAndBackIsTheSame) {
   }));
 }
 
-TEST(Conversions, PhysicalToTransferFunctionAndBackIsTheSame) {
+TEST(Conversions, PhysicalToTransferFunctionRoundTrips) {
   CHECK(rc::check("through b0..b3", [] {
     const auto p = *muscles();
     const auto back =
@@ -113,7 +113,7 @@ TEST(Conversions, PhysicalToTransferFunctionAndBackIsTheSame) {
   }));
 }
 
-TEST(Conversions, AThetaThatIsNotHurwitzIsRefused) {
+TEST(Conversions, RefusesAThetaThatIsNotHurwitz) {
   const Theta good = theta_from(PhysicalParameters{});
   CHECK(physical_from(good, paper_known).has_value());
   for (Eigen::Index i = 0; i < 4; ++i) {
@@ -128,7 +128,7 @@ TEST(Conversions, AThetaThatIsNotHurwitzIsRefused) {
   CHECK_FALSE(physical_from(unstable, paper_known).has_value());
 }
 
-TEST(Conversions, KnownParametersThatAreNotPositiveAreRefused) {
+TEST(Conversions, RefusesKnownParametersThatAreNotPositive) {
   const Theta good = theta_from(PhysicalParameters{});
   CHECK_FALSE(physical_from(good, {0.0, 0.09}).has_value());
   CHECK_FALSE(physical_from(good, {-0.0086, 0.09}).has_value());
@@ -137,7 +137,7 @@ TEST(Conversions, KnownParametersThatAreNotPositiveAreRefused) {
   CHECK_FALSE(transfer_function_from(Theta{0.0, 1.0, 1.0, 1.0}, 0.09).has_value());
 }
 
-TEST(Conversions, ATransferFunctionWithoutPositiveGainIsRefused) {
+TEST(Conversions, RefusesATransferFunctionWithoutPositiveGain) {
   const TransferFunction good = transfer_function_from(PhysicalParameters{});
   for (const double b3 : {0.0, -0.6, std::numeric_limits<double>::quiet_NaN()}) {
     TransferFunction f = good;

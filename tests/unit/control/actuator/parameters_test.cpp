@@ -32,7 +32,7 @@ TEST(Parameters, ThePapersMuscleIsValid) {
   CHECK_FALSE(check(PhysicalParameters{}).has_value());
 }
 
-TEST(Parameters, CheckNamesTheOneThatIsWrong) {
+TEST(Parameters, CheckNamesTheInvalidParameter) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const auto& [name, member] : quantities) {
     for (const double bad :
@@ -47,7 +47,7 @@ TEST(Parameters, CheckNamesTheOneThatIsWrong) {
   }
 }
 
-TEST(Parameters, TheEndsOfARangeAreAllowedAndWhatLiesJustBeyondIsNot) {
+TEST(Parameters, RangeLimitsAreAllowedAndValuesJustBeyondAreNot) {
   for (const auto& [name, member] : quantities) {
     PhysicalParameters p;
     p.*member = -1.0;

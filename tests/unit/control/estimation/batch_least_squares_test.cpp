@@ -74,7 +74,7 @@ Theta paper_theta() {
 
 TEST_GROUP(BatchLeastSquares){};
 
-TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
+TEST(BatchLeastSquares, FindsAMuscleFromAWrongInitialGuess) {
   const auto fit = PowerSteps{}.run();
   CHECK(fit.has_value());
   for (int i = 0; i < 4; ++i) {
@@ -87,7 +87,7 @@ TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
 }
 
 /// Only noise remains unexplained, as in the fit's own experiment; a bias does not count.
-TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
+TEST(BatchLeastSquares, ValidatesAMuscleOnAnExperimentNotUsedForTheFit) {
   for (const double bias_W : {0.0, 0.3}) {
     const PowerSteps steps{.bias_W = bias_W};
     BatchLeastSquares fit = steps.experiment();
@@ -104,7 +104,7 @@ TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
 }
 
 /// The restart comes in the middle of a stroke: the filters need not settle again.
-TEST(BatchLeastSquares, AnExperimentThatBeginsAnewUnderWayFindsTheSame) {
+TEST(BatchLeastSquares, RestartingMidExperimentFindsTheSameMuscle) {
   const BatchLeastSquares anew =
       PowerSteps{.noise_rms_m = 0.0, .blocks = 14}.experiment(1, 7.6 * block_s);
   CHECK_EQUAL(8U, anew.blocks());
@@ -122,7 +122,7 @@ TEST(BatchLeastSquares, FindsAConstantBiasOfThePower) {
 }
 
 /// An ordinary fit to the same samples finds θ2 too small, because its regressors carry the noise.
-TEST(BatchLeastSquares, NoiseWidensTheResultAndDoesNotBendIt) {
+TEST(BatchLeastSquares, NoiseWidensTheResultWithoutBias) {
   double mean = 0.0;
   double deviation = 0.0;
   constexpr int runs = 10;
@@ -137,7 +137,7 @@ TEST(BatchLeastSquares, NoiseWidensTheResultAndDoesNotBendIt) {
   CHECK(deviation < 0.1);
 }
 
-TEST(BatchLeastSquares, DeviationsAreThoseOfTheErrors) {
+TEST(BatchLeastSquares, ReportedDeviationsMatchTheErrors) {
   Theta squares = Theta::Zero();
   Theta told = Theta::Zero();
   constexpr int runs = 20;
@@ -153,17 +153,17 @@ TEST(BatchLeastSquares, DeviationsAreThoseOfTheErrors) {
   }
 }
 
-TEST(BatchLeastSquares, AMuscleThatChangesUnderwayIsNotExplained) {
+TEST(BatchLeastSquares, AMuscleThatChangesMidExperimentIsNotExplained) {
   const auto fit = PowerSteps{.softens_at_s = 42.0}.run();
   CHECK(fit->unexplained_ratio > 0.06);
   CHECK(fit->holdout_difference[3] > 0.15);
 }
 
-TEST(BatchLeastSquares, TooFewBlocksAreNoFit) {
+TEST(BatchLeastSquares, TooFewBlocksGiveNoFit) {
   CHECK_FALSE(PowerSteps{.blocks = BatchLeastSquares::min_blocks - 1}.run().has_value());
 }
 
-TEST(BatchLeastSquares, WithoutMotionNothingIsKnown) {
+TEST(BatchLeastSquares, WithoutMotionThereIsNoFit) {
   const auto fit = PowerSteps{.scale = 1e-6}.run();
   CHECK(!fit || fit->deviation[3] > 0.1 || fit->unexplained_ratio > 0.06);
 }

@@ -42,12 +42,12 @@ double of_model(double time_s) {
 
 TEST_GROUP(ChangeDetector){};
 
-TEST(ChangeDetector, AModelErrorThatReturnsIsNotAChange) {
+TEST(ChangeDetector, ARecurringModelErrorIsNotAChange) {
   Detector detector = fresh();
   DOUBLES_EQUAL(-1.0, watch(detector, 2000.0, of_model).time_s, 0.0);
 }
 
-TEST(ChangeDetector, AChangeAlongADirectionIsFoundAndMeasured) {
+TEST(ChangeDetector, AChangeAlongADirectionIsDetectedAndMeasured) {
   for (const int direction : {0, 1}) {
     Detector detector = fresh();
     const Found found = watch(detector, 300.0, [&](double time_s) {
@@ -64,7 +64,7 @@ TEST(ChangeDetector, AChangeAlongADirectionIsFoundAndMeasured) {
   }
 }
 
-TEST(ChangeDetector, IsBlindAtFirstAndReportsTheSameChangeOnlyOnceInAWhile) {
+TEST(ChangeDetector, IsBlindAtFirstAndDoesNotRepeatAChangeTooSoon) {
   Detector detector = fresh();
   const Found found =
       watch(detector, 300.0, [](double time_s) { return time_s > 50.0 ? 1.0 : 0.0; });

@@ -34,12 +34,12 @@ double drift_of(double deviation) {
 
 TEST_GROUP(EstimateDrift){};
 
-TEST(EstimateDrift, OfTwoEstimatesIsTwiceTheirVariance) {
+TEST(EstimateDrift, DriftBetweenTwoEstimatesIsTwiceTheirVariance) {
   DOUBLES_EQUAL(2.0, drift_of(0.01), 0.1);
   DOUBLES_EQUAL(200.0, drift_of(0.1), 10.0);
 }
 
-TEST(EstimateDrift, IsNothingBeforeTheLagAndAfterAChange) {
+TEST(EstimateDrift, IsZeroBeforeTheLagAndAfterAChange) {
   EstimateDrift drift(settings());
   const EstimateDrift::Square told = EstimateDrift::Square::Identity() * 1e-4;
   for (int k = 0; k < 8; ++k)
@@ -53,7 +53,7 @@ TEST(EstimateDrift, IsNothingBeforeTheLagAndAfterAChange) {
   CHECK(drift.mean_square() > 1.0);
 }
 
-TEST(EstimateDrift, WhatIsUnknownCountsForNothing) {
+TEST(EstimateDrift, UncertainParametersHaveNoWeight) {
   EstimateDrift drift(settings());
   EstimateDrift::Square told = EstimateDrift::Square::Identity() * 100.0;
   told(0, 0) = 1e-4;

@@ -71,7 +71,7 @@ TEST(Excitation, SmallestEigenvalueIsTheClosedFormOfOrthogonalSines) {
   }
 }
 
-TEST(Excitation, TheWindowForgetsWhatIsOlder) {
+TEST(Excitation, TheWindowForgetsOlderSamples) {
   ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
   for (long k = 0; k < 2000; ++k)
     monitor.step(orthogonal_sines(k, Phi::Constant(1.0)), 0.0, Phi::Zero());
@@ -82,7 +82,7 @@ TEST(Excitation, TheWindowForgetsWhatIsOlder) {
   CHECK_FALSE(monitor.trusted());
 }
 
-TEST(Excitation, TheBoundHoldsForThePresentParametersHoweverTheyGotThere) {
+TEST(Excitation, TheBoundHoldsForPresentParametersWhateverTheirHistory) {
   CHECK(rc::check("bound", [] {
     using supercoil::test::reals;
     const Phi amplitude{*reals(0.1, 2.0), *reals(0.1, 2.0), *reals(0.1, 2.0), *reals(0.1, 2.0)};
@@ -117,7 +117,7 @@ TEST(Excitation, TheBoundIsReachedAlongTheWeakestDirection) {
   DOUBLES_EQUAL(0.3, monitor.error_bound(), 1e-6);
 }
 
-TEST(Excitation, NothingIsTrustedAtRestOrUnderASingleSine) {
+TEST(Excitation, NoEstimateIsTrustedAtRestOrUnderASingleSine) {
   bool trusted = true;
   learn(
       100.0, [](double) { return 2.0; }, 10e-6, &trusted);

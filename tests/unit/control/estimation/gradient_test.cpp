@@ -65,7 +65,7 @@ TEST(Gradient, StartsAtTheGivenTheta) {
   CHECK((estimator.theta() - Theta{0.1, 5.0, 30.0, 20.0}).norm() < 1e-12);
 }
 
-TEST(Gradient, TheTruthStaysPut) {
+TEST(Gradient, TrueParametersStayUnchanged) {
   GradientSettings settings;
   settings.initial = theta_from(PhysicalParameters{});
   GradientEstimator<double> estimator(settings, 1e-3);

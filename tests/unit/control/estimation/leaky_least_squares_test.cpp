@@ -50,7 +50,7 @@ TEST(LeakyLeastSquares, MinimisesTheWeightedSumOfResidualsAndPrior) {
   CHECK((least_squares.weights() - expected).norm() < 1e-10);
 }
 
-TEST(LeakyLeastSquares, WhatNothingExcitesReturnsToThePriorWhileTheRestLearns) {
+TEST(LeakyLeastSquares, UnexcitedWeightsReturnToThePriorWhileOthersLearn) {
   Three least_squares(usual());
   for (int k = 0; k < 200; ++k)
     least_squares.add(regressors(k), 3.0 * regressors(k)[1], observation_variance);
@@ -62,7 +62,7 @@ TEST(LeakyLeastSquares, WhatNothingExcitesReturnsToThePriorWhileTheRestLearns) {
   DOUBLES_EQUAL(0.5, least_squares.weights()[2], 1e-6);
 }
 
-TEST(LeakyLeastSquares, AMoveIsKeptAndItsDirectionIsLearnedAnewQuickly) {
+TEST(LeakyLeastSquares, AMovedWeightStaysAndIsRelearnedQuickly) {
   Three moved(usual());
   Three still(usual());
   const Three::Weights truth{1.0, -0.7, 1.2};

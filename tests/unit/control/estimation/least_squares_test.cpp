@@ -29,7 +29,7 @@ TEST(LeastSquares, FromRestAllParametersAreWithin5PercentAfter2Seconds) {
   CHECK(learning.outside_until(0.05, 6.0) <= 2.0);
 }
 
-TEST(LeastSquares, AfterAChangeOfStiffnessAllAreWithin5PercentIn10Seconds) {
+TEST(LeastSquares, AfterAStiffnessChangeAllAreWithin5PercentIn10Seconds) {
   Learning<double> learning(1);
   learning.muscle.soften_at(100.0);
   learning.run_until(100.0);
@@ -63,7 +63,7 @@ TEST(LeastSquares, EstimatesAConstantBiasOfThePower) {
   DOUBLES_EQUAL(1.0, estimator.parameters()[3], 0.002);
 }
 
-TEST(LeastSquares, FloatFollowsDoubleToATenthOfTheNoisesEffect) {
+TEST(LeastSquares, FloatMatchesDoubleWithinATenthOfTheDeviation) {
   Learning<double> exact(1);
   Learning<float> narrow(1);
   for (auto* time : {&exact.muscle, &narrow.muscle})
@@ -76,7 +76,7 @@ TEST(LeastSquares, FloatFollowsDoubleToATenthOfTheNoisesEffect) {
     CHECK(std::abs(apart[i]) < 0.1 * deviations[i]);
 }
 
-TEST(LeastSquares, TellsNoPointOutsideItsBounds) {
+TEST(LeastSquares, NeverReportsParametersOutsideItsBounds) {
   LeastSquaresSettings settings;
   settings.max_ratio = 0.9;
   Learning<double> learning(1, settings);
@@ -86,7 +86,7 @@ TEST(LeastSquares, TellsNoPointOutsideItsBounds) {
   CHECK(told.minCoeff() >= settings.min_ratio);
 }
 
-TEST(LeastSquares, InFloatItLearnsOverHoursOfMotionAndOfRest) {
+TEST(LeastSquares, FloatLearnsOverHoursOfMotionAndRest) {
   constexpr double step_s = 1e-2;
   constexpr double hour_s = 3600.0;
   LeastSquaresSettings settings;
@@ -122,7 +122,7 @@ TEST(LeastSquares, ARestartKeepsWhatWasLearned) {
   LONGS_EQUAL(0, learning.estimator.changes());
 }
 
-TEST(LeastSquares, TrustComesWithTheStandardDeviations) {
+TEST(LeastSquares, TrustDependsOnTheStandardDeviations) {
   EstimatorSettings settings;
   settings.kind = EstimatorKind::least_squares;
   Estimator estimator(settings, 1e-3);
@@ -140,7 +140,7 @@ TEST(LeastSquares, TrustComesWithTheStandardDeviations) {
   CHECK((off.cwiseAbs().array() < 5.0 * estimate.deviation.array()).all());
 }
 
-TEST(LeastSquares, TheSlowestAndTheFastestLoopsLearnAsWell) {
+TEST(LeastSquares, LearnsAtTheSlowestAndFastestLoopRates) {
   for (const double step_s : {1e-2, 1e-4}) {
     LeastSquaresSettings settings;
     LeastSquaresEstimator<double> estimator(settings, step_s);

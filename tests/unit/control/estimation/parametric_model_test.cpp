@@ -47,7 +47,7 @@ TEST(ParametricModel, TrueParametersExplainThePowerWithoutNoise) {
   CHECK(max_residual(slow_muscle, 1e-3) < 2e-7);
 }
 
-TEST(ParametricModel, WhatRemainsFallsWithTheSquareOfTheStep) {
+TEST(ParametricModel, ResidualFallsWithTheSquareOfTheStep) {
   const double coarse = max_residual(PhysicalParameters{}, 10e-3);
   const double fine = max_residual(PhysicalParameters{}, 5e-3);
   CHECK(coarse > 1e-7);

@@ -57,7 +57,7 @@ TEST(SimplestChange, KnownValuesArePassedThrough) {
   }
 }
 
-TEST(SimplestChange, WhatTheDataLeaveOpenStaysAsItWas) {
+TEST(SimplestChange, UndeterminedParametersKeepTheirValues) {
   // The data determine the sum of θ3 and the bias, and that all else is unchanged: this fits a
   // load, but not a softer muscle.
   Square covariance = Square::Identity() * 1e-6;
@@ -73,7 +73,7 @@ TEST(SimplestChange, WhatTheDataLeaveOpenStaysAsItWas) {
 }
 
 /// The data determine only the sum of θ4 and the bias.
-TEST(SimplestChange, TwoThatExplainItAsWellAreNotDecided) {
+TEST(SimplestChange, EquallyGoodExplanationsAreLeftUndecided) {
   const SimplestChange change = begun();
   CHECK_FALSE(change.explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), sum_known()).has_value());
   DOUBLES_EQUAL(1.0, change.before()[3], 0.0);
@@ -86,13 +86,13 @@ TEST(SimplestChange, PrefersTheNarrowerOfTwoEquallyGoodExplanations) {
   DOUBLES_EQUAL(0.5, (*told)[4], 0.03);
 }
 
-TEST(SimplestChange, TwoChangesAtOnceAreToldAsLeastSquaresHasThem) {
+TEST(SimplestChange, TwoSimultaneousChangesPassThroughFromLeastSquares) {
   const Parameters theta = moved(1.0, 1.0, 0.75, 0.75, 0.5);
   const auto told = begun().explained(theta, Square::Identity() * 1e-6);
   CHECK(told.has_value());
   CHECK((*told - theta).norm() < 1e-9);
 }
 
-TEST(SimplestChange, NaNIsNotDecided) {
+TEST(SimplestChange, NaNIsLeftUndecided) {
   CHECK_FALSE(begun().explained(Parameters::Constant(NAN), Square::Identity()).has_value());
 }

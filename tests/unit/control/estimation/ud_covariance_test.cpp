@@ -26,7 +26,7 @@ class Regressors {
 
 TEST_GROUP(UdCovariance){};
 
-TEST(UdCovariance, IsTheTextbooksCovarianceAndGain) {
+TEST(UdCovariance, MatchesTheTextbookCovarianceAndGain) {
   Regressors regressors;
   Matrix<double, 4> expected = Matrix<double, 4>::Identity() * 100.0;
   UdCovariance<double, 4> covariance(Vector<double, 4>::Constant(100.0));
@@ -41,7 +41,7 @@ TEST(UdCovariance, IsTheTextbooksCovarianceAndGain) {
   DOUBLES_EQUAL(largest, covariance.max_variance(0), 1e-6 * largest);
 }
 
-TEST(UdCovariance, StaysPositiveInFloatWhereTheTextbooksUpdateDoesNot) {
+TEST(UdCovariance, StaysPositiveInFloatWhereTheTextbookUpdateDoesNot) {
   Regressors regressors;
   Matrix<float, 4> textbook = Matrix<float, 4>::Identity() * 100.0F;
   UdCovariance<float, 4> covariance(Vector<float, 4>::Constant(100.0F));
@@ -59,14 +59,14 @@ TEST(UdCovariance, StaysPositiveInFloatWhereTheTextbooksUpdateDoesNot) {
   CHECK_FALSE(min_of_textbook > 0.0F);
 }
 
-TEST(UdCovariance, WhatIsKnownDoesNotMove) {
+TEST(UdCovariance, AKnownParameterDoesNotMove) {
   Regressors regressors;
   UdCovariance<double, 4> covariance(Vector<double, 4>{0.0, 1.0, 2.0, 3.0});
   for (int k = 0; k < 20; ++k)
     DOUBLES_EQUAL(0.0, covariance.update(regressors.next(), 0.1, 1.0, 0)[0], 0.0);
 }
 
-TEST(UdCovariance, RenewingTheFirstLeavesWhatIsBelievedOfTheLast) {
+TEST(UdCovariance, RenewingTheFirstParametersKeepsTheRemainingBlock) {
   Regressors regressors;
   UdCovariance<double, 4> covariance(Vector<double, 4>::Constant(100.0));
   for (int k = 0; k < 20; ++k)
@@ -80,7 +80,7 @@ TEST(UdCovariance, RenewingTheFirstLeavesWhatIsBelievedOfTheLast) {
   CHECK((covariance.matrix() - expected).norm() < 1e-12);
 }
 
-TEST(UdCovariance, InflatingAddsToEachVarianceAndToNothingElse) {
+TEST(UdCovariance, InflatingAddsToVariancesOnly) {
   Regressors regressors;
   UdCovariance<double, 4> covariance(Vector<double, 4>{0.0, 100.0, 100.0, 100.0});
   for (int k = 0; k < 20; ++k)
@@ -90,7 +90,7 @@ TEST(UdCovariance, InflatingAddsToEachVarianceAndToNothingElse) {
   CHECK((covariance.matrix() - expected).norm() < 1e-12);
 }
 
-TEST(UdCovariance, AddingADirectionGrowsItAlone) {
+TEST(UdCovariance, AddingADirectionGrowsOnlyThatDirection) {
   Regressors regressors;
   UdCovariance<double, 4> covariance(Vector<double, 4>::Constant(100.0));
   for (int k = 0; k < 20; ++k)

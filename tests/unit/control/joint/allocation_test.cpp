@@ -36,7 +36,7 @@ bool within(double power_W, const PowerRange& range) {
 
 TEST_GROUP(JointAllocation){};
 
-TEST(JointAllocation, StaysInTheRangesAndGivesTheNearestEffort) {
+TEST(JointAllocation, StaysWithinRangesAndGivesTheNearestEffort) {
   CHECK(rc::check("divide", [] {
     const AnyPair pair;
     const PairPower power = pair.divided();
@@ -58,7 +58,7 @@ TEST(JointAllocation, SharesTheEffortEquallyWhereBothHaveRoom) {
   DOUBLES_EQUAL(0.7 / 0.8, power.antagonist_W, rounding_W);
 }
 
-TEST(JointAllocation, WhatOneCannotGiveTheOtherDoes) {
+TEST(JointAllocation, TheOtherMuscleMakesUpForALimitedOne) {
   const JointAllocation allocation(1.0);
   const JointAllocation::Ranges ranges{{0.0, 4.5}, {0.0, 2.0}};
   // The antagonist cannot cool any further: the agonist alone turns the joint.
@@ -71,7 +71,7 @@ TEST(JointAllocation, WhatOneCannotGiveTheOtherDoes) {
   DOUBLES_EQUAL(2.0, down.antagonist_W, rounding_W);
 }
 
-TEST(JointAllocation, MoreEffortNeverMeansLessOfTheAgonist) {
+TEST(JointAllocation, MoreEffortNeverReducesTheAgonistsPower) {
   CHECK(rc::check("monotonic", [] {
     AnyPair pair;
     const PairPower before = pair.divided();
@@ -82,7 +82,7 @@ TEST(JointAllocation, MoreEffortNeverMeansLessOfTheAgonist) {
   }));
 }
 
-TEST(JointAllocation, AnEffortThatIsNoNumberGivesNoPower) {
+TEST(JointAllocation, AnEffortOfNaNGivesNoPower) {
   const JointAllocation allocation(1.0);
   for (const double effort_W : {NAN, INFINITY, -INFINITY}) {
     const PairPower power = allocation.divide(effort_W, 1.0, {});

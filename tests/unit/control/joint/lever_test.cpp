@@ -27,7 +27,7 @@ Lever any_table() {
 
 TEST_GROUP(Lever){};
 
-TEST(Lever, AConstantOneHasTheArcOfACircle) {
+TEST(Lever, AConstantLeverHasACirclesArc) {
   const Lever lever(0.012);
   CHECK(lever.is_constant());
   for (const double angle_rad : {-2.0, -0.1, 0.0, 0.7}) {
@@ -57,7 +57,7 @@ TEST(Lever, ATableIsStraightBetweenItsPointsAndConstantBeyond) {
   DOUBLES_EQUAL(0.014, lever.max_radius_m(), 0.0);
 }
 
-TEST(Lever, TheAngleOfAnArcIsTheOneThatHasIt) {
+TEST(Lever, AngleIsTheInverseOfArc) {
   CHECK(rc::check("inverse", [] {
     const Lever lever = any_table();
     const double angle_rad = *reals(-3.0, 3.0);
@@ -65,7 +65,7 @@ TEST(Lever, TheAngleOfAnArcIsTheOneThatHasIt) {
   }));
 }
 
-TEST(Lever, TheArcGrowsByTheLever) {
+TEST(Lever, TheArcGrowsByTheLeverRadius) {
   CHECK(rc::check("slope", [] {
     const Lever lever = any_table();
     const double angle_rad = *reals(-3.0, 3.0);
@@ -76,7 +76,7 @@ TEST(Lever, TheArcGrowsByTheLever) {
   }));
 }
 
-TEST(Lever, OfAnAngleThatIsNotKnownNothingIs) {
+TEST(Lever, NaNInGivesNaNOut) {
   const std::array<double, 4> radii_m{0.010, 0.014, 0.008, 0.009};
   const Lever lever(-1.0, 1.0, radii_m);
   CHECK(std::isnan(lever.arc_m(NAN)));

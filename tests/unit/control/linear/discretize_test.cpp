@@ -24,7 +24,7 @@ TEST_GROUP(Discretize) {
   const nlohmann::json cases = supercoil::test::reference("linear", "holds");
 };
 
-TEST(Discretize, ZeroOrderHoldIsScipys) {
+TEST(Discretize, ZeroOrderHoldAgreesWithScipy) {
   for (const auto& c : cases) {
     const auto result =
         zero_order_hold<3, 2>(matrix_from<A>(c.at("a")), matrix_from<B>(c.at("b")), c.at("step_s"));

@@ -114,7 +114,7 @@ TEST(Filter, FixedPointStatesFollowDouble) {
   CHECK(worst < 1e-9);
 }
 
-TEST(Filter, BankOfOnePolesIsExactForHeldSignalsAndForRamps) {
+TEST(Filter, OnePoleBankIsExactForHeldSignalsAndRamps) {
   const double pole = 4.0;
   const double step_s = 0.01;
   OnePoleBank<double, 2> bank(pole, step_s, {true, false});

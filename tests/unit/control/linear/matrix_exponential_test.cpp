@@ -63,7 +63,7 @@ int differing_matrices() {
 TEST_GROUP(MatrixExponential){};
 
 // These of the sizes in use cover every order of summation; Eigen's takes 3 s a size to compile.
-TEST(MatrixExponential, IsEigensToTheBit) {
+TEST(MatrixExponential, MatchesEigenToTheBit) {
   LONGS_EQUAL(0, differing_matrices<3>());
   LONGS_EQUAL(0, differing_matrices<5>());
   LONGS_EQUAL(0, differing_matrices<8>());

@@ -151,7 +151,7 @@ TEST(FixedArithmetic, TheLowestNumberHasALargestMagnitudeNotANegativeOne) {
   CHECK(Q16_48::min() / Q16_48{-1} == Q16_48::max());
 }
 
-TEST(FixedArithmetic, KnowsWhenItMayHaveSaturated) {
+TEST(FixedArithmetic, AtLimitReportsPossibleSaturation) {
   CHECK((Q8_24{100} + Q8_24{100}).at_limit());
   CHECK((Q8_24{-100} - Q8_24{100}).at_limit());
   CHECK_FALSE((Q8_24{100} + Q8_24{27}).at_limit());

@@ -48,7 +48,7 @@ TEST(FixedConversion, FromDoubleRoundsTiesAwayFromZero) {
   LONGS_EQUAL(0, Q8_24{0.499 * place}.raw());
 }
 
-TEST(FixedConversion, Q8_24SurvivesTheWayThroughDoubleAndThroughQ16_48) {
+TEST(FixedConversion, Q8_24RoundTripsThroughDoubleAndQ16_48) {
   CHECK(rc::check("round trips", [] {
     const auto value = *fixed_numbers<Q8_24>();
     RC_ASSERT(Q8_24{static_cast<double>(value)} == value);
@@ -56,7 +56,7 @@ TEST(FixedConversion, Q8_24SurvivesTheWayThroughDoubleAndThroughQ16_48) {
   }));
 }
 
-TEST(FixedConversion, WhatDoesNotFitSaturates) {
+TEST(FixedConversion, ValuesOutOfRangeSaturate) {
   CHECK(Q8_24{128.0} == Q8_24::max());
   CHECK(Q8_24{-128.0} == Q8_24::min());
   CHECK(Q8_24{-128.1} == Q8_24::min());
@@ -111,7 +111,7 @@ TEST(FixedConversion, KeepsTheOrder) {
   }));
 }
 
-TEST(FixedConversion, ToIntCutsTowardZero) {
+TEST(FixedConversion, ToIntTruncatesTowardZero) {
   LONGS_EQUAL(3, static_cast<int>(Q8_24{3.99}));
   LONGS_EQUAL(-3, static_cast<int>(Q8_24{-3.99}));
 }

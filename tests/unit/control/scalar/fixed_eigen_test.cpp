@@ -53,7 +53,7 @@ TEST(FixedEigen, DotProductSaturates) {
   CHECK(a.dot(-a) == Q8_24::min());
 }
 
-TEST(FixedEigen, CoefficientwiseLimitsAreThoseOfTheNumbers) {
+TEST(FixedEigen, CoefficientwiseLimitsAreThoseOfTheScalars) {
   const Vector<Q8_24, 2> value{Q8_24{-5}, Q8_24{7}};
   const Vector<Q8_24, 2> limit{Q8_24{-1}, Q8_24{2}};
   CHECK((value.cwiseMax(limit) == Vector<Q8_24, 2>{Q8_24{-1}, Q8_24{7}}));

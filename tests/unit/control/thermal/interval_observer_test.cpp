@@ -27,7 +27,7 @@ double uniform(double low, double high) {
 
 TEST_GROUP(IntervalObserver){};
 
-TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
+TEST(IntervalObserver, ContainsTheTruthWhileTheMuscleChanges) {
   CHECK(rc::check("random muscles, also changing ones, and random powers", [] {
     IntervalObserver observer(bounds, slow_step_s);
     double truth_K = 0.0;
@@ -47,7 +47,7 @@ TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
   }));
 }
 
-TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
+TEST(IntervalObserver, ForAKnownMuscleIsItsExactTemperature) {
   IntervalObserver observer({0.162, 0.162, 0.089, 0.089}, slow_step_s);
   for (int tick = 0; tick < 182; ++tick)
     observer.step(4.5);

@@ -45,7 +45,7 @@ struct GrowingMuscle {
 
 TEST_GROUP(RiseIntervalObserver){};
 
-TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
+TEST(RiseIntervalObserver, ContainsAMuscleWhoseHeatTransferGrowsWithItsRise) {
   CHECK(rc::check("random muscles, known at a rise, under random powers", [] {
     const double step_s = *rc::gen::element(1e-3, 1e-2, 0.2);
     GrowingMuscle muscle;
@@ -70,7 +70,7 @@ TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
 }
 
 /// Bounds on mass and heat transfer alone would allow 0.20 / 0.03 = 6.7 s.
-TEST(RiseIntervalObserver, HoldsAMuscleThatIsNoSlowerThanItsSlowestTimeConstant) {
+TEST(RiseIntervalObserver, ContainsAMuscleNoSlowerThanTheSlowestTimeConstant) {
   ThermalBounds bounds = wide_bounds;
   bounds.max_time_constant_s = 4.5;
   CHECK(rc::check("random muscles of time constants up to 4.5 s, under random powers", [&] {
@@ -105,7 +105,7 @@ TEST(RiseIntervalObserver, CoolsNoSlowerThanTheSlowestTimeConstant) {
   DOUBLES_EQUAL(100.0 / std::exp(1.0), observer.max_K(), 1e-6);
 }
 
-TEST(RiseIntervalObserver, WithoutSpansIsThePlainOneToTheLastBit) {
+TEST(RiseIntervalObserver, WithoutSpansMatchesThePlainObserverToTheBit) {
   CHECK(rc::check("any power", [] {
     RiseIntervalObserver observer(wide_bounds, 0.01);
     IntervalObserver plain(wide_bounds, 0.01);
@@ -139,7 +139,7 @@ TEST(RiseIntervalObserver, IsNeverWiderThanWithoutSpans) {
   }));
 }
 
-TEST(RiseIntervalObserver, GoesOnFromWhereItIsWhenItIsSetAnew) {
+TEST(RiseIntervalObserver, KeepsItsStateWhenItsBoundsAreReplaced) {
   RiseIntervalObserver observer(wide_bounds, 0.01);
   observer.reset(120.0);
   const std::array<TransferSpan, 1> spans{{{0.08, 0.10, 20.0, 40.0}}};
@@ -151,7 +151,7 @@ TEST(RiseIntervalObserver, GoesOnFromWhereItIsWhenItIsSetAnew) {
   DOUBLES_EQUAL(24.0, observer.min_K(), 1e-6);
 }
 
-TEST(RiseIntervalObserver, KnowsLessBesideTheRisesOfASpan) {
+TEST(RiseIntervalObserver, BoundsWidenOutsideTheRisesOfASpan) {
   const TransferSpan span{0.08, 0.10, 40.0, 60.0};
   DOUBLES_EQUAL(0.04, span.min_at(5.0), 1e-12);
   DOUBLES_EQUAL(0.08, span.min_at(100.0), 0.0);

@@ -9,7 +9,7 @@ using supercoil::control::ThermalObserver;
 
 TEST_GROUP(ThermalObserver){};
 
-TEST(ThermalObserver, FollowsTheMusclesOwnEquation) {
+TEST(ThermalObserver, FollowsTheThermalEquationOfTheMuscle) {
   ThermalObserver observer(0.162, 1e-3);
   observer.learn(-0.089 / 0.162);
   for (int i = 0; i < 3000; ++i)
@@ -18,7 +18,7 @@ TEST(ThermalObserver, FollowsTheMusclesOwnEquation) {
   DOUBLES_EQUAL(rest_K * (1.0 - std::exp(-0.089 / 0.162 * 3.0)), observer.rise_K(), 1e-9);
 }
 
-TEST(ThermalObserver, SaysNothingBeforeItHasLearned) {
+TEST(ThermalObserver, ReportsNoRiseBeforeItHasLearned) {
   ThermalObserver observer(0.162, 1e-3);
   observer.step(100.0);
   DOUBLES_EQUAL(0.0, observer.rise_K(), 0.0);

@@ -82,7 +82,7 @@ bool grows_after_a_push(const std::string& name, const PhysicalParameters& param
 
 TEST_GROUP(AdaptedMargins){};
 
-TEST(AdaptedMargins, EachPresetHoldsEachMuscleOfItsFamilyToWhichItHasAdapted) {
+TEST(AdaptedMargins, EachPresetIsStableOnEachMuscleOfItsFamilyOnceAdapted) {
   for (const Family& family : families) {
     const WorstCorner worst = worst_corner_adapted(preset(family.name), PhysicalParameters{},
                                                    family.adapted, adapted_tick_s, adapted_delay_s);
@@ -91,7 +91,7 @@ TEST(AdaptedMargins, EachPresetHoldsEachMuscleOfItsFamilyToWhichItHasAdapted) {
   }
 }
 
-TEST(AdaptedMargins, EachPresetHoldsItsFamilyBeforeItAdaptsAgain) {
+TEST(AdaptedMargins, EachPresetIsStableOnItsFamilyBeforeItReadapts) {
   for (const Family& family : families) {
     const auto law = fixed_law(preset(family.name), PhysicalParameters{});
     const WorstCorner worst =
@@ -102,14 +102,14 @@ TEST(AdaptedMargins, EachPresetHoldsItsFamilyBeforeItAdaptsAgain) {
 }
 
 /// This is why the paper's own constants are not the default.
-TEST(AdaptedMargins, ThePrintedLawHasNoRoomOnceItHasAdapted) {
+TEST(AdaptedMargins, ThePrintedLawHasNoMarginOnceAdapted) {
   const auto law = fixed_law(preset("printed"), PhysicalParameters{});
   CHECK(loop_margin(*law, PhysicalParameters{}, adapted_tick_s, adapted_delay_s).modulus < 0.01);
   CHECK(tolerated_span(*law, PhysicalParameters{}, adapted_tick_s, adapted_delay_s) < 0.01);
 }
 
 /// Before it has learned anything, the least-squares law is its PID.
-TEST(AdaptedMargins, TheLeastSquaresLawsPidHoldsItsFamilyAlone) {
+TEST(AdaptedMargins, TheLeastSquaresLawIsStableOnItsFamilyAsAPid) {
   auto law = fixed_law(preset("c"), PhysicalParameters{});
   law->filtered.reset();
   const WorstCorner worst =
@@ -119,7 +119,7 @@ TEST(AdaptedMargins, TheLeastSquaresLawsPidHoldsItsFamilyAlone) {
 }
 
 /// The loop gain is below 1 at all frequencies.
-TEST(AdaptedMargins, PresetAIsStableHoweverLateItsPowerActs) {
+TEST(AdaptedMargins, PresetAIsStableForAnyPowerDelay) {
   const auto law = fixed_law(preset("a"), PhysicalParameters{});
   for (const int ticks : {10, 300, 1000}) {
     const double delay_s = ticks * adapted_tick_s;
@@ -130,7 +130,7 @@ TEST(AdaptedMargins, PresetAIsStableHoweverLateItsPowerActs) {
 
 /// A stronger muscle raises the loop gain, a weaker one lowers it. At the edge a pole is on the
 /// unit circle and the frequency response passes through −1.
-TEST(AdaptedMargins, EachPresetIsStableUpToTheForceThatIsSaid) {
+TEST(AdaptedMargins, EachPresetIsStableUpToItsDocumentedForce) {
   const auto with_force = [](double times) {
     PhysicalParameters muscle;
     muscle.force_per_kelvin_N_per_K *= times;

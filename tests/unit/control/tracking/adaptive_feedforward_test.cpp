@@ -27,7 +27,7 @@ NoisyLoop feedforward_loop(double initial_ratio = 1.0) {
 
 TEST_GROUP(AdaptiveFeedforward){};
 
-TEST(AdaptiveFeedforward, FollowsTheSineWithin1Micrometre2AndAgainAfterAChange) {
+TEST(AdaptiveFeedforward, FollowsTheSineWithin1Micrometre2BeforeAndAfterAChange) {
   NoisyLoop loop = feedforward_loop();
   loop.soft_from_s = 50.0;
   const auto um = loop.rms_um<3>({{{25.0, 50.0}, {50.0, 60.0}, {110.0, 130.0}}});
@@ -52,7 +52,7 @@ TEST(AdaptiveFeedforward, StartsFrom55PercentOfTheTrueParameters) {
   CHECK(um[2] <= 5.0);
 }
 
-TEST(AdaptiveFeedforward, FloatAndFixedPointFollowAsWell) {
+TEST(AdaptiveFeedforward, FloatAndFixedPointFollowEquallyWell) {
   NoisyLoop loop = feedforward_loop();
   for (const Arithmetic arithmetic : {Arithmetic::float32, Arithmetic::q8_24}) {
     loop.controller.arithmetic = arithmetic;

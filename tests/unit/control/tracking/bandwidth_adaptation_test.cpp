@@ -50,7 +50,7 @@ const double noise_density = std::sqrt(1e-3);
 
 TEST_GROUP(BandwidthAdaptation){};
 
-TEST(BandwidthAdaptation, BeginsWithAllOfIt) {
+TEST(BandwidthAdaptation, StartsAtFullBandwidth) {
   AdaptedLoop loop;
   DOUBLES_EQUAL(1.0, loop.bandwidth.ratio(), 0.0);
   loop.run(0.4);
@@ -66,7 +66,7 @@ TEST(BandwidthAdaptation, IsLowWhereThereIsOnlyNoise) {
   CHECK(loop.rms < 0.5 * quick_rms);
 }
 
-TEST(BandwidthAdaptation, IsThatOfTheKalmanFilter) {
+TEST(BandwidthAdaptation, MatchesTheKalmanFilterBandwidth) {
   for (const double best_rad_per_s : {4.0, 2.0, 1.0}) {
     AdaptedLoop loop;
     loop.run(600.0, best_rad_per_s * noise_density);
@@ -76,13 +76,13 @@ TEST(BandwidthAdaptation, IsThatOfTheKalmanFilter) {
   }
 }
 
-TEST(BandwidthAdaptation, IsAllWhereMoreIsWanted) {
+TEST(BandwidthAdaptation, IsFullWhereMoreWouldBeOptimal) {
   AdaptedLoop loop;
   loop.run(300.0, 16.0 * noise_density);
   DOUBLES_EQUAL(1.0, loop.bandwidth.ratio(), 0.0);
 }
 
-TEST(BandwidthAdaptation, IsAllAtOnceWhenSomethingChanges) {
+TEST(BandwidthAdaptation, IsFullImmediatelyAfterAChange) {
   AdaptedLoop loop;
   loop.run(400.0);
   CHECK(loop.bandwidth.ratio() <= 1.0 / 16.0);
@@ -94,7 +94,7 @@ TEST(BandwidthAdaptation, IsAllAtOnceWhenSomethingChanges) {
   CHECK(loop.bandwidth.ratio() < 1.0);
 }
 
-TEST(BandwidthAdaptation, RisesAgainWhereADisturbanceComesSlowly) {
+TEST(BandwidthAdaptation, RisesAgainUnderASlowDisturbance) {
   AdaptedLoop loop;
   loop.run(400.0);
   loop.run(30.0, 16.0 * noise_density);
@@ -107,7 +107,7 @@ TEST(BandwidthAdaptation, LearnsNothingWhileThePowerIsLimited) {
   DOUBLES_EQUAL(1.0, loop.bandwidth.ratio(), 0.0);
 }
 
-TEST(BandwidthAdaptation, KnowsGainsThatWereLowered) {
+TEST(BandwidthAdaptation, AccountsForLoweredGains) {
   AdaptedLoop loop;
   loop.max_rad_per_s = 2.0;
   loop.bandwidth.scale(0.25);
@@ -117,13 +117,13 @@ TEST(BandwidthAdaptation, KnowsGainsThatWereLowered) {
   CHECK(bandwidth <= 1.0);
 }
 
-TEST(BandwidthAdaptation, ATickThatIsTooCoarseForTheLoopChangesNothing) {
+TEST(BandwidthAdaptation, ATickTooCoarseForTheLoopChangesNothing) {
   AdaptedLoop loop(0.1);
   loop.run(1000.0);
   DOUBLES_EQUAL(1.0, loop.bandwidth.ratio(), 0.0);
 }
 
-TEST(BandwidthAdaptation, RestartsWithAllOfIt) {
+TEST(BandwidthAdaptation, RestartsAtFullBandwidth) {
   AdaptedLoop loop;
   loop.run(200.0);
   loop.bandwidth.restart();

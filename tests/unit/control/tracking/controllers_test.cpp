@@ -48,11 +48,11 @@ void expect_scipys(ControllerKind kind, const char* name) {
 
 TEST_GROUP(Controllers){};
 
-TEST(Controllers, PiIsScipysClosedLoopToFirstOrderInTheStep) {
+TEST(Controllers, PiMatchesScipysClosedLoopToFirstOrderInTheStep) {
   expect_scipys(ControllerKind::pi, "pi");
 }
 
-TEST(Controllers, PdWithFeedforwardIsScipysClosedLoopToFirstOrderInTheStep) {
+TEST(Controllers, PdWithFeedforwardMatchesScipysClosedLoopToFirstOrder) {
   expect_scipys(ControllerKind::pd_ff, "pd_ff");
 }
 
@@ -90,7 +90,7 @@ TEST(Controllers, PiRecoversFromALimitWithoutWindup) {
   CHECK(late < 0.3e-3);
 }
 
-TEST(Controllers, ThoseThatLearnTakeAHeldPowerOver) {
+TEST(Controllers, LearningLawsTakeOverAHeldPower) {
   using enum ControllerKind;
   for (const ControllerKind kind : {mrac_ls, adaptive_ff, learned_ff}) {
     ControllerSettings settings;
@@ -119,7 +119,7 @@ TEST(Controllers, OpenLoopPassesThePowerOn) {
   }
 }
 
-TEST(Controllers, NamesFindTheirChoicesAndBack) {
+TEST(Controllers, NamesAndKindsRoundTrip) {
   CHECK(find_named(controller_names, "pd_ff") == ControllerKind::pd_ff);
   CHECK(find_named(arithmetic_names, "q8.24") == Arithmetic::q8_24);
   CHECK(find_named(estimator_names, "gradient") == EstimatorKind::gradient);

@@ -31,7 +31,7 @@ void scale_belief(NoisyLoop& loop, const Theta& factors) {
 
 TEST_GROUP(LearnedFeedforward){};
 
-TEST(LearnedFeedforward, FollowsTheSineWithinHalfAMicrometreAndAgainAfterAChange) {
+TEST(LearnedFeedforward, FollowsTheSineWithinHalfAMicrometreBeforeAndAfterAChange) {
   NoisyLoop loop = learning_loop();
   loop.soft_from_s = 110.0;
   const auto um = loop.rms_um<2>({{{60.0, 110.0}, {185.4, 260.8}}});
@@ -53,7 +53,7 @@ TEST(LearnedFeedforward, FollowsStepsWithinHalfAMicrometre) {
   CHECK(loop.rms_um<1>({{{160.0, 240.0}}})[0] <= 1.0);
 }
 
-TEST(LearnedFeedforward, LearnsAMuscleThatIsBelieved30PercentOff) {
+TEST(LearnedFeedforward, LearnsAMuscleWhoseModelIs30PercentOff) {
   NoisyLoop loop = learning_loop();
   scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
   CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] <= 1.5);
@@ -61,7 +61,7 @@ TEST(LearnedFeedforward, LearnsAMuscleThatIsBelieved30PercentOff) {
   CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] > 10.0);
 }
 
-TEST(LearnedFeedforward, IterativeLearningFollowsWhatRepeatsAndForgetsItAtAChange) {
+TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodicReferenceAndForgetsItAfterAChange) {
   NoisyLoop loop = learning_loop();
   scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
   loop.controller.learned_ff.learn = false;
@@ -77,7 +77,7 @@ TEST(LearnedFeedforward, IterativeLearningFollowsWhatRepeatsAndForgetsItAtAChang
   CHECK(loop.rms_um<1>({{{185.4, 260.8}}})[0] <= 4.0);
 }
 
-TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodThatItFindsUntilItEnds) {
+TEST(LearnedFeedforward, IterativeLearningFollowsADetectedPeriodUntilItEnds) {
   NoisyLoop loop = learning_loop();
   scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
   loop.controller.learned_ff.learn = false;
@@ -94,7 +94,7 @@ TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodThatItFindsUntilItEnds) 
   CHECK(found_um[1] < 1.2 * once_um[1]);
 }
 
-TEST(LearnedFeedforward, FloatFollowsAsWell) {
+TEST(LearnedFeedforward, FloatFollowsEquallyWell) {
   NoisyLoop loop = learning_loop();
   loop.controller.arithmetic = Arithmetic::float32;
   CHECK(loop.rms_um<1>({{{40.0, 65.0}}})[0] <= 1.5);
@@ -113,7 +113,7 @@ TEST(LearnedFeedforward, LearnsNothingWhileThePowerIsLimited) {
   CHECK((law.weights() - before).norm() == 0.0);
 }
 
-TEST(LearnedFeedforward, TellsTheGainsThatItUses) {
+TEST(LearnedFeedforward, ReportsTheGainsInUse) {
   LearnedFeedforwardSettings settings;
   settings.learn = false;
   LearnedFeedforward<double> law(settings, 1e-3);
@@ -131,7 +131,7 @@ TEST(LearnedFeedforward, TellsTheGainsThatItUses) {
   CHECK(law.gain(0).value <= 0.25 * before);
 }
 
-TEST(LearnedFeedforward, ALightlyDampedMuscleIsHeldWithLessBandwidth) {
+TEST(LearnedFeedforward, ALightlyDampedMuscleGetsLessBandwidth) {
   PhysicalParameters muscle;
   const Theta usual = theta_from(muscle);
   DOUBLES_EQUAL(8.0, feedback_bandwidth(8.0, usual, muscle.moving_mass_kg), 1e-12);

@@ -30,7 +30,7 @@ LearnedShare usual() {
 
 TEST_GROUP(LearnedShare){};
 
-TEST(LearnedShare, IsAllThatDoesNoHarm) {
+TEST(LearnedShare, IsFullUnlessLearningDoesHarm) {
   DOUBLES_EQUAL(1.0, usual().value(), 0.0);
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.0, usual()), 0.0);
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.7, usual()), 0.0);
@@ -39,12 +39,12 @@ TEST(LearnedShare, IsAllThatDoesNoHarm) {
   DOUBLES_EQUAL(0.5, share_of(0.25, 0.0, usual()), 0.05);
 }
 
-TEST(LearnedShare, IsNothingOfWhatIsUnrelatedOrContrary) {
+TEST(LearnedShare, IsZeroForUnrelatedOrOpposedPower) {
   CHECK(share_of(0.0, 1.0, usual()) < 0.1);
   DOUBLES_EQUAL(0.0, share_of(-0.5, 0.0, usual()), 0.0);
 }
 
-TEST(LearnedShare, ALastingDifferenceIsTheIntegralsAndJudgesNothing) {
+TEST(LearnedShare, AConstantDifferenceIsLeftToTheIntegral) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k) {
     const double learned_W = std::sin(0.9 * k * observation_period_s);
@@ -53,7 +53,7 @@ TEST(LearnedShare, ALastingDifferenceIsTheIntegralsAndJudgesNothing) {
   DOUBLES_EQUAL(1.0, share.value(), 0.0);
 }
 
-TEST(LearnedShare, TenSecondsOfAnUpheavalDoNotJudgeForMinutes) {
+TEST(LearnedShare, TenSecondsOfLargeDisturbanceDoNotDominateForMinutes) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k) {
     share.step(std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),
@@ -66,7 +66,7 @@ TEST(LearnedShare, TenSecondsOfAnUpheavalDoNotJudgeForMinutes) {
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.0, share), 0.0);
 }
 
-TEST(LearnedShare, WhatSaysNothingOfTheMuscleDoesNotCount) {
+TEST(LearnedShare, UninformativeSamplesDoNotCount) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k) {
     share.step(-std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),

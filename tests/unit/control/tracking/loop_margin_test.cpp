@@ -41,17 +41,17 @@ WorstCorner worst_of(ControllerKind kind, double span) {
 
 TEST_GROUP(LoopMargins){};
 
-TEST(LoopMargins, AdaptiveFeedforwardHoldsAtAllCornersOfPlusMinus20Percent) {
+TEST(LoopMargins, AdaptiveFeedforwardIsStableAtAllCornersOfPlusMinus20Percent) {
   const WorstCorner worst = worst_of(ControllerKind::adaptive_ff, 0.2);
   LONGS_EQUAL(0, worst.unstable);
   CHECK(worst.margin.modulus > 0.05);
 }
 
-TEST(LoopMargins, AdaptiveFeedforwardDoesNotHoldAtPlusMinus50Percent) {
+TEST(LoopMargins, AdaptiveFeedforwardIsUnstableAtPlusMinus50Percent) {
   CHECK(worst_of(ControllerKind::adaptive_ff, 0.5).unstable > 0);
 }
 
-TEST(LoopMargins, TheNominalMuscleHasRoom) {
+TEST(LoopMargins, TheNominalMuscleHasAmpleMargin) {
   const auto margin = loop_margin(law_of(ControllerKind::adaptive_ff), PhysicalParameters{},
                                   tick_of_loop_s, delay_of_loop_s);
   CHECK_TRUE(margin.stable());
@@ -76,7 +76,7 @@ TEST(LoopMargins, PaperFixedLawsAtThePresetsOfTheirFamily) {
 }
 
 /// Checks both sides of the computed edge: a little less delay is stable, a little more is not.
-TEST(LoopMargins, ASimulatedLoopIsStableWhereItIsSaidToBe) {
+TEST(LoopMargins, StabilityOfASimulatedLoopAgreesWithItsMargin) {
   const FixedLaw law = law_of(ControllerKind::adaptive_ff);
   const auto grows = [&](int ticks) {
     supercoil::test::Muscle muscle(PhysicalParameters{}, tick_of_loop_s);

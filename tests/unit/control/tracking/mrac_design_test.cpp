@@ -84,7 +84,7 @@ TEST(MracDesign, WithMatchedParametersTheLoopIsTheReferenceModel) {
   DOUBLES_EQUAL(2.0, coarse / fine, 0.1);
 }
 
-TEST(MracDesign, PresetPrintedIsThePapers) {
+TEST(MracDesign, PresetPrintedIsThePapersDesign) {
   const MracSettings s = *mrac_preset("printed");
   CHECK((s.gain == Parameters{6, 6, 6, 7, 2, 3}));
   CHECK((s.alpha == std::array<double, 2>{1.0, 1.0}));
@@ -104,7 +104,7 @@ TEST(MracDesign, PresetAIsDesignA) {
   CHECK(s.freeze_when_limited);
 }
 
-TEST(MracDesign, ScalingTouchesOnlyThePiAndNu) {
+TEST(MracDesign, ScalingAffectsOnlyThePiAndNu) {
   const MracSettings s = MracSettings{}.scaled(10.0);
   CHECK((s.scaled_gain() == Parameters{60, 60, 60, 70, 20, 30}));
   CHECK(s.scaled_sigma_gain() == 40.0 && s.damping == 3.0);

@@ -63,7 +63,7 @@ TEST(MracLeastSquares, FindsTheParametersOfTheMatchingEquation) {
   DOUBLES_EQUAL(0.0, theta[6], 1e-3);
 }
 
-TEST(MracLeastSquares, FollowsTheSineWithin5MicrometresAndAgainAfterAChange) {
+TEST(MracLeastSquares, FollowsTheSineWithin5MicrometresBeforeAndAfterAChange) {
   NoisyLoop loop{.controller = least_squares_mrac(), .soft_from_s = 100.0};
   const auto um = loop.rms_um<3>({{{60.0, 100.0}, {100.0, 110.0}, {160.0, 200.0}}});
   UT_PRINT(
@@ -83,13 +83,13 @@ TEST(MracLeastSquares, FollowsStepsWithin15MicrometresAnd20AfterAChange) {
   CHECK(um[1] <= 20.0);
 }
 
-TEST(MracLeastSquares, FloatFollowsAsWell) {
+TEST(MracLeastSquares, FloatFollowsEquallyWell) {
   NoisyLoop loop{.controller = least_squares_mrac()};
   loop.controller.arithmetic = Arithmetic::float32;
   CHECK(loop.rms_um<1>({{{30.0, 60.0}}})[0] <= 5.0);
 }
 
-TEST(MracLeastSquares, IsNotForFixedPoint) {
+TEST(MracLeastSquares, DoesNotSupportFixedPoint) {
   CHECK_FALSE(supported(ControllerKind::mrac_ls, Arithmetic::q8_24));
   CHECK(supported(ControllerKind::mrac_ls, Arithmetic::float32));
 }

@@ -53,7 +53,7 @@ TEST(MracPremises, AnUnstableLambdaFailsAlone) {
   }
 }
 
-TEST(MracPremises, EachGainThatIsNotAllowedFailsAlone) {
+TEST(MracPremises, EachInvalidGainFailsAlone) {
   for (Eigen::Index i = 0; i < 6; ++i) {
     for (const double bad : {0.0, -1.0, std::nan("")})
       CHECK((failing(changed([&](auto& s) { s.gain[i] = bad; })) == Failing{gains}));
@@ -70,7 +70,7 @@ TEST(MracPremises, AModelWithAnotherPoleFailsOnlyItsFactors) {
   CHECK((failing(changed([](auto& s) { s.q0_rad_per_s = 0.9; })) == Failing{factors}));
 }
 
-TEST(MracPremises, APoleThatIsNotPositiveIsNamed) {
+TEST(MracPremises, ANonPositivePoleFailsAsPolesAndFactors) {
   // The factors fail as well; with p0 and p1 so does positive realness.
   for (const double bad : {0.0, -0.8, std::nan("")}) {
     CHECK((failing(changed([&](auto& s) { s.q0_rad_per_s = bad; })) == Failing{poles, factors}));
@@ -91,7 +91,7 @@ TEST(MracPremises, AnUnstableOrNegativeModelIsNamed) {
   CHECK(failing(MracSettings{}, negative).contains(model));
 }
 
-TEST(MracPremises, EachFailureHasWordsOfItsOwn) {
+TEST(MracPremises, EachFailureHasItsOwnMessage) {
   MracPremises none{};
   std::set<std::string> words;
   for (const char* failure : none.failures())

@@ -33,7 +33,7 @@ void warm_up(Law& law) {
 
 TEST_GROUP(MracSafeguards){};
 
-TEST(MracSafeguards, ThetaAndSigmaRestWhileThePowerIsLimited) {
+TEST(MracSafeguards, ThetaAndSigmaAreFrozenWhileThePowerIsLimited) {
   Law law(MracSettings{}, fast_step_s);
   warm_up(law);
   const Theta6 theta = law.theta();
@@ -52,7 +52,7 @@ TEST(MracSafeguards, ThetaAndSigmaRestWhileThePowerIsLimited) {
   CHECK(law.sigma() != sigma);
 }
 
-TEST(MracSafeguards, WithoutFreezingTheyMoveAlsoAtTheLimit) {
+TEST(MracSafeguards, WithoutFreezingTheyAdaptAtTheLimitToo) {
   MracSettings settings;
   settings.freeze_when_limited = false;
   Law law(settings, fast_step_s);
@@ -66,7 +66,7 @@ TEST(MracSafeguards, WithoutFreezingTheyMoveAlsoAtTheLimit) {
   CHECK(law.sigma() != sigma);
 }
 
-TEST(MracSafeguards, LeakagePullsThetaToItsStart) {
+TEST(MracSafeguards, LeakagePullsThetaToItsInitialValue) {
   MracSettings settings;
   settings.initial[5] = 0.3;
   settings.sigma_modification = 0.05;
@@ -133,6 +133,6 @@ TEST(PowerRange, ClipsToItsEnds) {
   DOUBLES_EQUAL(0.5, range.clip(-std::numeric_limits<double>::infinity()), 0.0);
 }
 
-TEST(PowerRange, CutsANaNToTheLeastPower) {
+TEST(PowerRange, ClipsNaNToTheMinimum) {
   DOUBLES_EQUAL(0.5, (PowerRange{0.5, 4.5}.clip(std::numeric_limits<double>::quiet_NaN())), 0.0);
 }

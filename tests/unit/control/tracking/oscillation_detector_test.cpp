@@ -34,31 +34,31 @@ double at_rest(double) {
 
 TEST_GROUP(OscillationDetector){};
 
-TEST(OscillationDetector, SeesAnOscillationOnceInTenHalfPeriods) {
+TEST(OscillationDetector, ReportsAnOscillationOncePerTenHalfPeriods) {
   const auto swing = [](double time_s) { return 1e-4 * std::sin(10.0 * time_s); };
   // 63 half periods; the first one begins before the detector can see it.
   LONGS_EQUAL(6, seen(swing, at_rest));
 }
 
-TEST(OscillationDetector, IsNotForWhatIsSmallSlowOrFast) {
+TEST(OscillationDetector, IgnoresSmallSlowAndFastMotion) {
   LONGS_EQUAL(0, seen([](double t_s) { return 4e-5 * std::sin(10.0 * t_s); }, at_rest));
   LONGS_EQUAL(0, seen([](double t_s) { return 1e-2 * std::sin(1.5 * t_s); }, at_rest));
   LONGS_EQUAL(0, seen([](double t_s) { return 1e-2 * std::sin(60.0 * t_s); }, at_rest));
 }
 
-TEST(OscillationDetector, DoesNotTakeTheReferencesMotionForOne) {
+TEST(OscillationDetector, IgnoresMotionOfTheReference) {
   const auto late = [](double time_s) { return 1e-3 * std::cos(10.0 * time_s); };
   LONGS_EQUAL(0, seen(late, [](double t_s) { return 2e-3 * std::sin(10.0 * t_s); }));
   LONGS_EQUAL(6, seen(late, [](double t_s) { return 2e-3 * std::sin(0.25 * t_s); }));
 }
 
-TEST(OscillationDetector, DoesNotSeeOrderInNoise) {
+TEST(OscillationDetector, IgnoresNoise) {
   boost::random::mt19937 source(1);
   boost::random::normal_distribution<double> noise(0.0, 1e-3);
   LONGS_EQUAL(0, seen([&](double) { return noise(source); }, at_rest));
 }
 
-TEST(OscillationDetector, TellsThePeriod) {
+TEST(OscillationDetector, ReportsThePeriod) {
   OscillationDetector detector(tick_s);
   DOUBLES_EQUAL(0.0, detector.period_s(), 0.0);
   for (int k = 0; k < 20'000; ++k)
@@ -66,12 +66,12 @@ TEST(OscillationDetector, TellsThePeriod) {
   DOUBLES_EQUAL(2.0 * std::numbers::pi / 7.0, detector.period_s(), 0.01);
 }
 
-TEST(OscillationDetector, OneThatGrowsIsSeenWhenItIsLarge) {
+TEST(OscillationDetector, AGrowingOscillationIsReportedOnceItIsLarge) {
   CHECK(seen([](double t_s) { return 1e-6 * std::exp(0.3 * t_s) * std::sin(8.0 * t_s); }, at_rest) >
         0);
 }
 
-TEST(OscillationDetector, LetsALawSlowDownUntilTheLightlyDampedMuscleIsFollowed) {
+TEST(OscillationDetector, SlowsALawDownUntilItTracksALightlyDampedMuscle) {
   PhysicalParameters muscle;
   muscle.damping_Ns_per_m = 0.12;
   for (const bool slow_down : {false, true}) {

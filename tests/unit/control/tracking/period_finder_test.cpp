@@ -35,7 +35,7 @@ TEST_GROUP(PeriodFinder) {
   PeriodFinder finder{step_s};
 };
 
-TEST(PeriodFinder, FindsASinesPeriodToAThousandthAfterThreeOfThem) {
+TEST(PeriodFinder, FindsASinesPeriodToAThousandthAfterThreePeriods) {
   const double turn = 8.0 * std::atan(1.0);
   for (const double rad_per_s : {3.0, 0.25, 0.025}) {
     finder.restart();
@@ -70,7 +70,7 @@ TEST(PeriodFinder, ForgetsAPeriodThatEndsAndFindsTheNext) {
   DOUBLES_EQUAL(8.0 * std::atan(1.0) / 0.7, finder.period_s(), 0.01);
 }
 
-TEST(PeriodFinder, FindsNoneWhereNothingRepeatsItself) {
+TEST(PeriodFinder, FindsNoneWithoutRepetition) {
   CHECK(!show(
       finder, [](double) { return 0.011; }, 0.0, 1000.0));
   finder.restart();

@@ -30,7 +30,7 @@ double overshoot(const ReferenceModelSettings& settings) {
 
 TEST_GROUP(ReferenceModels){};
 
-TEST(ReferenceModels, StepResponsesAreScipys) {
+TEST(ReferenceModels, StepResponsesAgreeWithScipy) {
   for (const auto& c : supercoil::test::reference("tracking", "models")) {
     const auto settings = reference_model_named(c.at("name").get<std::string>());
     CHECK(settings.has_value());
@@ -44,7 +44,7 @@ TEST(ReferenceModels, StepResponsesAreScipys) {
   }
 }
 
-TEST(ReferenceModels, OvershootIsScipysAndEq8sIsFortyPercent) {
+TEST(ReferenceModels, OvershootAgreesWithScipyAndIsFortyPercentForEq8) {
   for (const auto& c : supercoil::test::reference("tracking", "models")) {
     DOUBLES_EQUAL(c.at("overshoot"),
                   overshoot(*reference_model_named(c.at("name").get<std::string>())), 1e-6);
@@ -74,7 +74,7 @@ TEST(ReferenceModels, VelocityAndAccelerationAreThePositionsDerivatives) {
 }
 
 // A sine of 2 rad/s, of which the design model by itself would pass only a tenth.
-TEST(ReferenceModels, AreLedAlongAMotion) {
+TEST(ReferenceModels, FollowAMotion) {
   constexpr double step_s = 1e-3;
   constexpr double turn = 2.0;
   const auto sine = [](double time_s) {
@@ -95,7 +95,7 @@ TEST(ReferenceModels, AreLedAlongAMotion) {
 }
 
 // 1 off, it is within 0.02 after 1.6 s, as three poles at 5 rad/s are.
-TEST(ReferenceModels, AreLedBackToAMotion) {
+TEST(ReferenceModels, ConvergeToAMotion) {
   for (const auto& settings : {design_model(), eq8_model(), wm16_model()}) {
     ReferenceModel<double> model(settings, 1e-3);
     for (int k = 0; k < 1600; ++k)

@@ -73,7 +73,7 @@ TEST(ReferenceShapers, FallIsTheCoolingMuscleItself) {
   LONGS_EQUAL(3'000, cooling);
 }
 
-TEST(ReferenceShapers, ItArrivesAndIsNoMoreLimited) {
+TEST(ReferenceShapers, ArrivesAndIsNoLongerLimited) {
   Shaped shaped;
   shaped.at_rest(level_m);
   double min_m = level_m;
@@ -87,7 +87,7 @@ TEST(ReferenceShapers, ItArrivesAndIsNoMoreLimited) {
   CHECK(min_m > 0.002 - 0.08 * (level_m - 0.002));
 }
 
-TEST(ReferenceShapers, GreatestPowerSetsTheHighestPosition) {
+TEST(ReferenceShapers, MaxPowerSetsTheHighestPosition) {
   Shaped shaped;
   const PowerRange weak{0.0, 2.0};
   bool was_limited = false;
@@ -100,7 +100,7 @@ TEST(ReferenceShapers, GreatestPowerSetsTheHighestPosition) {
   DOUBLES_EQUAL(2.0 * PhysicalParameters{}.dc_gain_m_per_W(), shaped.position_m(), 1e-6);
 }
 
-TEST(ReferenceShapers, OnlyATrustedEstimateIsGoneBy) {
+TEST(ReferenceShapers, OnlyATrustedEstimateIsUsed) {
   Shaped shaped;
   const ModelMotion<double> rest{level_m, 0.0, 0.0};
   const double by_nominal_W = shaped.shaper.power_W(level_m, rest);
@@ -114,7 +114,7 @@ TEST(ReferenceShapers, OnlyATrustedEstimateIsGoneBy) {
   DOUBLES_EQUAL(2.0 * by_nominal_W + 0.1, shaped.shaper.power_W(level_m, rest), 1e-9);
 }
 
-TEST(ReferenceShapers, ClosedLoopKeepsToAFallThatItCouldNotFollow) {
+TEST(ReferenceShapers, ClosedLoopTracksAShapedFall) {
   const std::array<double, 2> fall_s{20.0, 40.0};
   const double plain_um = fall_um(fall_s, false);
   const double shaped_um = fall_um(fall_s, true);

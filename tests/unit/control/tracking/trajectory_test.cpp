@@ -28,7 +28,7 @@ TEST_GROUP(Trajectory) {
   Trajectory way;
 };
 
-TEST(Trajectory, IsScipysThroughUnevenKnots) {
+TEST(Trajectory, AgreesWithScipyThroughUnevenKnots) {
   const auto c = supercoil::test::reference("tracking", "trajectory");
   const std::vector<nlohmann::json> knots = c.at("knots");
   way.start(knot_from(knots[0]).position_m);
@@ -53,7 +53,7 @@ TEST(Trajectory, IsTheSameWhenKnotsComeTwoAhead) {
   }
 }
 
-TEST(Trajectory, BendsNoWayThatWasBegun) {
+TEST(Trajectory, ANewKnotDoesNotChangeTheCurrentPiece) {
   way.start(0.0);
   way.add({1.0, 0.001, 0.002});
   const double before_m = way.at(0.5).motion.position;
@@ -65,7 +65,7 @@ TEST(Trajectory, BendsNoWayThatWasBegun) {
   DOUBLES_EQUAL(0.0, beginning.motion.acceleration, 0.0);
 }
 
-TEST(Trajectory, RestsWhereItsLastKnotIs) {
+TEST(Trajectory, RestsAtItsLastKnot) {
   way.start(0.002);
   DOUBLES_EQUAL(0.002, way.at(5.0).motion.position, 0.0);
   way.start(0.0);
@@ -75,7 +75,7 @@ TEST(Trajectory, RestsWhereItsLastKnotIs) {
   DOUBLES_EQUAL(0.0, after.motion.velocity, 0.0);
 }
 
-TEST(Trajectory, PreviewIsWhatIsThenDone) {
+TEST(Trajectory, PreviewMatchesTheMotionThatFollows) {
   way.start(0.0);
   way.add({1.0, 0.001, 0.001});
   const Knot next{1.5, 0.002, -0.001};
@@ -86,7 +86,7 @@ TEST(Trajectory, PreviewIsWhatIsThenDone) {
   DOUBLES_EQUAL(preview.pieces[1].at(1.3).motion.position, way.at(1.3).motion.position, 0.0);
 }
 
-TEST(Trajectory, FirstPieceOfAPreviewIsNoneAtTheBeginning) {
+TEST(Trajectory, PreviewAtTheStartHasNoFirstPiece) {
   way.start(0.0);
   UNSIGNED_LONGS_EQUAL(1, way.preview({1.0, 0.001, 0.0}).first);
   way.add({1.0, 0.001, 0.0});
@@ -94,7 +94,7 @@ TEST(Trajectory, FirstPieceOfAPreviewIsNoneAtTheBeginning) {
   UNSIGNED_LONGS_EQUAL(1, way.preview({2.0, 0.0, 0.0}).first);
 }
 
-TEST(Trajectory, RoomComesBackAsKnotsArePassed) {
+TEST(Trajectory, PassedKnotsFreeTheirRoom) {
   way.start(0.0);
   for (int i = 1; way.room() > 0; ++i)
     way.add({0.1 * i, 1e-4 * i, 1e-3});
@@ -106,7 +106,7 @@ TEST(Trajectory, RoomComesBackAsKnotsArePassed) {
   UNSIGNED_LONGS_EQUAL(Trajectory::capacity - 1, way.room());
 }
 
-TEST(Trajectory, IsSmoothForWhateverComesAtWhateverTime) {
+TEST(Trajectory, IsSmoothForAnyKnotsAtAnyTime) {
   CHECK(rc::check("position, velocity and acceleration are continuous", [] {
     Trajectory moving;
     moving.start(0.0);

@@ -69,7 +69,7 @@ std::size_t listed(bool (Tunable::*have)() const) {
 
 TEST_GROUP(Tunables){};
 
-TEST(Tunables, EachOfAControllerIsReadBackAndChangesNoOtherValue) {
+TEST(Tunables, EachOfAControllerReadsBackAndChangesNoOtherValue) {
   std::set<std::size_t> seen;
   for (const auto& [name, kind] : controller_names) {
     // The law itself decides which other values exist; the model has the poles.
@@ -82,7 +82,7 @@ TEST(Tunables, EachOfAControllerIsReadBackAndChangesNoOtherValue) {
   LONGS_EQUAL(2 + seen.size(), listed(&Tunable::controllers_have));
 }
 
-TEST(Tunables, EachOfAnEstimatorIsReadBackAndChangesNoOtherValue) {
+TEST(Tunables, EachOfAnEstimatorReadsBackAndChangesNoOtherValue) {
   std::set<std::size_t> seen;
   for (const auto& [name, kind] : estimator_names) {
     for (std::size_t i = 1; i < tunable_count; ++i) {
@@ -92,7 +92,7 @@ TEST(Tunables, EachOfAnEstimatorIsReadBackAndChangesNoOtherValue) {
   LONGS_EQUAL(1 + seen.size(), listed(&Tunable::estimators_have));
 }
 
-TEST(Tunables, BothHaveAKindThatIsSetFirst) {
+TEST(Tunables, KindComesFirstForControllersAndEstimators) {
   EstimatorSettings estimator;
   tunables()[0].set(estimator, 2.0);
   CHECK(estimator.kind == EstimatorKind::least_squares);
@@ -103,7 +103,7 @@ TEST(Tunables, BothHaveAKindThatIsSetFirst) {
   CHECK(std::isnan(tunables()[tunable_named("trusted_error")].get(of_kind(EstimatorKind::none))));
 }
 
-TEST(Tunables, OpenLoopHasItsKindOnly) {
+TEST(Tunables, OpenLoopHasOnlyItsKind) {
   const Tuning tuning = tuning_of(of_kind(ControllerKind::power));
   DOUBLES_EQUAL(0.0, tuning[0], 0.0);
   for (std::size_t i = 1; i < tunable_count; ++i)

@@ -83,21 +83,21 @@ Result<KnownMuscle> asked(int lost) {
 
 TEST_GROUP(Commander){};
 
-TEST(Commander, AsksOnceMoreWhenAQuestionWasLost) {
+TEST(Commander, RepeatsALostRequest) {
   const auto known = asked(1);
   CHECK(known.has_value());
   for (const double value : *known)
     DOUBLES_EQUAL(0.5, value, 0.0);
 }
 
-TEST(Commander, SaysThatNobodyAnswers) {
+TEST(Commander, ReportsThatNoNodeAnswers) {
   const auto known = asked(2);
   CHECK_FALSE(known.has_value());
   STRCMP_CONTAINS("no answer from node 3", known.error().text().c_str());
 }
 
 /// For a person or a step that renews: a single lost frame must not end a command to heat.
-TEST(Commander, SendsARenewalAgainBeforeWhatHeatsExpires) {
+TEST(Commander, RepeatsARenewalBeforeTheCommandExpires) {
   for (const Verb verb : {Verb::renew, Verb::power, Verb::position, Verb::disarm}) {
     int heard = 0;
     Commander commander(std::make_unique<LossyCommands>(2, heard), node);
@@ -109,7 +109,7 @@ TEST(Commander, SendsARenewalAgainBeforeWhatHeatsExpires) {
 }
 
 /// A command that starts something may have been obeyed although its answer was lost.
-TEST(Commander, SendsNothingTwiceThatBeginsSomething) {
+TEST(Commander, NeverRepeatsACommandThatStartsSomething) {
   for (const Verb verb : {Verb::identify, Verb::store, Verb::reset}) {
     int heard = 0;
     Commander commander(std::make_unique<LossyCommands>(1, heard), node);

@@ -23,7 +23,7 @@ TEST_GROUP(Terminal) {
   }
 };
 
-TEST(Terminal, WithoutAStatusNoControllerIsNumbered) {
+TEST(Terminal, WithoutAStatusNoControllerIsShown) {
   can::Encoder<can::message::measurement> frame(can::Node{1});
   frame.set("position_m", 0.005);
   heard.add({frame.frame()});
@@ -51,7 +51,7 @@ TEST(Terminal, OnlyANodeOfAJointHasAnAngle) {
 }
 
 /// A different part that came since leaves the value as it was; its own part withdraws it.
-TEST(Terminal, WhatIsNotAvailableAnyMoreIsNotToldInJson) {
+TEST(Terminal, JsonOmitsValuesThatAreNoLongerAvailable) {
   Row agonist{};
   agonist.mode = static_cast<std::uint8_t>(Mode::position);
   agonist.reference = 0.005236F;
@@ -65,7 +65,7 @@ TEST(Terminal, WhatIsNotAvailableAnyMoreIsNotToldInJson) {
   CHECK(hear(telemetry::JointPart::motion).is_null());
 }
 
-TEST(Terminal, AModeWithoutProgressHasNoPercent) {
+TEST(Terminal, AModeWithoutProgressShowsNoPercentage) {
   can::Encoder<can::message::status> frame(can::Node{1});
   frame.set("mode", static_cast<double>(Mode::identify)).set("progress", NAN);
   heard.add({frame.frame()});
@@ -75,7 +75,7 @@ TEST(Terminal, AModeWithoutProgressHasNoPercent) {
   CHECK(of_node.find('%') == std::string::npos);
 }
 
-TEST(Terminal, HowIdentifyEndedIsToldOnceWithItsMeaning) {
+TEST(Terminal, TheResultOfIdentifyIsShownOnceWithItsMeaning) {
   can::Encoder<can::message::status> status(can::Node{1});
   status.set("result", static_cast<double>(ModeResult::too_little_motion));
   heard.add({status.frame()});

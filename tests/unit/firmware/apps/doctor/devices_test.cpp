@@ -70,7 +70,7 @@ TEST_GROUP(DoctorDevices) {
   }
 };
 
-TEST(DoctorDevices, AreAllTold) {
+TEST(DoctorDevices, AreAllReported) {
   look();
   std::string whats;
   for (const hal::Finding& finding : findings)
@@ -89,7 +89,7 @@ TEST(DoctorDevices, AreAllTold) {
   check_found("supply", ": 12 to 12 V, ");
 }
 
-TEST(DoctorDevices, AreNeverOnAndLeftOff) {
+TEST(DoctorDevices, AreNeverSwitchedOnAndLeftOff) {
   look();
   CHECK_FALSE(pwm.state.enabled);
   LONGS_EQUAL(0, pwm.state.duty_ns);
@@ -107,7 +107,7 @@ TEST(DoctorDevices, AreNeverOnAndLeftOff) {
   LONGS_EQUAL(1, times_in("EN1", "input"));
 }
 
-TEST(DoctorDevices, AnEnableIsNotGivenUpBeforeItsDutyIsZero) {
+TEST(DoctorDevices, AnEnableIsNotReleasedBeforeItsDutyIsZero) {
   text = small_board_with("{device = \"pwm\", number = 0}",
                           "{device = \"i2c-1/1-0041\", number = 5, bus = \"i2c-1\"}");
   look();
@@ -120,7 +120,7 @@ TEST(DoctorDevices, AnEnableIsNotGivenUpBeforeItsDutyIsZero) {
   CHECK(times.empty());
 }
 
-TEST(DoctorDevices, AStopThatIsOpenIsAWarning) {
+TEST(DoctorDevices, AnOpenStopCircuitIsAWarning) {
   line("STOP").value = 0;
   look();
   check_finding("warning", "STOP of gpio: open", "close it", found("stop_circuit"));
@@ -134,7 +134,7 @@ TEST(DoctorDevices, LinesThatFailAreProblems) {
     CHECK(finding.what != "channel 1, enable released");
 }
 
-TEST(DoctorDevices, ConvertersAreAtTheirRailOrOutsideOrBroken) {
+TEST(DoctorDevices, ConvertersAtARailOutOfRangeOrBrokenAreProblems) {
   pwm.tree.write(adc + "in_voltage0_raw", "9000\n");
   pwm.tree.write(adc + "in_voltage1_raw", "65535\n");
   pwm.tree.write(adc + "in_voltage2_raw", "501\n");
@@ -150,14 +150,14 @@ TEST(DoctorDevices, ConvertersAreAtTheirRailOrOutsideOrBroken) {
                 found("channel 1, current"));
 }
 
-TEST(DoctorDevices, ABussTimeIsTheSumOfItsDevices) {
+TEST(DoctorDevices, BusTimeIsTheSumOfItsDevices) {
   look();
   // Only the PWM is on the bus.
   LONGS_EQUAL(1, times.size());
   CHECK(times.at("i2c-1").count() > 0);
 }
 
-TEST(DoctorDevices, TheAirsSensorReadsWhatTheAirMayBe) {
+TEST(DoctorDevices, TheAirSensorMustReadWithinTheConfiguredAir) {
   // Buffered, because a direct converter with slow calls would be a problem whatever the air.
   text = small_board_with("warmest_C = 30\n",
                           "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', "

@@ -34,7 +34,7 @@ static hal::Finding bus(const BusTimes& measured, double rate_Hz = 100.0) {
 }
 ;
 
-TEST(DoctorFindings, ADirectCallTakes20UsAtMost) {
+TEST(DoctorFindings, ADirectCallMayTakeAtMost20Us) {
   check_finding(
       "ok", "GPIO17 of soc; 3.0 us on average, 99 % within 20.0 us, 90.0 us at most, of 200 calls",
       "", direct(20us, true));
@@ -44,7 +44,7 @@ TEST(DoctorFindings, ADirectCallTakes20UsAtMost) {
                 direct(21us, false));
 }
 
-TEST(DoctorFindings, CallsInWhichOthersRanAreNotTheDevices) {
+TEST(DoctorFindings, InterruptedCallsAreNotHeldAgainstTheDevice) {
   const CallTime some{3us, 4us, 8us, 200, 7, true};
   check_finding("ok", "8.0 us at most, of 200 calls, 7 interrupted", "",
                 assess("light", "GPIO3 of soc", some, "use another line"));
@@ -53,7 +53,7 @@ TEST(DoctorFindings, CallsInWhichOthersRanAreNotTheDevices) {
                 assess("light", "GPIO3 of soc", all, "use another line"));
 }
 
-TEST(DoctorFindings, CallsAreTimedOneByOne) {
+TEST(DoctorFindings, CallsAreTimedIndividually) {
   // Slow once, as when the kernel interrupts it; slow now and then, as a bus is.
   for (const int every : {150, 40}) {
     int calls = 0;
@@ -70,7 +70,7 @@ TEST(DoctorFindings, CallsAreTimedOneByOne) {
   }
 }
 
-TEST(DoctorFindings, AnEnableThatIsPulledUpOpensTheGate) {
+TEST(DoctorFindings, AnEnablePulledUpIsAProblem) {
   using hal_linux::Bias;
   for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down}) {
     check_finding("problem", "high while undriven; ", "pulls it down", released(true, bias));
@@ -83,7 +83,7 @@ TEST(DoctorFindings, AnEnableThatIsPulledUpOpensTheGate) {
                 released(false, Bias::pull_down, hal::Status::io_error));
 }
 
-TEST(DoctorFindings, ABusIsAsFastAsItsConfigurationSays) {
+TEST(DoctorFindings, BusTimeIsComparedWithItsConfiguration) {
   check_finding("ok", "1.500 ms (15.0 % of a tick) by the configuration; not measured", "",
                 bus({}));
   check_finding("ok", "by the configuration, 1.800 ms (18.0 % of a tick) measured", "",

@@ -22,14 +22,14 @@ TEST_GROUP(DoctorReadings) {
   }
 };
 
-TEST(DoctorReadings, TellsThemInTheirUnit) {
+TEST(DoctorReadings, AreShownInTheirUnit) {
   read({1000, 1010, 990, 1000});
   check_finding("ok", "voltage0 of ads1115: 1.99 to 2.01 mm, noise 0.007071 mm rms, 4 readings", "",
                 found());
   LONGS_EQUAL(100'000, readings.mean_time().count());
 }
 
-TEST(DoctorReadings, OneOutsideIsEnough) {
+TEST(DoctorReadings, OneOutOfRangeIsEnough) {
   read({990, 1010, 40'100});
   check_finding("problem", "3 readings: must be -1 to 41 mm", "look at its wires", found());
   readings = {};
@@ -37,7 +37,7 @@ TEST(DoctorReadings, OneOutsideIsEnough) {
   check_finding("problem", "must be", "look at its wires", found());
 }
 
-TEST(DoctorReadings, AFallingSensorHasItsRangeTheOtherWayRound) {
+TEST(DoctorReadings, AFallingSensorHasItsRangeReversed) {
   position.scaling = {-1e-6, 0.040};
   read({0, 41'000});
   check_finding("ok", ": -1 to 40 mm", "", found());

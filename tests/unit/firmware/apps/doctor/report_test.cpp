@@ -14,7 +14,7 @@ TEST_GROUP(DoctorReport) {
                                {"watchdog", Severity::warning, "none", "use one"}}};
 };
 
-TEST(DoctorReport, IsReadByPeople) {
+TEST(DoctorReport, HasATextForm) {
   STRCMP_EQUAL("ok       kernel                    6.1\n",
                doctor::to_text(report.findings[0]).c_str());
   STRCMP_EQUAL(
@@ -25,7 +25,7 @@ TEST(DoctorReport, IsReadByPeople) {
   STRCMP_EQUAL("0 problems, 0 warnings, 0 in order", doctor::summary({}).c_str());
 }
 
-TEST(DoctorReport, IsReadByPrograms) {
+TEST(DoctorReport, HasAJsonForm) {
   const auto json = nlohmann::json::parse(doctor::to_json(report));
   STRCMP_EQUAL("rig", json["board"].get<std::string>().c_str());
   STRCMP_EQUAL("board.toml", json["config"].get<std::string>().c_str());

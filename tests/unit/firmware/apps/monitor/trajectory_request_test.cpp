@@ -37,7 +37,7 @@ TEST(TrajectoryRequest, HasItsKnotsInOrder) {
   DOUBLES_EQUAL(-0.002, read->knots[1].velocity_m_per_s, 0.0);
 }
 
-TEST(TrajectoryRequest, WithoutKnotsAsksOnly) {
+TEST(TrajectoryRequest, WithoutKnotsIsAQuery) {
   const auto read = parse_trajectory_request(R"({"node":2})");
   CHECK(read.has_value());
   CHECK_TRUE(read->knots.empty());
@@ -56,7 +56,7 @@ TEST(TrajectoryRequest, NamesTheKnotItsValueAndTheRange) {
   STRCMP_EQUAL("knot 1 must be an object", problem("[1]").c_str());
 }
 
-TEST(TrajectoryRequest, TakesNoMoreThanTheBoardAnswersSoon) {
+TEST(TrajectoryRequest, LimitsTheNumberOfKnots) {
   std::string knots = knot("0", "0", "0");
   for (std::size_t i = 1; i < max_knots_at_once; ++i)
     knots += "," + knot("0.04", "0", "0");
@@ -67,7 +67,7 @@ TEST(TrajectoryRequest, TakesNoMoreThanTheBoardAnswersSoon) {
   STRCMP_EQUAL("start is 1; it must be true or false", problem("[]", "1").c_str());
 }
 
-TEST(TrajectoryRequest, IsAnsweredWithWhatTheBoardSaid) {
+TEST(TrajectoryRequest, ReturnsTheBoardsAnswer) {
   const std::string told = sent_json({3, {Refusal::infeasible, PlaybackState::playing, 20, 1.5}});
   STRCMP_EQUAL(
       R"({"buffered_s":1.5,"playback":"playing","refusal":"infeasible","room":20,"taken":3})",

@@ -44,7 +44,7 @@ double bound(const MuscleDescription& description, const std::string& key) {
 
 TEST_GROUP(DescribeMuscle){};
 
-TEST(DescribeMuscle, ABenchsUnitsAreTheParametersOfTheMuscle) {
+TEST(DescribeMuscle, ConvertsBenchUnitsToMuscleParameters) {
   const auto d = describe_muscle(paper_answers());
   CHECK_TRUE(d.has_value());
   DOUBLES_EQUAL(0.162, d->muscle.thermal_mass_J_per_K, 1e-6);
@@ -57,7 +57,7 @@ TEST(DescribeMuscle, ABenchsUnitsAreTheParametersOfTheMuscle) {
   STRCMP_EQUAL("10", literal_of(*d, "heater.cold_resistance_Ohm").c_str());
 }
 
-TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
+TEST(DescribeMuscle, BoundsCoverErrorsOfAllAnswers) {
   const auto d = describe_muscle(paper_answers());
   // Each answer is 0.5 to 1.5 times the truth; the heat transfer follows from two answers.
   DOUBLES_EQUAL(0.162 / 1.5, bound(*d, "min_mass_J_per_K"), 1e-4);
@@ -69,7 +69,7 @@ TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
   DOUBLES_EQUAL(1.25 * 0.162 / 0.089 / 0.5, bound(*d, "max_time_constant_s"), 0.01);
 }
 
-TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {
+TEST(DescribeMuscle, ATemperatureReplacesTheThreadsWeight) {
   MuscleAnswers a = paper_answers();
   a.set(static_cast<std::size_t>(QuestionId::thread_g), 0.0);
   a.set(static_cast<std::size_t>(QuestionId::heated_K), 2.0 / 0.089);
@@ -82,7 +82,7 @@ TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {
   DOUBLES_EQUAL(0.162 * 0.5 / (1.5 * 1.5), bound(*d, "min_mass_J_per_K"), 1e-4);
 }
 
-TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
+TEST(DescribeMuscle, RequiresTheThreadsWeightOrATemperature) {
   MuscleAnswers a = paper_answers();
   a.set(static_cast<std::size_t>(QuestionId::thread_g), 0.0);
   const auto d = describe_muscle(a);
@@ -90,7 +90,7 @@ TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
   STRCMP_CONTAINS("thread_g or heated_K", d.error().text().c_str());
 }
 
-TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
+TEST(DescribeMuscle, ImplausibleAnswersAreNamed) {
   MuscleAnswers a = paper_answers();
   a.set(static_cast<std::size_t>(QuestionId::stretch_weight_g), 1e6);
   a.set(static_cast<std::size_t>(QuestionId::stretch_mm), 0.01);
@@ -100,7 +100,7 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
                   d.error().text().c_str());
 }
 
-TEST(DescribeMuscle, APowerStageThatActsLateGetsLessBandwidth) {
+TEST(DescribeMuscle, APowerStageWithDelayGetsLessBandwidth) {
   const auto bandwidth_with = [](double delay_s) {
     const std::string law =
         literal_of(*describe_muscle(paper_answers(), {1e-3, delay_s}), "controller");

@@ -25,13 +25,13 @@ std::string travel(const std::string& text, int channel, double travel_m) {
 
 TEST_GROUP(FileJoint){};
 
-TEST(FileJoint, AMusclesTravelIsALimitOfItsChannelUnlessItsJointHasARange) {
+TEST(FileJoint, TravelIsALimitOfTheChannelUnlessTheJointHasARange) {
   for (const std::string& text : {alone, by_channels})
     STRCMP_EQUAL("limits.max_travel_m = literal", travel(text, 1, 0.005).c_str());
   STRCMP_EQUAL("limits.max_travel_m = literal", travel(by_range, 4, 0.005).c_str());
 }
 
-TEST(FileJoint, OfARangeItsMusclesSideBecomesSmallerAndNeverLarger) {
+TEST(FileJoint, AMusclesSideOfTheRangeOnlyShrinks) {
   // 5 mm at 15 mm are 19.0986 degrees.
   STRCMP_EQUAL("joint.range_deg = [-20, 19.09]", travel(by_range, 1, 0.005).c_str());
   STRCMP_EQUAL("joint.range_deg = [-19.09, 30]", travel(by_range, 2, 0.005).c_str());
@@ -41,14 +41,14 @@ TEST(FileJoint, OfARangeItsMusclesSideBecomesSmallerAndNeverLarger) {
   STRCMP_EQUAL("", travel(by_range, 1, 0.008).c_str());
 }
 
-TEST(FileJoint, OfOneMuscleTheRangeKeepsItsBeginning) {
+TEST(FileJoint, TheRangeOfAOneMuscleJointKeepsItsStart) {
   const std::string finger =
       "[[joint]]\nopposed_by = \"spring\"\nagonist = 1\nlever_m = 0.015\nrange_deg = [0, 30]\n";
   STRCMP_EQUAL("joint.range_deg = [0, 19.09]", travel(finger, 1, 0.005).c_str());
   STRCMP_EQUAL("", travel(finger, 1, 0.008).c_str());
 }
 
-TEST(FileJoint, IsFoundWithItsLeverByEitherOfItsMuscles) {
+TEST(FileJoint, IsFoundWithItsLeverByEitherMuscle) {
   CHECK_FALSE(joint_in_file(alone, 1).has_value());
   CHECK_FALSE(joint_in_file(by_range, 3).has_value());
   const auto second = joint_in_file(by_range, 2);

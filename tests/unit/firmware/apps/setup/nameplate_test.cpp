@@ -28,7 +28,7 @@ std::string limits(double max_C, double trip_C) {
 
 TEST_GROUP(Nameplate){};
 
-TEST(Nameplate, AnswersWhatASupplierKnowsAndNothingElse) {
+TEST(Nameplate, AnswersOnlyWhatASupplierKnows) {
   const Nameplate n = rated(120.0);
   DOUBLES_EQUAL(10.0, n.suggested(QuestionId::cold_resistance_Ohm), 0.0);
   DOUBLES_EQUAL(90.0, n.suggested(QuestionId::load_g), 0.0);
@@ -45,7 +45,7 @@ TEST(Nameplate, AnswersWhatASupplierKnowsAndNothingElse) {
   CHECK(std::isnan(Nameplate().suggested(QuestionId::load_g)));
 }
 
-TEST(Nameplate, ALowerGreatestTemperatureBecomesTheLimit) {
+TEST(Nameplate, ALowerMaxTemperatureBecomesTheLimit) {
   STRCMP_EQUAL("limits.trip_C = 120; limits.derate_from_C = 101; ", limits(120.0, 160.0).c_str());
   STRCMP_EQUAL("", limits(165.0, 160.0).c_str());
   STRCMP_EQUAL("", limits(120.0, 110.0).c_str());
@@ -53,7 +53,7 @@ TEST(Nameplate, ALowerGreatestTemperatureBecomesTheLimit) {
   LONGS_EQUAL(0, Nameplate().limits(160.0).size());
 }
 
-TEST(Nameplate, WhereAChannelTripsIsReadOfItsFile) {
+TEST(Nameplate, TripTemperatureIsReadFromTheBoardFile) {
   const std::string channels = "[[channel]]\n[[channel]]\nlimits.trip_C = 90\n";
   DOUBLES_EQUAL(160.0, trip_in_file_C(channels, 1), 0.0);
   DOUBLES_EQUAL(90.0, trip_in_file_C(channels, 2), 0.0);

@@ -21,7 +21,7 @@ TEST_GROUP(SetupRecord) {
   }
 };
 
-TEST(SetupRecord, GoesOnWhereAnEarlierRunEnded) {
+TEST(SetupRecord, ContinuesWhereAnEarlierRunEnded) {
   CHECK_FALSE(opened().has("describe"));
   CHECK_TRUE(opened().add("describe", {{"muscle", 1}}).has_value());
   CHECK_TRUE(opened().add("calibrate", {{"cold_resistance_Ohm", 9.5}}).has_value());
@@ -31,7 +31,7 @@ TEST(SetupRecord, GoesOnWhereAnEarlierRunEnded) {
   CHECK_FALSE(opened(2).has("describe"));
 }
 
-TEST(SetupRecord, AStepThatIsDoneAgainMakesThoseBehindItUndone) {
+TEST(SetupRecord, RepeatingAStepInvalidatesLaterSteps) {
   for (const char* step : {"describe", "calibrate", "identify", "move"})
     CHECK_TRUE(opened().add(step, {{"done", true}}).has_value());
   CHECK_TRUE(opened(2).add("move", {{"done", true}}).has_value());
@@ -43,7 +43,7 @@ TEST(SetupRecord, AStepThatIsDoneAgainMakesThoseBehindItUndone) {
   CHECK_TRUE(opened(2).has("move"));
 }
 
-TEST(SetupRecord, ACheckedMachineSaysNothingOfItsMuscle) {
+TEST(SetupRecord, DoctorDoesNotImplyADescribedMuscle) {
   CHECK_TRUE(opened().add("doctor", {{"problems", 0}}).has_value());
   CHECK_TRUE(opened().has("doctor"));
   CHECK_FALSE(opened().has_later_step("describe"));
@@ -64,7 +64,7 @@ TEST(SetupRecord, ADamagedRecordIsRefusedAndKept) {
   }
 }
 
-TEST(SetupRecord, SaysWhereItCannotBeWritten) {
+TEST(SetupRecord, ReportsThePathThatCannotBeWritten) {
   config = folder.path() + "/missing/board.toml";
   const auto added = opened().add("describe", {{"muscle", 1}});
   CHECK_FALSE(added.has_value());

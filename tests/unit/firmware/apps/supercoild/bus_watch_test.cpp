@@ -10,12 +10,12 @@ TEST_GROUP(BusWatch) {
   daemon::BusWatch watch;
 };
 
-TEST(BusWatch, HasNothingToSayOfABusThatKeepsUp) {
+TEST(BusWatch, IsSilentAboutABusThatKeepsUp) {
   CHECK(watch.new_warnings({{"i2c-1", 0, 0.0005}}, 0s).empty());
   CHECK(watch.new_warnings({{"i2c-1", 0, 0.0009}}, 100s).empty());
 }
 
-TEST(BusWatch, TellsAtOnceAndThenOnceAMinuteWhileRoundsAreLeftOut) {
+TEST(BusWatch, ReportsSkippedRoundsAtOnceAndThenOnceAMinute) {
   const auto first = watch.new_warnings({{"i2c-1", 2, 0.0031}}, 1s);
   LONGS_EQUAL(1, first.size());
   STRCMP_EQUAL(
@@ -26,7 +26,7 @@ TEST(BusWatch, TellsAtOnceAndThenOnceAMinuteWhileRoundsAreLeftOut) {
   CHECK(watch.new_warnings({{"i2c-1", 5, 0.0031}}, 200s).empty());
 }
 
-TEST(BusWatch, TellsOfEachBusByItself) {
+TEST(BusWatch, ReportsEachBusSeparately) {
   CHECK(watch.new_warnings({{"i2c-1", 1, 0.002}, {"i2c-3", 0, 0.001}}, 1s).size() == 1);
   const auto second = watch.new_warnings({{"i2c-1", 2, 0.002}, {"i2c-3", 4, 0.002}}, 2s);
   LONGS_EQUAL(1, second.size());

@@ -49,7 +49,7 @@ TEST(LatencyHistogram, QuantileIsTheEndOfItsBin) {
   CHECK(histogram.quantile(1.0) == 99us + 300ns);  // never above the measured maximum
 }
 
-TEST(LatencyHistogram, CountsWhatIsTooLongInItsLastBinAndWhatIsNegativeInItsFirst) {
+TEST(LatencyHistogram, CountsLongTimesInTheLastBinAndNegativeTimesInTheFirst) {
   const Histogram histogram = microseconds({1h, 1us, -5us});
   LONGS_EQUAL(1, histogram.bins().back());
   LONGS_EQUAL(1, histogram.bins().front());
@@ -58,7 +58,7 @@ TEST(LatencyHistogram, CountsWhatIsTooLongInItsLastBinAndWhatIsNegativeInItsFirs
   CHECK(histogram.min() == 0us);
 }
 
-TEST(LatencyHistogram, WithoutTimesIsAllZero) {
+TEST(LatencyHistogram, IsAllZeroWithoutTimes) {
   const Histogram histogram = microseconds({});
   CHECK(histogram.min() == 0us);
   CHECK(histogram.quantile(0.99) == 0us);
@@ -66,7 +66,7 @@ TEST(LatencyHistogram, WithoutTimesIsAllZero) {
   CHECK(bars(histogram).empty());
 }
 
-TEST(LatencyHistogram, BarsHoldEveryTimeOnceAndAreFew) {
+TEST(LatencyHistogram, BarsAreFewAndCountEveryTimeOnce) {
   Histogram histogram(1us, 1000);
   for (int i = 0; i < 100'000; ++i)
     histogram.add(50us + (i % 70) * 1us);
@@ -81,7 +81,7 @@ TEST(LatencyHistogram, BarsHoldEveryTimeOnceAndAreFew) {
     CHECK(all[i].from >= all[i - 1].to);
 }
 
-TEST(LatencyHistogram, BarsOfOneTimeAreOne) {
+TEST(LatencyHistogram, ASingleTimeGivesOneBar) {
   const std::vector<Bar> all = bars(microseconds({57us, 57us}));
   LONGS_EQUAL(1, all.size());
   CHECK(all[0].from == 57us && all[0].to == 58us && all[0].count == 2);
@@ -112,7 +112,7 @@ TEST_GROUP(LatencyMeter) {
   MeasuredLoop measured;
 };
 
-TEST(LatencyMeter, LeavesOutTheFirstTicksAndThenCountsAsManyAsAskedFor) {
+TEST(LatencyMeter, SkipsTheFirstTicksAndThenCountsAsManyAsRequested) {
   LatencyMeter meter(measured.loop, 5, 10);
   measured.run(meter, 6, 1);
   LONGS_EQUAL(0, meter.measured());
@@ -127,7 +127,7 @@ TEST(LatencyMeter, LeavesOutTheFirstTicksAndThenCountsAsManyAsAskedFor) {
   CHECK(meter.result().late.min() == 3us);
 }
 
-TEST(LatencyMeter, IsGivenTicksOfALoopThatNeverCanBeHot) {
+TEST(LatencyMeter, MeasuresALoopThatCannotHeat) {
   LatencyMeter meter(measured.loop, 0, 2000);
   measured.run(meter, 2001);
   int rows = 0;
@@ -155,7 +155,7 @@ TEST_GROUP(LatencyReport) {
   }
 };
 
-TEST(LatencyReport, TextSaysUnderWhichConditionsAndWhatWasMeasured) {
+TEST(LatencyReport, TextHasConditionsAndResults) {
   const std::string text = latency_text(latency, conditions);
   STRCMP_CONTAINS("1000 ticks at 500 Hz, 2 channels, with priority 80 of SCHED_FIFO; overruns: 2\n",
                   text.c_str());
@@ -163,7 +163,7 @@ TEST(LatencyReport, TextSaysUnderWhichConditionsAndWhatWasMeasured) {
   STRCMP_CONTAINS("  p50 65\n  p99 70\n  p99.9 70\n  p99.99 450\n  max 450\n", text.c_str());
 }
 
-TEST(LatencyReport, JsonHoldsEveryBinThatIsNotEmpty) {
+TEST(LatencyReport, JsonHoldsEveryNonEmptyBin) {
   const auto json = nlohmann::json::parse(latency_json(latency, conditions));
   LONGS_EQUAL(1000, json["ticks"].get<int>());
   CHECK(json["set_up"][0]["worked"].get<bool>());
@@ -172,7 +172,7 @@ TEST(LatencyReport, JsonHoldsEveryBinThatIsNotEmpty) {
   DOUBLES_EQUAL(1.2, json["tick"]["histogram"][0][0].get<double>(), 1e-12);
 }
 
-TEST(LatencyReport, FigureOutlinesEveryBinAndEndsAtNothing) {
+TEST(LatencyReport, FigureOutlinesEveryBin) {
   const Figure figure = latency_figure(latency, conditions);
   LONGS_EQUAL(2, figure.panels.size());
   CHECK(figure.panels[0].x_logarithmic && figure.panels[0].y_logarithmic);

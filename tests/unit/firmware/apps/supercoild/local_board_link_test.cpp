@@ -75,7 +75,7 @@ class Served {
 
 TEST_GROUP(LocalBoardLink){};
 
-TEST(LocalBoardLink, TellsHowFarIdentifyIsAndHowItEnded) {
+TEST(LocalBoardLink, ReportsProgressAndResultOfIdentify) {
   const Served board(row_of_mode(Mode::identify, ModeResult::found, 1));
   LocalBoardLink link = board.link();
   DOUBLES_EQUAL(0.25, link.progress("1").value(), 1e-9);
@@ -87,14 +87,14 @@ TEST(LocalBoardLink, TellsHowFarIdentifyIsAndHowItEnded) {
   CHECK_FALSE(link.progress("7").has_value());
 }
 
-TEST(LocalBoardLink, TellsTheErrorWhileAPositionIsFollowed) {
+TEST(LocalBoardLink, ReportsTheTrackingErrorInModePosition) {
   const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
   LocalBoardLink link = board.link();
   DOUBLES_EQUAL(0.0025, link.error_m("1").value(), 1e-8);
   STRCMP_EQUAL("", link.ending("1").value().notes.c_str());
 }
 
-TEST(LocalBoardLink, TellsAllOfItAsJson) {
+TEST(LocalBoardLink, ReportsTheWholeStateAsJson) {
   const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
   LocalBoardLink link = board.link();
   const auto channel = nlohmann::json::parse(link.state_json().value())["channels"][0];
@@ -113,7 +113,7 @@ TEST(LocalBoardLink, TellsAllOfItAsJson) {
   STRCMP_EQUAL("", channel["notes"].get<std::string>().c_str());
 }
 
-TEST(LocalBoardLink, TellsThatAMuscleIsSlack) {
+TEST(LocalBoardLink, ReportsASlackMuscle) {
   Row row = row_of_mode(Mode::position, ModeResult::none, 0);
   row.flags = row_slack;
   const Served board(row);

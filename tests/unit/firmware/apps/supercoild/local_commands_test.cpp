@@ -94,7 +94,7 @@ TEST(LocalCommands, OwnerAndGroupMayCommandWhateverTheUmask) {
 }
 
 /// The owner of the folder can leave anything there before the socket is made.
-TEST(LocalCommands, WhatALinkInItsPlacePointsToStaysAsItWas) {
+TEST(LocalCommands, TheTargetOfALinkInTheSocketsPlaceIsLeftUnchanged) {
   folder.write("other", "of somebody else");
   LONGS_EQUAL(0, ::chmod((folder / "other").c_str(), 0600));
   folder.link("link", "other");
@@ -105,7 +105,7 @@ TEST(LocalCommands, WhatALinkInItsPlacePointsToStaysAsItWas) {
   STRCMP_EQUAL("of somebody else", folder.read("other").c_str());
 }
 
-TEST(LocalCommands, AreAnsweredWhenTheLoopHasObeyedThem) {
+TEST(LocalCommands, AreAnsweredOnceTheLoopHasExecutedThem) {
   const Client one = client();
   const Client other = client();
   STRCMP_EQUAL("", answer_to(one, "1 disarm").c_str());
@@ -116,7 +116,7 @@ TEST(LocalCommands, AreAnsweredWhenTheLoopHasObeyedThem) {
   STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
 }
 
-TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrder) {
+TEST(LocalCommands, AreRefusedAtOnceWhileTheQueueIsFullWithoutChangingTheOrder) {
   const Client busy = client();
   STRCMP_EQUAL("", answer_to(busy, "1 rest").c_str());
   while (rig.loop.send({0, Verb::disarm, 0.0, Source::can})) {
@@ -130,7 +130,7 @@ TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrd
   STRCMP_EQUAL("", busy.heard().c_str());
 }
 
-TEST(LocalCommands, AreRefusedWhereTheirEndWouldBeLost) {
+TEST(LocalCommands, AreRefusedRatherThanTruncated) {
   const Client one = client();
   const std::string longest = "1 power 4.5" + std::string(186, '0') + "e-3";
   LONGS_EQUAL(200, longest.size());
@@ -168,7 +168,7 @@ TEST(LocalCommands, AControllerIsTuned) {
   STRCMP_EQUAL(before.c_str(), answer_to(one, "tuning 1 0 integral_W_per_m_s prepared").c_str());
 }
 
-TEST(LocalCommands, WhyAControllerDoesNotSuitIsSaid) {
+TEST(LocalCommands, TheReasonForAnUnsuitableControllerIsGiven) {
   const Client one = client();
   STRCMP_EQUAL("ok", answer_to(one, "prepare 1 0 integral_W_per_m_s 1e7").c_str());
   answer_to(one, "1 tune 0");
@@ -189,7 +189,7 @@ TEST(LocalCommands, WhyAControllerDoesNotSuitIsSaid) {
     STRCMP_EQUAL(answer, answer_to(one, line).c_str());
 }
 
-TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {
+TEST(LocalCommands, ALostAnswerDoesNotShiftOthers) {
   const Client one = client();
   const Client other = client();
   answer_to(one, "1 disarm");
@@ -202,7 +202,7 @@ TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {
   STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
 }
 
-TEST(LocalCommands, OneClientTooManyIsRefusedWithAReason) {
+TEST(LocalCommands, AnExcessClientIsRefusedWithAReason) {
   constexpr std::size_t max_clients = 20;
   std::vector<Client> clients;
   clients.reserve(max_clients);
@@ -213,7 +213,7 @@ TEST(LocalCommands, OneClientTooManyIsRefusedWithAReason) {
   CHECK_FALSE(answer_to(clients.back(), "state").empty());
 }
 
-TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
+TEST(LocalCommands, MuscleHasOneLinePerMuscle) {
   const Client asking = client();
   const std::string answer = answer_to(asking, "muscle");
   STRCMP_CONTAINS(
@@ -223,7 +223,7 @@ TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
       answer.c_str());
 }
 
-TEST(LocalCommands, WhatBecomesOfATrajectoryIsTold) {
+TEST(LocalCommands, TheStateOfATrajectoryIsReported) {
   const Client one = client();
   Row row{};
   row.time_ns = 123456789012345;
@@ -235,7 +235,7 @@ TEST(LocalCommands, WhatBecomesOfATrajectoryIsTold) {
   STRCMP_EQUAL("refused: wrong_state", obeyed(one, "1 knot 0 0.005 0").c_str());
 }
 
-TEST(LocalCommands, AStartIsAtATimeOfTheBoard) {
+TEST(LocalCommands, AStartIsGivenInBoardTime) {
   rig.boot();
   rig.arm();
   rig.run(0.2);

@@ -27,17 +27,17 @@ std::vector<hal::Time> begins(const std::vector<hal::Duration>& takes) {
 TEST_GROUP(Rounds){};
 
 /// The same number of rounds sees each tick of 10 ms.
-TEST(Rounds, BeginOnAGridWhateverTheirWorkTakes) {
+TEST(Rounds, StartOnAGridIndependentOfTheirDuration) {
   CHECK((begins({0ms, 2700us, 4ms, 100us, 0ms}) ==
          std::vector<hal::Time>{5ms, 10ms, 15ms, 20ms, 25ms}));
 }
 
-TEST(Rounds, OneThatTakesLongerLeavesAPauseAndIsNotMadeUpFor) {
+TEST(Rounds, AnOverlongRoundIsFollowedByAPauseAndNotCaughtUp) {
   CHECK((begins({7ms, 0ms}) == std::vector<hal::Time>{5ms, 13ms}));
   CHECK((begins({500ms, 0ms, 0ms}) == std::vector<hal::Time>{5ms, 506ms, 511ms}));
 }
 
-TEST(Rounds, AWaitThatEndsEarlyGoesOn) {
+TEST(Rounds, AWaitThatEndsEarlyIsResumed) {
   daemon::Rounds rounds(0ns);
   CHECK(rounds.wait(0ms) == 5ms);
   CHECK(rounds.wait(2ms) == 3ms);

@@ -65,7 +65,7 @@ TEST_GROUP(StorageWorker) {
   }
 };
 
-TEST(StorageWorker, DatesAComparisonAndTheNextStartUsesIt) {
+TEST(StorageWorker, DatesAComparisonForTheNextStart) {
   CHECK_FALSE(next_start().senses.compared());
   const auto before = static_cast<double>(std::time(nullptr));
   compare();
@@ -78,7 +78,7 @@ TEST(StorageWorker, DatesAComparisonAndTheNextStartUsesIt) {
   CHECK(next.muscle == settings.firmware.channels[0].muscle);
 }
 
-TEST(StorageWorker, WhatIsLearnedLaterKeepsTheDate) {
+TEST(StorageWorker, ALaterScaleKeepsTheComparisonAndItsDate) {
   compare();
   const board::SenseComparison compared = next_start().senses;
   rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
@@ -90,7 +90,7 @@ TEST(StorageWorker, WhatIsLearnedLaterKeepsTheDate) {
   CHECK(next.senses == compared);
 }
 
-TEST(StorageWorker, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand) {
+TEST(StorageWorker, TheComparisonOutlivesTheMuscleAndHasItsOwnForgetCommand) {
   compare();
   rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
   rig.send(Verb::store, 0.0);
@@ -105,7 +105,7 @@ TEST(StorageWorker, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand)
   CHECK_FALSE(next_start().senses.compared());
 }
 
-TEST(StorageWorker, TheNextStartSaysWhyNothingChecksThatAMuscleResponds) {
+TEST(StorageWorker, TheNextStartLogsWhyTheProofOfResponseIsOff) {
   const auto logged = [&] {
     std::FILE* const kept = std::tmpfile();
     const int own = ::dup(STDERR_FILENO);

@@ -118,7 +118,7 @@ TEST(DaemonThreads, ACommandThatIsNotRenewedExpires) {
   until_state(socket, "1 disarmed");
 }
 
-TEST(DaemonThreads, CoolingIsObeyedAndOtherCommandsAreIgnored) {
+TEST(DaemonThreads, CoolSwitchesAllChannelsOff) {
   const BoardSocket socket = client();
   arm(socket);
   CHECK_FALSE(storage_worker->all_off());
@@ -126,7 +126,7 @@ TEST(DaemonThreads, CoolingIsObeyedAndOtherCommandsAreIgnored) {
   until([&] { return storage_worker->all_off(); });
 }
 
-TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
+TEST(DaemonThreads, CanMastersAreAnsweredOnTheBusAndLocalClientsOnTheSocket) {
   constexpr std::uint16_t acknowledge = SUPERCOIL_ACKNOWLEDGE_FRAME_ID;
   const BoardSocket socket = client();
   test::Master master;
@@ -164,7 +164,7 @@ TEST(DaemonThreads, APendingSighupCoolsWhileTheMainThreadIsBusyElsewhere) {
   cools_at(SIGHUP);
 }
 
-TEST(DaemonThreads, ClientsThatGoAwayTakeNoOthersAnswers) {
+TEST(DaemonThreads, ADisconnectedClientDoesNotTakeAnothersAnswer) {
   const BoardSocket stays = client();
   for (int i = 0; i < 20; ++i) {
     {
@@ -184,7 +184,7 @@ TEST(DaemonThreads, NonsenseIsAnswered) {
   CHECK(ask(socket, std::string("1 arm\0disarm", 12)).starts_with("wrong: "));
 }
 
-TEST(DaemonThreads, OneClientTooManyIsToldSo) {
+TEST(DaemonThreads, AnExcessClientIsToldThatItIsRefused) {
   std::vector<BoardSocket> clients;
   for (int i = 0; i < 20; ++i) {
     clients.push_back(client());

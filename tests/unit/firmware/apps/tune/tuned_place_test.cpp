@@ -22,7 +22,7 @@ TEST_GROUP(TunedPlace) {
   static constexpr double gradient = 1.0;
 };
 
-TEST(TunedPlace, ANumberOrAKindThatIsThereOnce) {
+TEST(TunedPlace, IsFoundByNumberOrByAUniqueKind) {
   const std::vector<std::string> kinds{"mrac", "pi", "pi"};
   LONGS_EQUAL(2, find_place(Tuned::controller, "2", kinds).value());
   LONGS_EQUAL(0, find_place(Tuned::controller, "mrac", kinds).value());
@@ -37,7 +37,7 @@ TEST(TunedPlace, ANumberOrAKindThatIsThereOnce) {
       find_place(Tuned::estimator, "none", std::vector<std::string>{}).error().text().c_str());
 }
 
-TEST(TunedPlace, ItsKindTellsWhetherItIsAnEstimator) {
+TEST(TunedPlace, ItsKindDecidesBetweenControllerAndEstimator) {
   const ReadTunable read_value = board({mrac, pi}, {gradient});
   LONGS_EQUAL(1, find_any_place("pi", read_value).value());
   LONGS_EQUAL(1, find_any_place("1", read_value).value());
@@ -49,7 +49,7 @@ TEST(TunedPlace, ItsKindTellsWhetherItIsAnEstimator) {
                find_any_place("9", read_value).error().text().c_str());
 }
 
-TEST(TunedPlace, ABoardThatDoesNotAnswerIsTold) {
+TEST(TunedPlace, ABoardThatDoesNotAnswerIsReported) {
   const auto silent = [](int, std::size_t, TuningSet) -> Result<double> {
     return failure("no answer", std::errc::timed_out);
   };

@@ -33,13 +33,13 @@ TEST_GROUP(Air) {
   }
 };
 
-TEST(Air, IsAsConfiguredBeforeAnythingIsRead) {
+TEST(Air, IsAsConfiguredBeforeTheFirstReading) {
   DOUBLES_EQUAL(30.0, air.warmest_C(), 0.0);
   DOUBLES_EQUAL(15.0, air.coldest_C(), 0.0);
   DOUBLES_EQUAL(0.0, air.above_configured_K(), 0.0);
 }
 
-TEST(Air, IsAsReadAndItsErrorAfterAWhile) {
+TEST(Air, ConvergesToTheReadingAndItsError) {
   read_for(20.0, slowest_s);
   DOUBLES_EQUAL(22.0 + 8.0 * std::exp(-1.0), air.warmest_C(), 1e-3);
   DOUBLES_EQUAL(18.0 - 3.0 * std::exp(-1.0), air.coldest_C(), 1e-3);
@@ -48,7 +48,7 @@ TEST(Air, IsAsReadAndItsErrorAfterAWhile) {
   DOUBLES_EQUAL(18.0, air.coldest_C(), 1e-6);
 }
 
-TEST(Air, IsWiderAtOnce) {
+TEST(Air, WidensAtOnce) {
   read_for(45.0, tick_s);
   DOUBLES_EQUAL(47.0, air.warmest_C(), 0.0);
   DOUBLES_EQUAL(17.0, air.above_configured_K(), 1e-12);
@@ -56,7 +56,7 @@ TEST(Air, IsWiderAtOnce) {
   DOUBLES_EQUAL(-12.0, air.coldest_C(), 0.0);
 }
 
-TEST(Air, IsNotNarrowedByWhatIsBeyondTheConfigured) {
+TEST(Air, IsNotNarrowedByReadingsBeyondTheConfiguredRange) {
   read_for(-60.0, 20.0 * slowest_s);
   DOUBLES_EQUAL(30.0, air.warmest_C(), 1e-9);
   DOUBLES_EQUAL(-62.0, air.coldest_C(), 1e-9);
@@ -65,7 +65,7 @@ TEST(Air, IsNotNarrowedByWhatIsBeyondTheConfigured) {
   DOUBLES_EQUAL(15.0, air.coldest_C(), 1e-6);
 }
 
-TEST(Air, IsAsConfiguredWhereNothingIsRead) {
+TEST(Air, IsAsConfiguredWithoutASensor) {
   for (const Measured& nothing : {Measured{20.0, 9.0, false, hal::Status::ok}, air_read(NAN)}) {
     read_for(20.0, 20.0 * slowest_s);
     air.step(nothing);
@@ -74,7 +74,7 @@ TEST(Air, IsAsConfiguredWhereNothingIsRead) {
   }
 }
 
-TEST(Air, HoldsTheTruthOfEveryMuscleWithinTheBounds) {
+TEST(Air, ContainsTheTruthForEveryMuscleWithinTheBounds) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> part(0.0, 1.0);
   const auto between = [&](double low, double high) { return low + (high - low) * part(random); };
@@ -95,7 +95,7 @@ TEST(Air, HoldsTheTruthOfEveryMuscleWithinTheBounds) {
   }
 }
 
-TEST(Air, LiesBetween15And25DegreesWhereNothingElseIsConfigured) {
+TEST(Air, IsBetween15And25DegreesByDefault) {
   const Air indoors({}, air_bounds, tick_s);
   DOUBLES_EQUAL(25.0, indoors.warmest_C(), 0.0);
   DOUBLES_EQUAL(15.0, indoors.coldest_C(), 0.0);

@@ -20,7 +20,7 @@ TEST(OutputDelay, GivesTheValueSetThatManyTicksAgo) {
   }
 }
 
-TEST(OutputDelay, IsNoLongerThanItsLine) {
+TEST(OutputDelay, IsLimitedToTheDelayLine) {
   OutputDelay delay(OutputDelay::max_ticks + 100);
   for (std::size_t i = 0; i < OutputDelay::max_ticks; ++i)
     DOUBLES_EQUAL(0.0, delay.step({1.0, 0.0, false}).power_W, 0.0);

@@ -41,13 +41,13 @@ TEST_GROUP(HotEnd) {
   double fastest_pole = -settings.bounds.max_transfer_W_per_K / settings.bounds.min_mass_J_per_K;
 };
 
-TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
+TEST(HotEnd, LearnedCoolingIsLimitedToTheConfiguredBounds) {
   const double rest_K = heating_W / (-slowest_pole * settings.thermal_mass_J_per_K);
   for (const double absurd : {-1e-9, 0.01 * slowest_pole, slowest_pole})
     DOUBLES_EQUAL(rest_K, hottest_after_K(settings, absurd, 60.0), 0.01);
 }
 
-TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
+TEST(HotEnd, IsTheHotterOfConfiguredAndLearned) {
   const double configured_K = heating_W / settings.bounds.min_transfer_W_per_K;
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, fastest_pole, 60.0), 0.01);
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, 100.0 * fastest_pole, 60.0), 0.01);
@@ -56,7 +56,7 @@ TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
                 hottest_after_K(settings, slower_pole, 60.0), 0.01);
 }
 
-TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
+TEST(HotEnd, AtBootSpansUpToTheConfiguredRise) {
   Heat heat(settings, {}, tick_s);
   DOUBLES_EQUAL(settings.air.warmest_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
   DOUBLES_EQUAL(settings.air.coldest_C, heat.coldest_C(), 1e-9);
@@ -64,7 +64,7 @@ TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
     DOUBLES_EQUAL(0.0, expected_m, 0.0);
 }
 
-TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
+TEST(HotEnd, ColdEndAndExpectedMotionUseTheirOwnPowers) {
   const control::PhysicalParameters muscle;
   Heat heat(settings, muscle, tick_s);
   for (int i = 0; i < 120'000; ++i)
@@ -79,7 +79,7 @@ TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
                 1e-5);
 }
 
-TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
+TEST(HotEnd, ExpectedMotionUsesThePresentMuscle) {
   Heat heat(settings, {}, tick_s);
   control::PhysicalParameters found;
   found.thermal_mass_J_per_K = 0.15;
@@ -100,7 +100,7 @@ TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
   DOUBLES_EQUAL(found.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
 }
 
-TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
+TEST(HotEnd, CountsFromTheMeasuredAir) {
   settings.air = {25.0, 15.0, 2.0};
   Heat heat(settings, {}, tick_s);
   heat.follow_air({40.0, 0.0, true, hal::Status::ok});
@@ -108,7 +108,7 @@ TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
   DOUBLES_EQUAL(heat.air().coldest_C(), heat.coldest_C(), 1e-9);
 }
 
-TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
+TEST(HotEnd, KeepsItsStateWhenTheMuscleIsReplaced) {
   Heat heat(settings, {}, tick_s);
   const board::ThermalFacts facts = read_at_2_W();
   const PowerBounds::Interval true_over_measured{0.96, 1.04};
@@ -125,7 +125,7 @@ TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
   DOUBLES_EQUAL(2.1 / settings.bounds.min_transfer_W_per_K, heat.hottest_K(), 0.01);
 }
 
-TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
+TEST(HotEnd, ByReadingIsHotterWhenPowerIsAssumedInsteadOfSensed) {
   const auto hottest_K = [&](bool sensed) {
     Heat heat(settings, {}, tick_s);
     heat.set_thermal_facts(read_at_2_W(), {0.8, 1.2});
@@ -137,7 +137,7 @@ TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
   CHECK_COMPARE(hottest_K(false), >, 1.3 * hottest_K(true));
 }
 
-TEST(HotEnd, OfAReadingBeginsWhereTheMuscleWasKnownToBeBefore) {
+TEST(HotEnd, ByReadingStartsFromThePreviousBounds) {
   Heat heat(settings, {}, tick_s);
   for (int i = 0; i < 60'000; ++i)
     heat.step(1.9, 2.1, 2.0);
@@ -150,7 +150,7 @@ TEST(HotEnd, OfAReadingBeginsWhereTheMuscleWasKnownToBeBefore) {
   CHECK_COMPARE(heat.hottest_K(), <, 0.5 * (before_K + 25.0));
 }
 
-TEST(HotEnd, OfAReadingNarrowsWithinASecondThoughTheBootWasHotter) {
+TEST(HotEnd, ByReadingNarrowsWithinASecondAfterAHotterBoot) {
   Heat heat(settings, {}, tick_s);
   for (int i = 0; i < 60'000; ++i)
     heat.step(1.9, 2.1, 2.0);

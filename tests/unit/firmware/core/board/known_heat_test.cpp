@@ -35,7 +35,7 @@ ThermalFacts found_of_paper() {
 
 TEST_GROUP(KnownThermalBounds){};
 
-TEST(KnownThermalBounds, IsWhatIsConfiguredWhereNothingWasWeighed) {
+TEST(KnownThermalBounds, AreAsConfiguredWithoutAWeighedMass) {
   const ThermalSettings s;
   const KnownThermalBounds known = known_thermal_bounds(s, found_of_paper());
   LONGS_EQUAL(0, known.count);
@@ -47,7 +47,7 @@ TEST(KnownThermalBounds, IsWhatIsConfiguredWhereNothingWasWeighed) {
   }
 }
 
-TEST(KnownThermalBounds, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
+TEST(KnownThermalBounds, OfAWeighedMuscleAreItsMassOverItsTimeConstant) {
   const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
   DOUBLES_EQUAL(0.97 * 0.162, known.bounds.min_mass_J_per_K, 1e-12);
   DOUBLES_EQUAL(1.03 * 0.162, known.bounds.max_mass_J_per_K, 1e-12);
@@ -58,7 +58,7 @@ TEST(KnownThermalBounds, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
   CHECK_COMPARE(known.max_heat_transfer_W_per_K(60.0), >, known.max_heat_transfer_W_per_K(22.0));
 }
 
-TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseToThat) {
+TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseUpToIt) {
   const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
   const double mean_K = 2.0 / 0.089;
   const double least = 0.97 * 0.089 / 1.25;
@@ -70,7 +70,7 @@ TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseToThat) 
   DOUBLES_EQUAL(most * std::cbrt(1.05), known.max_heat_transfer_W_per_K(1.05 * mean_K), 1e-9);
 }
 
-TEST(KnownThermalBounds, NeverLeavesWhatIsConfigured) {
+TEST(KnownThermalBounds, NeverLeaveTheConfiguredBounds) {
   ThermalSettings s = weighed_muscle();
   s.mass_error_ratio = 0.5;
   for (const double ratio : {0.05, 0.5, 1.0, 2.0, 20.0}) {
@@ -88,7 +88,7 @@ TEST(KnownThermalBounds, NeverLeavesWhatIsConfigured) {
   }
 }
 
-TEST(KnownThermalBounds, InMeasuredPowerAreDividedByWhatTheTruePowerIsOverIt) {
+TEST(KnownThermalBounds, ForMeasuredPowerAreDividedByTrueOverMeasured) {
   const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
   ThermalFacts facts = found_of_paper();
   facts.steady_rise_K = 17.0;
@@ -111,7 +111,7 @@ TEST(KnownThermalBounds, InMeasuredPowerAreDividedByWhatTheTruePowerIsOverIt) {
   DOUBLES_EQUAL(1.6 / 16.0, read.spans[1].max_W_per_K, 1e-12);
 }
 
-TEST(KnownThermalBounds, OfAReadingThatIsForgottenNothingIsLeft) {
+TEST(KnownThermalBounds, ClearingAReadingRemovesAllOfIt) {
   ThermalFacts facts = found_of_paper();
   facts.steady_rise_K = 17.0;
   facts.steady_error_K = 1.0;
@@ -137,7 +137,7 @@ TEST_GROUP(SteadyState) {
   }
 };
 
-TEST(SteadyState, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
+TEST(SteadyState, AcceptsAReadingOnceTheMuscleMustBeSteady) {
   CHECK(held(20.0).read(17.0, compared_power, facts) == Refusal::not_ready);
   CHECK_FALSE(facts.has_reading());
   CHECK(held(23.0).read(17.0, compared_power, facts) == Refusal::none);
@@ -159,14 +159,14 @@ TEST(SteadyState, AveragesThePowerOverHalfOfTheSlowestTimeConstant) {
   DOUBLES_EQUAL(1.71 - 0.2 * std::exp(-1.0), facts.steady_max_W, 1e-4);
 }
 
-TEST(SteadyState, WaitsAnewWhenThePowerIsAnotherOne) {
+TEST(SteadyState, WaitsAgainAfterAChangeOfPower) {
   SteadyState steady = held(30.0);
   steady.restart();
   hold(steady, 20.0);
   CHECK(steady.read(17.0, compared_power, facts) == Refusal::not_ready);
 }
 
-TEST(SteadyState, CountsNothingOfThePowerBeforeTheLastChange) {
+TEST(SteadyState, IgnoresPowerBeforeTheLastChange) {
   SteadyState steady = held(30.0);
   steady.restart();
   for (long i = std::lround(23.0 / tick_s); i > 0; --i)
@@ -177,7 +177,7 @@ TEST(SteadyState, CountsNothingOfThePowerBeforeTheLastChange) {
   DOUBLES_EQUAL(1.0 + 25.0 * std::exp(-5.0), facts.steady_error_K, 1e-9);
 }
 
-TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {
+TEST(SteadyState, RefusesReadingsThatTheMuscleCannotHave) {
   const SteadyState steady = held(30.0);
   // 1.5 W over the configured 0.045 to 0.18 W/K is 8.3 to 33 K.
   for (const double rise_K : {-17.0, 0.5, 2.0, 6.0, 40.0, 170.0, 1e9, std::nan("")})
@@ -191,7 +191,7 @@ TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {
   CHECK(known.read(17.0, compared_power, facts) == Refusal::none);
 }
 
-TEST(SteadyState, AllowsForWhatTheSensesErrByBeforeItRefuses) {
+TEST(SteadyState, AllowsForTheErrorsOfTheSenses) {
   const SteadyState steady = held(30.0);
   const double error_K = 1.0 + 40.0 * std::exp(-5.0);
   const double lowest_K = 1.5 * compared_power.min / 0.18 - error_K;
@@ -218,7 +218,7 @@ TEST_GROUP(HeatThatWasRead) {
   }
 };
 
-TEST(HeatThatWasRead, DoesNotSufferFromTheSensesErrors) {
+TEST(HeatThatWasRead, IsIndependentOfTheErrorsOfTheSenses) {
   const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   const Heat heat = held(settings, facts, 1.5);
   // At the power of the reading, only the thermometer's error remains.

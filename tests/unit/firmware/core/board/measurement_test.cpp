@@ -26,13 +26,13 @@ TEST(Measurement, CountsBecomeUnitsWithTheirAge) {
   DOUBLES_EQUAL(0.002, m.age_s, 1e-12);
 }
 
-TEST(Measurement, TooOldIsAbsentAndNotTheOldNumber) {
+TEST(Measurement, TooOldIsAbsentWithoutTheOldValue) {
   const Measured m = measured({1000, 0ms, hal::Status::ok}, {1e-5, 0.0}, 11ms, 0.01);
   CHECK_FALSE(m.present);
   DOUBLES_EQUAL(0.0, m.value, 0.0);
 }
 
-TEST(Measurement, AMomentAfterTheTickBeganIsFresh) {
+TEST(Measurement, JustAfterTheTicksStartIsFresh) {
   const Measured m = measured({1, 8ms, hal::Status::ok}, {}, 7ms, 0.01);
   CHECK(m.present);
   DOUBLES_EQUAL(0.0, m.age_s, 0.0);
@@ -42,7 +42,7 @@ TEST(Measurement, FromTheFutureIsAbsent) {
   CHECK_FALSE(measured({1, 18ms, hal::Status::ok}, {}, 7ms, 0.01).present);
 }
 
-TEST(Measurement, WithAnErrorIsAbsentAndSaysWhy) {
+TEST(Measurement, WithAnErrorIsAbsentWithTheReason) {
   const Measured m = measured({1, 7ms, hal::Status::gone}, {}, 7ms, 0.01);
   CHECK_FALSE(m.present);
   CHECK(m.status == hal::Status::gone);

@@ -86,7 +86,7 @@ TEST(MeterComparison, FindsTheGainsFromTwoPowers) {
   DOUBLES_EQUAL(0.0, found->compared_s, 0.0);
 }
 
-TEST(MeterComparison, WaitsForTheVoltsWhereTheAmperesAreReadFirst) {
+TEST(MeterComparison, WaitsForVoltsWhenAmperesAreReadFirst) {
   hold(0.1);
   read_both();
   hold(0.2);
@@ -131,7 +131,7 @@ TEST(MeterComparison, OnePowerIsNotEnough) {
   CHECK(comparison.found().has_value());
 }
 
-TEST(MeterComparison, ASenseAloneIsNotCompared) {
+TEST(MeterComparison, OneSenseAloneIsNotCompared) {
   for (const double d : {0.1, 0.2}) {
     hold(d);
     check(Refusal::none, volts(supply_V));
@@ -139,7 +139,7 @@ TEST(MeterComparison, ASenseAloneIsNotCompared) {
   CHECK_FALSE(comparison.found().has_value());
 }
 
-TEST(MeterComparison, OneMistypedReadingIsRefusedWhicheverItIs) {
+TEST(MeterComparison, AnySingleMistypedReadingIsRefused) {
   for (int wrong = 0; wrong < 4; ++wrong) {
     for (const double by : {0.9, 0.97, 1.03, 1.1}) {
       comparison.forget();
@@ -156,7 +156,7 @@ TEST(MeterComparison, OneMistypedReadingIsRefusedWhicheverItIs) {
   }
 }
 
-TEST(MeterComparison, SwappedReadingsAreRefusedAndForgetTheOthers) {
+TEST(MeterComparison, SwappedReadingsAreRefusedAndDiscardEarlierOnes) {
   hold(0.1);
   check(Refusal::none, volts(supply_V));
   check(Refusal::out_of_range, amperes(supply_V));
@@ -213,7 +213,7 @@ TEST(MeterComparison, NonsenseIsRefused) {
   }
 }
 
-TEST(MeterComparison, WhatTheSensesCannotResolveRemainsAsError) {
+TEST(MeterComparison, SenseResolutionRemainsAsError) {
   // A count of 1.5 mA is a hundredth of 0.15 A, and a hundredth a meter's error: it grows from
   // there.
   MeterComparison::Settings coarse = settings;
@@ -227,7 +227,7 @@ TEST(MeterComparison, WhatTheSensesCannotResolveRemainsAsError) {
 }
 
 /// A converter without noise gives whole counts, and each power lies between two of them.
-TEST(MeterComparison, WholeCountsAreNoReasonToRefuse) {
+TEST(MeterComparison, QuantisedReadingsAreNotRefused) {
   supply_told = 1.0;
   for (int i = 0; i < 400; ++i) {
     const double counts = 8.0 + 0.13 * i;
@@ -241,7 +241,7 @@ TEST(MeterComparison, WholeCountsAreNoReasonToRefuse) {
   }
 }
 
-TEST(MeterComparison, AMistypedReadingAtFewCountsIsRefusedOrInTheRemainingError) {
+TEST(MeterComparison, AMistypedReadingAtFewCountsIsRefusedOrWithinTheError) {
   supply_told = 1.0;
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
@@ -270,7 +270,7 @@ TEST(MeterComparison, TooCoarseASenseIsRefused) {
   CHECK_FALSE(comparison.found().has_value());
 }
 
-TEST(MeterComparison, WaitsForASteadySecondFromItsFirstTickOn) {
+TEST(MeterComparison, WaitsForASteadySecondFromTheFirstTick) {
   duty = 0.1;
   for (int i = 0; i < 999; ++i)
     comparison.step(duty, supply_told * supply_V, current_told * line_A());
@@ -279,7 +279,7 @@ TEST(MeterComparison, WaitsForASteadySecondFromItsFirstTickOn) {
   check(Refusal::none, volts(supply_V));
 }
 
-TEST(MeterComparison, FollowsTheSensesAsSlowlyAsAMetersDisplay) {
+TEST(MeterComparison, FiltersTheSensesAsSlowlyAsAMetersDisplay) {
   supply_told = current_told = 1.0;
   for (const double d : {0.1, 0.2}) {
     hold(d, 3.0);

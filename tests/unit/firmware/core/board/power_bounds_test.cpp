@@ -55,7 +55,7 @@ void check_holds(const PowerBounds& bounds, const Reading& r) {
 
 TEST_GROUP(PowerBounds){};
 
-TEST(PowerBounds, HoldTheTruthWhateverTheSensesHideUntilTheyWereCompared) {
+TEST(PowerBounds, ContainTheTruthForAnyUndetectedSenseErrors) {
   CHECK(rc::check("gains that neither supply nor resistance show", [] {
     const double true_V = *test::reals(10.8, 13.2);
     const double supply_gain = *test::reals(10.8 / true_V, 13.2 / true_V);
@@ -65,7 +65,7 @@ TEST(PowerBounds, HoldTheTruthWhateverTheSensesHideUntilTheyWereCompared) {
   }));
 }
 
-TEST(PowerBounds, HoldTheTruthWithinWhatAComparisonLeft) {
+TEST(PowerBounds, ContainTheTruthWithinTheErrorLeftByAComparison) {
   CHECK(rc::check("gains within the remaining error", [] {
     // Measured over true is the inverse of the ratio that the comparison bounds.
     const double supply_gain = 1.0 / *test::reals(0.97, 1.03);
@@ -74,7 +74,7 @@ TEST(PowerBounds, HoldTheTruthWithinWhatAComparisonLeft) {
   }));
 }
 
-TEST(PowerBounds, AreNoWiderAtAnySupplyThanTheWorst) {
+TEST(PowerBounds, AreNoWiderThanTheWorstCaseAtAnySupply) {
   CHECK(rc::check("a supply that is no fault", [] {
     const double supply_V = *test::reals(10.8, 13.2);
     for (const PowerBounds& bounds : {PowerBounds(settings()), compared(0.02)}) {
@@ -93,19 +93,19 @@ TEST(PowerBounds, OfComparedSensesAreNarrow) {
   CHECK_COMPARE(power_W.min, >, 0.7 * 4.32);
 }
 
-TEST(PowerBounds, TellOfACurrentThatNoDutySet) {
+TEST(PowerBounds, IncludeACurrentAtZeroDuty) {
   const auto power_W = compared(0.02).step(0.0, 12.0, present(0.51), {cold_Ohm, cold_Ohm});
   DOUBLES_EQUAL(12.0 * 0.5 * 1.02 * 1.02, power_W.max, 1e-9);
   DOUBLES_EQUAL(0.0, power_W.min, 0.0);
 }
 
-TEST(PowerBounds, TellOfADutyThatTheSenseDoesNotShow) {
+TEST(PowerBounds, IncludeADutyWithoutSensedCurrent) {
   const auto power_W = compared(0.02).step(0.3, 12.0, present(0.0), {cold_Ohm, cold_Ohm});
   DOUBLES_EQUAL(4.32 * 1.02 * 1.02, power_W.max, 1e-9);
   DOUBLES_EQUAL(0.0, power_W.min, 0.0);
 }
 
-TEST(PowerBounds, WithoutAReadingAreTheGreatestPower) {
+TEST(PowerBounds, WithoutAReadingReachTheMaxPower) {
   for (const PowerBounds& bounds : {PowerBounds(settings()), compared(0.02)}) {
     Measured absent = present(0.36);
     absent.present = false;
@@ -116,7 +116,7 @@ TEST(PowerBounds, WithoutAReadingAreTheGreatestPower) {
   }
 }
 
-TEST(PowerBounds, OfSensesThatWereNotComparedHaveTheLeastThatTheDutyCanGive) {
+TEST(PowerBounds, OfUncomparedSensesTakeTheLowerOfDutyAndSense) {
   // The sense reads more current than the duty allows: the duty sets the lower bound.
   const auto power_W = PowerBounds(settings()).step(0.3, 12.0, present(0.5), {cold_Ohm, cold_Ohm});
   DOUBLES_EQUAL(0.3 * 10.8 * 10.8 / (1.3 * cold_Ohm), power_W.min, 1e-9);

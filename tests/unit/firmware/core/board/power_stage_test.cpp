@@ -17,7 +17,7 @@ TEST(PowerStage, DutyIsPowerTimesResistanceOverVoltageSquared) {
   CHECK_FALSE(out.clipped);
 }
 
-TEST(PowerStage, ReportsThePowerThatItsStepsReallyGive) {
+TEST(PowerStage, ReportsThePowerOfItsQuantisedDuty) {
   PowerStage stage({255, false});
   const auto out = stage.step(1.0, 10.0, 12.0, 1e3);
   LONGS_EQUAL(18, out.step);
@@ -45,7 +45,7 @@ TEST(PowerStage, ErrorFeedbackGivesTheWantedPowerOnAverage) {
   CHECK_COMPARE(std::abs(sum_without / 5000.0 - 1.0), >, 0.01);
 }
 
-TEST(PowerStage, GivesNothingForWhatIsNotAPositiveNumber) {
+TEST(PowerStage, GivesNothingForNonPositiveOrNaNRequests) {
   PowerStage stage({4095, true});
   const double nan = std::nan("");
   const double inputs[][3] = {{nan, 10.0, 12.0},     {1.0, nan, 12.0},    {1.0, 10.0, nan},
@@ -69,7 +69,7 @@ TEST(PowerStage, GivesNothingWhereNoPowerIsAllowed) {
   }
 }
 
-TEST(PowerStage, OwesNothingAfterAReset) {
+TEST(PowerStage, ResetClearsTheErrorFeedback) {
   PowerStage fresh({255, true});
   PowerStage used({255, true});
   for (int i = 0; i < 3; ++i)

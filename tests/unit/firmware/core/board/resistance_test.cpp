@@ -18,7 +18,7 @@ TEST(Resistance, IsDutyTimesVoltageOverAveragedCurrent) {
   DOUBLES_EQUAL(0.0, r.age_s(), 0.0);
 }
 
-TEST(Resistance, IsOldUntilItIsMeasured) {
+TEST(Resistance, IsStaleUntilMeasured) {
   const Resistance r({}, tick_s);
   CHECK(r.age_s() > 1e6);
 }
@@ -54,7 +54,7 @@ TEST(Resistance, SmoothsNoise) {
   DOUBLES_EQUAL(10.0, r.value_Ohm(), 0.02);
 }
 
-TEST(Resistance, OutsideItsRangeIsNotTakenOver) {
+TEST(Resistance, OutOfRangeMeasurementsAreIgnored) {
   Resistance::Settings settings;
   settings.initial_Ohm = 9.0;
   Resistance r(settings, tick_s);
@@ -62,7 +62,7 @@ TEST(Resistance, OutsideItsRangeIsNotTakenOver) {
   DOUBLES_EQUAL(9.0, r.value_Ohm(), 0.0);
 }
 
-TEST(Resistance, TakesOverWhatAProbeMeasured) {
+TEST(Resistance, TakesOverTheResultOfAProbe) {
   Resistance r({}, tick_s);
   r.step(0.25, 12.0, 0.25);
   r.set(7.0);
@@ -70,7 +70,7 @@ TEST(Resistance, TakesOverWhatAProbeMeasured) {
   DOUBLES_EQUAL(0.0, r.age_s(), 0.0);
 }
 
-TEST(Resistance, AfterAProbeIsWhatIsMeasuredNextWithoutSmoothing) {
+TEST(Resistance, FirstMeasurementAfterAProbeIsNotSmoothed) {
   Resistance r({}, tick_s);
   r.step(0.25, 12.0, 0.25);
   r.set(7.0);

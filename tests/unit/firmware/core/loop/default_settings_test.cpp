@@ -31,7 +31,7 @@ TEST(DefaultSettings, OfABoard) {
   }
 }
 
-TEST(DefaultSettings, OfAChannelKnowNothingThatWasLearned) {
+TEST(DefaultSettings, OfAChannelHaveNothingLearned) {
   const ChannelSettings channel;
   CHECK_FALSE(channel.has_muscle || channel.muscle_identified);
   DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
@@ -76,7 +76,7 @@ TEST(DefaultSettings, OfAHeater) {
   DOUBLES_EQUAL(1e5, resistance.max_Ohm, 0.0);
 }
 
-TEST(DefaultSettings, OfAMusclesHeatNarrowNothing) {
+TEST(DefaultSettings, OfThermalBoundsAreTheWidest) {
   const board::ThermalSettings thermal;
   CHECK_FALSE(thermal.weighed());
   DOUBLES_EQUAL(0.13, thermal.bounds.min_mass_J_per_K, 0.0);
@@ -122,7 +122,7 @@ TEST(DefaultSettings, OfAProof) {
     DOUBLES_EQUAL(0.0, limit, 0.0);
 }
 
-TEST(DefaultSettings, OfWhatIsLearnedChangeNothing) {
+TEST(DefaultSettings, OfLearnedValuesChangeNothing) {
   const board::Calibration calibration;
   DOUBLES_EQUAL(0.0, calibration.position_offset_m, 0.0);
   DOUBLES_EQUAL(1.0, calibration.position_scale, 0.0);

@@ -31,7 +31,7 @@ void move(Estimation& estimation, int from, int to) {
 
 TEST_GROUP(Estimation){};
 
-TEST(Estimation, BeginsWithTheFirstOfItsEstimators) {
+TEST(Estimation, StartsWithItsFirstEstimator) {
   Estimation estimation(two_alike(), tick_s);
   LONGS_EQUAL(2, estimation.estimators());
   LONGS_EQUAL(0, estimation.chosen());
@@ -41,7 +41,7 @@ TEST(Estimation, BeginsWithTheFirstOfItsEstimators) {
   LONGS_EQUAL(1, estimation.chosen());
 }
 
-TEST(Estimation, ThatIsChosenStartsItsSignalsAnewAndKeepsWhatItLearned) {
+TEST(Estimation, ChoosingAnEstimatorRestartsItsFiltersAndKeepsItsParameters) {
   Estimation chosen(two_alike(), tick_s);
   Estimation restarted(two_alike(), tick_s);
   Estimation goes_on(two_alike(), tick_s);

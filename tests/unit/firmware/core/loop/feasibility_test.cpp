@@ -67,7 +67,7 @@ TEST_GROUP(Feasibility) {
   }
 };
 
-TEST(Feasibility, TheHeldPowerIsTheOneThatDeratingLeaves) {
+TEST(Feasibility, TheHeldPowerIsThatLeftByDerating) {
   channel.supervision.proof_of_response = false;
   const Feasibility f = found();
   CHECK(f.held_by == LimitedBy::temperature);
@@ -78,7 +78,7 @@ TEST(Feasibility, TheHeldPowerIsTheOneThatDeratingLeaves) {
   DOUBLES_EQUAL(gain_m_per_W() * f.held_W, f.travel_m, 1e-12);
 }
 
-TEST(Feasibility, ALimitThatHeatDoesNotReachIsTheMaximum) {
+TEST(Feasibility, WithoutDeratingTheMaximumPowerLimits) {
   channel.supervision.proof_of_response = false;
   channel.limiter.max_W = 0.5;
   const Feasibility f = found();
@@ -86,18 +86,18 @@ TEST(Feasibility, ALimitThatHeatDoesNotReachIsTheMaximum) {
   DOUBLES_EQUAL(0.5, f.held_W, 1e-12);
 }
 
-TEST(Feasibility, ALowSupplyGivesNoMoreThanItCan) {
+TEST(Feasibility, ALowSupplyLimitsThePower) {
   channel.heater.cold_resistance_Ohm = 50.0;
   DOUBLES_EQUAL(10.8 * 10.8 / 50.0, found().max_W, 1e-12);
 }
 
-TEST(Feasibility, WhatIsNotProvenToAnswerHoldsLess) {
+TEST(Feasibility, ProofOfResponseLowersTheHeldPower) {
   const Feasibility f = found();
   CHECK(f.held_by == LimitedBy::unproven);
   CHECK(f.held_W < found().max_W);
 }
 
-TEST(Feasibility, RiseAndFallAreTheModels) {
+TEST(Feasibility, RiseAndFallMatchTheModel) {
   const Feasibility f = found();
   double position_m = 0.1 * f.travel_m;
   DOUBLES_EQUAL(time_to(0.9 * f.travel_m, position_m, f.max_W), f.rise_s, 1e-3);
@@ -109,7 +109,7 @@ TEST(Feasibility, TheFastestSineNeedsAllThePowerOrNone) {
 }
 
 /// For a muscle with a load that only a simulation knows.
-TEST(Feasibility, ALoadTakesPowerToHoldAndGivesPowerToFall) {
+TEST(Feasibility, ALoadCostsPowerToHoldAndSpeedsUpTheFall) {
   channel.supervision.proof_of_response = false;
   const Feasibility free = found();
   channel.simulated.load_N = 0.1;
@@ -128,13 +128,13 @@ TEST(Feasibility, ALoadTakesPowerToHoldAndGivesPowerToFall) {
   CHECK_TRUE(std::isinf(found().half_travel_period_s));
 }
 
-TEST(Feasibility, ThroughASlowModelAStepOverAllOfTheTravelIsFeasible) {
+TEST(Feasibility, ThroughASlowModelAFullTravelStepIsFeasible) {
   const Feasibility f = found();
   DOUBLES_EQUAL(f.travel_m, f.steps[0]->up_m, 0.0);
   CHECK(is_feasible(0.0, f.travel_m, f.max_W));
 }
 
-TEST(Feasibility, LargerStepsThanToldAskForMoreThanThereIs) {
+TEST(Feasibility, LargerStepsThanReportedAreInfeasible) {
   channel.controllers[0].model = control::poles_model({9.0, 9.0, 9.0});
   const Feasibility f = found();
   const FeasibleSteps steps = f.steps[0].value();
@@ -144,12 +144,12 @@ TEST(Feasibility, LargerStepsThanToldAskForMoreThanThereIs) {
   CHECK_FALSE(is_feasible(f.travel_m, f.travel_m - 1.02 * steps.down_m, f.max_W));
 }
 
-TEST(Feasibility, OpenLoopFollowsNoSteps) {
+TEST(Feasibility, OpenLoopHasNoFeasibleSteps) {
   channel.controllers[0].kind = control::ControllerKind::power;
   CHECK_FALSE(found().steps[0].has_value());
 }
 
-TEST(Feasibility, ItMayBeArmedWhenTheSlowestCoolingIsOver) {
+TEST(Feasibility, MayBeArmedAfterTheSlowestCooling) {
   const board::ThermalSettings& t = channel.thermal;
   control::RiseIntervalObserver interval(t.bounds, 0.001);
   interval.reset(t.boot_rise_K);
@@ -159,7 +159,7 @@ TEST(Feasibility, ItMayBeArmedWhenTheSlowestCoolingIsOver) {
   DOUBLES_EQUAL(time_s, found().armable_s, 0.002);
 }
 
-TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
+TEST(Feasibility, TheSensorMustCoverTheRestPositionInTheColdestAir) {
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
   channel.supervision.min_position_m = -0.0081;
   const Feasibility f = found();
@@ -176,7 +176,7 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   CHECK_FALSE(found().rest_seen);
 }
 
-TEST(Feasibility, InTheColdestAirItIsHeldSoMuchLower) {
+TEST(Feasibility, TheColdestAirLowersTheHeldTravel) {
   channel.supervision.proof_of_response = false;
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 20.0};
   const Feasibility f = found();
@@ -193,7 +193,7 @@ TEST(Feasibility, InTheColdestAirItIsHeldSoMuchLower) {
   DOUBLES_EQUAL(0.0, found().cold_travel_m, 0.0);
 }
 
-TEST(Feasibility, HeldStillTheWorstCooledMusclePullsHardest) {
+TEST(Feasibility, PullIsThatOfTheWorstCooledMuscle) {
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
   channel.thermal.bounds.min_transfer_W_per_K = 0.045;
   channel.muscle.force_per_kelvin_N_per_K = 0.01;
@@ -203,7 +203,7 @@ TEST(Feasibility, HeldStillTheWorstCooledMusclePullsHardest) {
   DOUBLES_EQUAL(0.01 * (30.0 - 15.0), hottest_pull_N(channel, 0.9), 1e-12);
 }
 
-TEST(Feasibility, TheGreatestPowerIsWhatTheLowestSupplyGives) {
+TEST(Feasibility, MaxPowerIsThatAtTheLowestSupply) {
   channel.supervision.proof_of_response = false;
   board.supervision.min_supply_V = 10.0;
   board.supervision.max_supply_V = 14.0;

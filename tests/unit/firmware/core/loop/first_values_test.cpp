@@ -36,7 +36,7 @@ static void check_absent(const board::Measured& measured) {
 }
 ;
 
-TEST(FirstValues, OfWhatABoardIsJudgedByAccuseNobody) {
+TEST(FirstValues, OfBoardInputsCauseNoFault) {
   const BoardInputs e;
   check_absent(e.supply);
   LONGS_EQUAL(0, e.skipped);
@@ -47,14 +47,14 @@ TEST(FirstValues, OfWhatABoardIsJudgedByAccuseNobody) {
   CHECK_FALSE(e.node_conflict || e.configuration_changed || e.self_test_failed);
 }
 
-TEST(FirstValues, OfAPlaybackAreThatNoKnotIsThereOrTaken) {
+TEST(FirstValues, OfAPlaybackAreEmpty) {
   const PlaybackStatus status;
   CHECK(status.state == PlaybackState::empty);
   LONGS_EQUAL(0, status.room);
   DOUBLES_EQUAL(0.0, status.buffered_s, 0.0);
 }
 
-TEST(FirstValues, OfWhatAChannelIsJudgedByAccuseNobody) {
+TEST(FirstValues, OfChannelInputsCauseNoFault) {
   const AxisInputs axis;
   check_absent(axis.position);
   check_all_0({axis.sensor_m, axis.position_elapsed_s, axis.demanded_W, axis.from_position_K});
@@ -73,7 +73,7 @@ TEST(FirstValues, OfWhatAChannelIsJudgedByAccuseNobody) {
               commands.obeyed);
 }
 
-TEST(FirstValues, OfWhatABoardTellsItsChannelsLetNothingHeat) {
+TEST(FirstValues, OfABoardTickAllowNoHeating) {
   const BoardTick tick;
   LONGS_EQUAL(0, tick.time.count());
   DOUBLES_EQUAL(0.0, tick.supply_V, 0.0);
@@ -83,7 +83,7 @@ TEST(FirstValues, OfWhatABoardTellsItsChannelsLetNothingHeat) {
   LONGS_EQUAL(1, tick.periods);
 }
 
-TEST(FirstValues, OfACommandAskForNothing) {
+TEST(FirstValues, OfACommandRequestNothing) {
   const Command command;
   LONGS_EQUAL(0, command.channel);
   CHECK(command.verb == Verb::none && command.source == Source::local);
@@ -97,7 +97,7 @@ TEST(FirstValues, OfACommandAskForNothing) {
   CHECK(std::isnan(Reply(Refusal::busy).nearest));
 }
 
-TEST(FirstValues, OfWhatOtherThreadsTellAndAreTold) {
+TEST(FirstValues, OfHealthAndTimingAreNeutral) {
   const Health health;
   UNSIGNED_LONGS_EQUAL(0, health.telemetry_heartbeats);
   CHECK(health.bus == hal::CanState::active);
@@ -111,7 +111,7 @@ TEST(FirstValues, OfWhatOtherThreadsTellAndAreTold) {
   LONGS_EQUAL(0, NextTick{}.skipped);
 }
 
-TEST(FirstValues, OfASnapshotAreThoseOfABoardThatDoesNothing) {
+TEST(FirstValues, OfASnapshotAreThoseOfAnIdleBoard) {
   const Snapshot s;
   LONGS_EQUAL(0, s.time.count());
   LONGS_EQUAL(0, s.channel);
@@ -132,7 +132,7 @@ TEST(FirstValues, OfASnapshotAreThoseOfABoardThatDoesNothing) {
   CHECK_TRUE(s.margin.judged);
 }
 
-TEST(FirstValues, OfPowerAreNone) {
+TEST(FirstValues, OfPowerAreZero) {
   const board::AppliedPower power;
   check_all_0({power.power_W, power.duty, power.dither_W});
   CHECK_FALSE(power.limited);
@@ -146,7 +146,7 @@ TEST(FirstValues, OfPowerAreNone) {
   DOUBLES_EQUAL(0.0, probed.resistance_Ohm, 0.0);
 }
 
-TEST(FirstValues, OfWhatIsPlannedAreNothing) {
+TEST(FirstValues, OfPlansAreNeutral) {
   const Dither dither;
   LONGS_EQUAL(1, dither.half_steps);
   DOUBLES_EQUAL(0.0, dither.amplitude_W, 0.0);
@@ -169,7 +169,7 @@ TEST(FirstValues, OfWhatIsPlannedAreNothing) {
                promise.unexplained_m, promise.error_m()});
 }
 
-TEST(FirstValues, OfWhatAMuscleCanDoAreNothing) {
+TEST(FirstValues, OfCapabilitiesAreZero) {
   const Feasibility f;
   check_all_0({f.max_W, f.held_W, f.travel_m, f.rise_s, f.fall_s, f.half_travel_period_s,
                f.air_shift_m, f.armable_s});
@@ -181,7 +181,7 @@ TEST(FirstValues, OfWhatAMuscleCanDoAreNothing) {
   CHECK_FALSE(steps.shaped);
 }
 
-TEST(FirstValues, OfASmallSignalThatWasNeverStartedAreNoMotion) {
+TEST(FirstValues, OfAnUnstartedSmallSignalAreNoMotion) {
   SmallSignal measuring;
   CHECK_FALSE(measuring.running());
   check_all_0({measuring.power_W(), measuring.response_ratio()});

@@ -43,7 +43,7 @@ TEST_GROUP(HangingArm) {
   }
 };
 
-TEST(HangingArm, HeatHoldsTheMusclesOwnStretchAndWhatTheWeightPullsMoreThanAtTheAngleZero) {
+TEST(HangingArm, HeatBalancesTheMusclesStretchAndTheExtraPullOfTheWeight) {
   for (const double angle_deg : {0.0, 10.0, 30.0, 45.0}) {
     const double position_m = angle_deg * rad_per_deg * lever_m;
     const double weight_N = weight_Nm * std::sin((angle_deg + 45.0) * rad_per_deg) / lever_m;
@@ -57,7 +57,7 @@ TEST(HangingArm, HeatHoldsTheMusclesOwnStretchAndWhatTheWeightPullsMoreThanAtThe
   }
 }
 
-TEST(HangingArm, TipsOverWhereTheWeightEasesByMoreThanTheMuscle) {
+TEST(HangingArm, TipsOverWhereTheWeightEasesFasterThanTheMuscle) {
   const double max_m = 90.0 * rad_per_deg * lever_m;
   DOUBLES_EQUAL(max_m, arm().tips_over_m(max_m), 0.0);
   own_N_per_m = 8.0;
@@ -80,7 +80,7 @@ TEST(HangingArm, IsHeldAsFarAsThePowerAllows) {
   DOUBLES_EQUAL(f.fall_s, f.rise_s, 0.02 * f.fall_s);  // to where its power just holds it
 }
 
-TEST(HangingArm, AtALeverThatDependsOnTheAngleTheWeightPullsByTheLeverThere) {
+TEST(HangingArm, WithAVariableLeverTheWeightPullsAtTheLocalLever) {
   const std::array<double, 3> radii_m{0.012, 0.015, 0.012};
   channel.joint.lever = control::Lever(-1.0, 1.0, radii_m);
   const double position_m = channel.joint.lever.arc_m(0.5);

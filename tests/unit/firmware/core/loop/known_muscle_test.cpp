@@ -9,7 +9,7 @@ using namespace supercoil;
 
 TEST_GROUP(PublishedMuscle){};
 
-TEST(PublishedMuscle, TellsEachQuantityAtItsPlaceAndNoOther) {
+TEST(PublishedMuscle, ReturnsEachQuantityAtItsPlace) {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i)
     known[i] = 0.5 + static_cast<double>(i);
@@ -114,7 +114,7 @@ KnownMuscle known_in(const PlaceInJoint& joint) {
 
 TEST_GROUP(ToldJoint){};
 
-TEST(ToldJoint, IsTheOneThatItsBoardHas) {
+TEST(ToldJoint, MatchesTheJointOfItsBoard) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   for (const control::Lever& lever : {control::Lever(0.02), control::Lever(-0.5, 0.25, radii_m)}) {
     for (const int direction : {1, -1}) {
@@ -128,7 +128,7 @@ TEST(ToldJoint, IsTheOneThatItsBoardHas) {
   LONGS_EQUAL(0, joint_from(known_in({})).direction);
 }
 
-TEST(ToldJoint, ATableThatCannotBeIsLeftOut) {
+TEST(ToldJoint, AnInvalidTableIsIgnored) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   const KnownMuscle right = known_in({1, control::Lever(-0.5, 0.5, radii_m), 1.0});
   CHECK_FALSE(joint_from(right).lever.is_constant());

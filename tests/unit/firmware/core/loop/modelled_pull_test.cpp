@@ -19,7 +19,7 @@ TEST_GROUP(ModelledPull) {
   }
 };
 
-TEST(ModelledPull, IsPretensionAndHeatLessWhatItsOwnStiffnessTakes) {
+TEST(ModelledPull, IsPretensionAndHeatMinusItsOwnStiffness) {
   ModelledPull pull(joint.place_of(0));
   DOUBLES_EQUAL(0.3, pull.at_N(0.0, muscle), 1e-12);
   DOUBLES_EQUAL(0.3 - 20.0 * 0.01, pull.at_N(0.01, muscle), 1e-12);
@@ -36,13 +36,13 @@ TEST(ModelledPull, IsPretensionAndHeatLessWhatItsOwnStiffnessTakes) {
   DOUBLES_EQUAL(2.0, pull.heat_W(), 1e-12);
 }
 
-TEST(ModelledPull, TellsThePowerThatKeepsItTautWithATenthInReserve) {
+TEST(ModelledPull, TautPowerHasATenthInReserve) {
   const ModelledPull pull(joint.place_of(0));
   DOUBLES_EQUAL((1.1 * 20.0 * 0.02 - 0.3) / 0.1, pull.taut_W(0.02, muscle), 1e-12);
   CHECK_COMPARE(pull.taut_W(0.01, muscle), <, 0.0);
 }
 
-TEST(ModelledPull, OfAMuscleWithALeverOfItsOwnIsInItsOwnUnits) {
+TEST(ModelledPull, OfAMuscleWithItsOwnLeverIsInItsOwnUnits) {
   joint.antagonist_lever_ratio = 0.5;
   DOUBLES_EQUAL(0.8, joint.place_of(0).stiffness_ratio, 1e-12);
   DOUBLES_EQUAL(0.2, joint.place_of(1).stiffness_ratio, 1e-12);
@@ -52,7 +52,7 @@ TEST(ModelledPull, OfAMuscleWithALeverOfItsOwnIsInItsOwnUnits) {
   DOUBLES_EQUAL(0.375, joint.place_of(1).stiffness_ratio, 1e-12);
 }
 
-TEST(ModelledPull, IsNotKnownWithoutThePretension) {
+TEST(ModelledPull, IsUnknownWithoutThePretension) {
   joint.pretension_N = NAN;
   const ModelledPull pull(joint.place_of(0));
   CHECK_TRUE(std::isnan(pull.at_N(0.0, muscle)) && std::isnan(pull.taut_W(0.0, muscle)));

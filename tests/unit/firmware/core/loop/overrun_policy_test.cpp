@@ -14,13 +14,13 @@ TEST(OverrunPolicy, InTimeMeansTheNextPeriod) {
   LONGS_EQUAL(0, next.skipped);
 }
 
-TEST(OverrunPolicy, EndingAtTheNextTickIsTooLateForIt) {
+TEST(OverrunPolicy, EndingAtTheNextTickMissesIt) {
   const NextTick next = next_tick(10ms, 11ms, 1ms);
   CHECK(next.wake == 12ms);
   LONGS_EQUAL(1, next.skipped);
 }
 
-TEST(OverrunPolicy, AfterALongStallTicksAreSkippedAndNotCaughtUp) {
+TEST(OverrunPolicy, SkipsTicksAfterALongStallAndDoesNotCatchUp) {
   const NextTick next = next_tick(10ms, 10ms + 5s + 300us, 1ms);
   CHECK(next.wake == 5011ms);
   LONGS_EQUAL(5000, next.skipped);

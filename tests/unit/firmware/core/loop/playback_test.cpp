@@ -48,7 +48,7 @@ TEST_GROUP(Playback) {
   }
 };
 
-TEST(Playback, GoesFromWhereTheMuscleIsToItsLastKnotAndStaysThere) {
+TEST(Playback, MovesFromThePresentPositionToItsLastKnotAndStays) {
   load();
   CHECK(state() == PlaybackState::loaded);
   DOUBLES_EQUAL(0.005, step(50ms), 0.0);
@@ -68,7 +68,7 @@ TEST(Playback, GoesFromWhereTheMuscleIsToItsLastKnotAndStaysThere) {
   CHECK_FALSE(playback.is_over());
 }
 
-TEST(Playback, IsAtTheSamePlaceWhateverTheTickInWhichItBegan) {
+TEST(Playback, PositionDoesNotDependOnTheTickOfTheStart) {
   load();
   start(10ms);
   // Half a tick after its start.
@@ -94,7 +94,7 @@ TEST(Playback, RunsDryHoldsAndIsOverASecondLater) {
   CHECK(state() == PlaybackState::empty);
 }
 
-TEST(Playback, GoesOnWithKnotsThatComeInTime) {
+TEST(Playback, ContinuesWithKnotsThatArriveInTime) {
   CHECK(add(0.0, 0.005) == Refusal::none);
   CHECK(add(1.0, 0.0055, 0.0005) == Refusal::none);
   start(1ms);
@@ -106,7 +106,7 @@ TEST(Playback, GoesOnWithKnotsThatComeInTime) {
   CHECK(state() == PlaybackState::ended);
 }
 
-TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
+TEST(Playback, RefusesAnInfeasibleKnotOnArrival) {
   CHECK(add(0.0, 0.005) == Refusal::none);
   CHECK(add(0.2, 0.015) == Refusal::infeasible);  // heat
   CHECK(add(0.2, 0.001) == Refusal::infeasible);  // cooling
@@ -123,7 +123,7 @@ TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
   LONGS_EQUAL(control::Trajectory::capacity - 2, playback.status().room);
 }
 
-TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
+TEST(Playback, LeavesAPowerMarginForTracking) {
   const double hold_W = capability.theta[3] * 0.006;  // to hold 6 mm permanently
   capability.range.max_W = hold_W / 1.04;
   CHECK(add(0.0, 0.006) == Refusal::none);
@@ -132,7 +132,7 @@ TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
   CHECK(add(5.0, 0.006) == Refusal::infeasible);
 }
 
-TEST(Playback, RefusesAWayThatLeavesTheTravelBetweenItsKnots) {
+TEST(Playback, RefusesAPathThatLeavesTheTravelBetweenKnots) {
   capability.range = {-9.0, 9.0};  // for a joint
   CHECK(add(0.0, 0.0229) == Refusal::none);
   CHECK(add(2.0, 0.0249, 0.001) == Refusal::none);
@@ -145,7 +145,7 @@ TEST(Playback, RefusesAWayThatLeavesTheTravelBetweenItsKnots) {
   CHECK(add(2.0, -0.0179, 0.0) == Refusal::infeasible);
 }
 
-TEST(Playback, StartsOnceFromItsFirstKnotAndNotInThePast) {
+TEST(Playback, StartsOnceAtItsFirstKnotAndNotInThePast) {
   CHECK(start() == Refusal::wrong_state);
   CHECK(add(1.0, 0.006) == Refusal::wrong_state);
   CHECK(add(0.0, 0.005, 0.001) == Refusal::out_of_range);
@@ -196,7 +196,7 @@ TEST(Playback, FollowsTheClockOfItsBusWithoutAJump) {
                 playback.step(now, 0.005), 1e-9);
 }
 
-TEST(Playback, ThatTheBoardItselfStartedGoesByTheBoardsClock) {
+TEST(Playback, ALocalStartUsesTheBoardsClock) {
   load();
   start(1ms, Source::local);
   step(1ms);
@@ -205,7 +205,7 @@ TEST(Playback, ThatTheBoardItselfStartedGoesByTheBoardsClock) {
   DOUBLES_EQUAL(0.0055, playback.step(now, 0.005), 1e-9);
 }
 
-TEST(Playback, KnotsThatAreBackInTimeOrMoreThanAMinuteApartAreRefused) {
+TEST(Playback, RefusesKnotsBackInTimeOrMoreThanAMinuteApart) {
   CHECK(add(0.0, 0.005) == Refusal::none);
   for (const double after_s : {-1.0, 60.1, 1e300, std::nan("")})
     CHECK(add(after_s, 0.005) == Refusal::out_of_range);

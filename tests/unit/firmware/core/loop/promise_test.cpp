@@ -43,7 +43,7 @@ TEST_GROUP(Promise) {
   }
 };
 
-TEST(Promise, TheFirstMotionIsOneThatTheMuscleCanFollow) {
+TEST(Promise, TheFirstMotionIsFeasible) {
   for (const double factor : {0.2, 1.0, 8.0, 40.0}) {
     channel.muscle.thermal_mass_J_per_K = factor * 0.162;
     const Feasibility f = feasibility(channel, board);
@@ -60,14 +60,14 @@ TEST(Promise, TheFirstMotionIsOneThatTheMuscleCanFollow) {
   }
 }
 
-TEST(Promise, TheFirstMotionIsOneSineFromItsLowestPlace) {
+TEST(Promise, TheFirstMotionIsASineFromItsLowestPosition) {
   const double low_m = motion.middle_m - motion.amplitude_m;
   DOUBLES_EQUAL(low_m, motion.at(0.0), 1e-12);
   DOUBLES_EQUAL(motion.middle_m, motion.at(0.25 * motion.period_s), 1e-12);
   DOUBLES_EQUAL(low_m, motion.at(motion.period_s), 1e-12);
 }
 
-TEST(Promise, WhereFullStrokesDidNotFitTheFirstMotionStaysLower) {
+TEST(Promise, WithReducedStrokesTheFirstMotionStaysLower) {
   const Feasibility f = feasibility(channel, board);
   const FirstMotion lower = plan_first_motion(f, 0.07);
   DOUBLES_EQUAL(0.7 * motion.middle_m, lower.middle_m, 1e-12);
@@ -75,7 +75,7 @@ TEST(Promise, WhereFullStrokesDidNotFitTheFirstMotionStaysLower) {
   DOUBLES_EQUAL(motion.period_s, lower.period_s, 1e-12);
 }
 
-TEST(Promise, ASensorsNoiseIsInWhatItShows) {
+TEST(Promise, ErrorIncludesTheSensorsNoise) {
   const double error_m = promised().error_m();
   CHECK(error_m > 10e-6);
   CHECK(error_m < 20e-6);
@@ -88,7 +88,7 @@ TEST(Promise, ASensorsNoiseIsInWhatItShows) {
   CHECK(promised().noise_m < 100e-6);
 }
 
-TEST(Promise, WhatTheModelLeavesCountsByTheMotionsSize) {
+TEST(Promise, ModelErrorScalesWithTheSizeOfTheMotion) {
   const double small_m = unexplained_m(0.0025);
   CHECK(small_m > 0.0);
   DOUBLES_EQUAL(2.0 * small_m, unexplained_m(0.01), 1e-12);
@@ -116,7 +116,7 @@ TEST(Promise, AProbeCountsOnlyWhereThePowerIsLowForLong) {
   DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
 }
 
-TEST(Promise, AMotionThatTellsNothingIsDithered) {
+TEST(Promise, ATooSmallMotionAddsADither) {
   DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
   motion.amplitude_m = 100e-6;
   DOUBLES_EQUAL(20e-6 / std::numbers::sqrt2, promised().dither_m, 1e-12);
@@ -124,7 +124,7 @@ TEST(Promise, AMotionThatTellsNothingIsDithered) {
   DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
 }
 
-TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
+TEST(Promise, PowerQuantisationCountsForTheDurationOfARounding) {
   // A step of 13.2 V at 10 Ω, through a first-order lag of 1.82 s.
   channel.heater.pwm_steps = 255;
   const double step_m = channel.muscle.dc_gain_m_per_W() * 13.2 * 13.2 / 10.0 / 255.0;
@@ -140,7 +140,7 @@ TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
   DOUBLES_EQUAL(step_m / std::sqrt(12.0), promised().pwm_m, 1e-12);
 }
 
-TEST(Promise, PowerThatComesLateCountsByHowFarTheMotionGoesMeanwhile) {
+TEST(Promise, PowerDelayCountsByTheMotionDuringIt) {
   DOUBLES_EQUAL(0.0, promised().delay_m, 0.0);
   channel.heater.delay_s = 0.02;
   const double turn = 2.0 * std::numbers::pi / motion.period_s;
@@ -150,7 +150,7 @@ TEST(Promise, PowerThatComesLateCountsByHowFarTheMotionGoesMeanwhile) {
   CHECK(promised().error_m() > promised().delay_m);
 }
 
-TEST(Promise, ALoopThatRingsIsPromisedNothing) {
+TEST(Promise, ARingingLoopGetsNoPromise) {
   CHECK_TRUE(is_promised_for(channel.controllers[0], channel, board.step_s()));
   // The loop stays stable.
   const auto modulus = [&] {
@@ -169,7 +169,7 @@ TEST(Promise, ALoopThatRingsIsPromisedNothing) {
   CHECK_FALSE(is_promised_for(channel.controllers[0], channel, board.step_s()));
 }
 
-TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
+TEST(Promise, TheBoardsMuscleReplacesTheFilesMuscle) {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i)
     known[i] = 1.0 + static_cast<double>(i);

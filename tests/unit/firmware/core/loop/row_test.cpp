@@ -11,7 +11,7 @@ using namespace supercoil;
 
 TEST_GROUP(RowOf){};
 
-TEST(RowOf, HasAFlagOfItsOwnForEach) {
+TEST(RowOf, FlagsAreDistinctBits) {
   constexpr std::array flags{row_probing,   row_trusted,    row_limited,
                              row_proof_off, row_oscillated, row_slack};
   unsigned all = 0;
@@ -36,7 +36,7 @@ TEST(RowOf, HasAFlagOfItsOwnForEach) {
   LONGS_EQUAL(row_oscillated, row_of(oscillating).flags);
 }
 
-TEST(RowOf, HasEachNumber) {
+TEST(RowOf, CopiesEachNumber) {
   struct Quantity {
     double Snapshot::*from;
     float Row::*to;
@@ -65,7 +65,7 @@ TEST(RowOf, HasEachNumber) {
   }
 }
 
-TEST(RowOf, HasWhatTakesTurns) {
+TEST(RowOf, CopiesMultiplexedValues) {
   Snapshot s;
   s.progress = 0.5F;
   s.gain = {control::Gain::proportional, 0.25};

@@ -42,7 +42,7 @@ TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
 }
 
 /// Each pulse is judged by itself: a low current in the first cannot offset the second.
-TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
+TEST(SelfTest, DetectsOneAndAHalfTimesTheIdleCurrentInEitherPulse) {
   const auto past_pump = [](SelfTest::Lines l) { return l.pulse && l.enable ? 1.5 * idle_A : 0.0; };
   CHECK(outcome(past_pump) == SelfTest::Outcome::pump_does_not_open);
   const auto past_enable = [](SelfTest::Lines l) {
@@ -52,7 +52,7 @@ TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
 }
 
 /// Nor can a low current from before an interruption.
-TEST(SelfTest, BeginsItsMeansAnewAfterAnInterruption) {
+TEST(SelfTest, RestartsItsMeansAfterAnInterruption) {
   SelfTest test({0.02}, tick_s);
   int pulse_ticks = 0;
   while (pulse_ticks < 28) {
@@ -79,7 +79,7 @@ TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
   LONGS_EQUAL(60, pulses);
 }
 
-TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
+TEST(SelfTest, WaitsForAnEarlierRunsChargePumpToDecay) {
   SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 20; ++i) {
     CHECK_FALSE(test.lines().pulse);
@@ -93,7 +93,7 @@ TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
   CHECK(outcome(current) == SelfTest::Outcome::passed);
 }
 
-TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
+TEST(SelfTest, DetectsAStuckOnSwitchAsSoonAsTheSupplyCloses) {
   SelfTest test({0.02}, tick_s);
   int hot_ticks = 0;
   while (!test.passed() && !test.failed()) {
@@ -105,7 +105,7 @@ TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
   CHECK_COMPARE(hot_ticks, <=, 10);
 }
 
-TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
+TEST(SelfTest, WaitsColdWhileNotAllowedAndRestarts) {
   SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 90; ++i)
     test.step(true, 0.0, idle_A);
@@ -123,7 +123,7 @@ TEST(SelfTest, FailsOnACurrentOfNaN) {
   CHECK(outcome(current) == SelfTest::Outcome::pump_does_not_open);
 }
 
-TEST(SelfTest, ThatIsDecidedStaysSo) {
+TEST(SelfTest, KeepsItsOutcome) {
   for (const bool well : {true, false}) {
     SelfTest test({0.02}, tick_s);
     const auto step = [&](double current_A) { test.step(true, current_A, idle_A); };
@@ -144,7 +144,7 @@ TEST(SelfTest, FailsWhereAPulseIsTooShortToBeMeasured) {
   CHECK(test.outcome() == SelfTest::Outcome::pump_does_not_open);
 }
 
-TEST(SelfTest, TakesItsTimeFromTheFirstTickOn) {
+TEST(SelfTest, CountsTimeFromTheFirstTick) {
   SelfTest test({0.02}, tick_s);
   int ticks = 0;
   for (; !test.passed(); ++ticks)

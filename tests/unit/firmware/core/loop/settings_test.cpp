@@ -74,7 +74,7 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
   check_says("must not exceed max_co_contraction_W", "joint");
 }
 
-TEST(BoardSettingsCheck, ABundleIsProvenByItsLeaderAlone) {
+TEST(BoardSettingsCheck, OnlyTheLeaderOfABundleMayHaveAProofOfResponse) {
   settings.channels.resize(3);
   add_bundle(settings, {{0, 2}});
   CHECK_FALSE(check(settings).has_value());
@@ -104,7 +104,7 @@ TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
   CHECK(contradictions(controller).empty());
 }
 
-TEST(BoardSettingsCheck, AnEstimatorThatIsNoneIsNamed) {
+TEST(BoardSettingsCheck, AnUnknownEstimatorKindIsNamed) {
   control::EstimatorSettings estimator;
   CHECK(contradictions(estimator).empty());
   for (const std::size_t none : {control::estimator_names.size(), std::size_t{200}}) {
@@ -115,7 +115,7 @@ TEST(BoardSettingsCheck, AnEstimatorThatIsNoneIsNamed) {
   }
 }
 
-TEST(BoardSettingsCheck, WhatFixedPointHoldsDependsOnTheTravelThePowerAndTheStep) {
+TEST(BoardSettingsCheck, FixedPointRangeDependsOnTravelPowerAndStep) {
   ChannelSettings channel;
   control::ControllerSettings controller;
   controller.arithmetic = control::Arithmetic::q8_24;
@@ -133,7 +133,7 @@ TEST(BoardSettingsCheck, WhatFixedPointHoldsDependsOnTheTravelThePowerAndTheStep
 }
 
 /// From any law and model, with any values changed at run time.
-TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
+TEST(BoardSettingsCheck, StoredTuningRestoresTheSameController) {
   const auto with = [](std::size_t kind, double model, double factor) {
     control::ControllerSettings c;
     for (std::size_t i = 0; i < control::tunable_count; ++i) {
@@ -211,7 +211,7 @@ TEST(BoardSettingsCheck, StoredTuningOfAnEstimatorThatCannotRunIsDroppedAndNamed
   DOUBLES_EQUAL(0.5, channel.estimators[0].gradient.normalisation, 0.0);
 }
 
-TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {
+TEST(BoardSettingsCheck, LoopDelayIsATickPlusTheHeatersDelay) {
   ChannelSettings channel;
   channel.heater.delay_s = 0.004;
   DOUBLES_EQUAL(0.005, loop_delay_s(channel, 0.001), 1e-15);
@@ -234,7 +234,7 @@ TEST_GROUP(AppliedSettings) {
   }
 };
 
-TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
+TEST(AppliedSettings, LearnedValuesReplaceConfiguredOnes) {
   const control::PhysicalParameters configured = channel.muscle;
   apply_learned(channel, learned);
   CHECK(channel.configured_muscle == configured);
@@ -249,7 +249,7 @@ TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
   CHECK(channel.identification == learned.identification);
 }
 
-TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
+TEST(AppliedSettings, ASetWithoutAMuscleKeepsTheConfiguredMuscle) {
   learned.has_muscle = false;
   const ChannelSettings before = channel;
   apply_learned(channel, learned);
@@ -264,7 +264,7 @@ TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
   CHECK(channel.tuning == learned.tuning);
 }
 
-TEST(AppliedSettings, OfMoreThanFourControllersTheFirstFourAreTuned) {
+TEST(AppliedSettings, OnlyTheFirstFourControllersAreTuned) {
   const std::size_t integral = control::tunable_named("integral_W_per_m_s");
   channel.controllers.resize(5);
   for (control::ControllerSettings& controller : channel.controllers)
@@ -276,14 +276,14 @@ TEST(AppliedSettings, OfMoreThanFourControllersTheFirstFourAreTuned) {
   DOUBLES_EQUAL(1100.0, channel.controllers[4].pi.integral_W_per_m_s, 0.0);
 }
 
-TEST(AppliedSettings, AMuscleThatIsStoredAsConfiguredWasNotIdentified) {
+TEST(AppliedSettings, AStoredMuscleEqualToTheConfiguredOneIsNotIdentified) {
   learned.muscle = channel.muscle;
   apply_learned(channel, learned);
   CHECK_TRUE(channel.has_muscle);
   CHECK_FALSE(channel.muscle_identified);
 }
 
-TEST(AppliedSettings, BoundsOfPowerKnowOfTheComparisonOfTheSenses) {
+TEST(AppliedSettings, PowerBoundsUseTheSenseComparison) {
   CHECK_FALSE(power_bounds(channel, board).compared());
   channel.senses.error_ratio = 0.02;
   CHECK_TRUE(power_bounds(channel, board).compared());
@@ -294,7 +294,7 @@ TEST(AppliedSettings, BoundsOfPowerKnowOfTheComparisonOfTheSenses) {
   DOUBLES_EQUAL(0.98 * 0.98 * 0.9, power_bounds(channel, board).true_over_measured().min, 1e-12);
 }
 
-TEST(AppliedSettings, TheProofRestsOnWhatIsConfiguredOfTheChannel) {
+TEST(AppliedSettings, TheProofUsesTheChannelsConfiguration) {
   channel.supervision.proof_of_response = false;
   channel.limiter.max_W = 3.5;
   channel.limiter.derate_from_C = 110.0;

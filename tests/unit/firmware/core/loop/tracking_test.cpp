@@ -26,7 +26,7 @@ std::vector<control::ControllerSettings> two_laws() {
 
 TEST_GROUP(Smoothed){};
 
-TEST(Smoothed, BeginsAtZeroAndFollowsARampWithoutLag) {
+TEST(Smoothed, StartsAtZeroAndFollowsARampWithoutLag) {
   Smoothed smoothed(0.05, tick_s);
   DOUBLES_EQUAL(0.0, smoothed.value(), 0.0);
   for (int i = 0; i <= 1000; ++i)
@@ -34,7 +34,7 @@ TEST(Smoothed, BeginsAtZeroAndFollowsARampWithoutLag) {
   DOUBLES_EQUAL(2.0 * tick_s * 1000, smoothed.value(), 1e-6);
 }
 
-TEST(Smoothed, TakesHalfOfAJumpInAStepThatIsAsLongAsItsTimeConstant) {
+TEST(Smoothed, TakesHalfOfAJumpInAStepOfOneTimeConstant) {
   Smoothed smoothed(tick_s, tick_s);
   smoothed.step(1.0);
   DOUBLES_EQUAL(2.0 * 0.5 - 0.25, smoothed.value(), 1e-12);
@@ -59,7 +59,7 @@ TEST_GROUP(Tracking) {
   }
 };
 
-TEST(Tracking, IsAtRestWhereItBeginsAtTheReference) {
+TEST(Tracking, StaysAtRestWhenStartedAtTheReference) {
   start();
   for (int i = 0; i < 2000; ++i) {
     const control::ControllerOutput output = tick();
@@ -68,7 +68,7 @@ TEST(Tracking, IsAtRestWhereItBeginsAtTheReference) {
   }
 }
 
-TEST(Tracking, GoesOnFromItsModelWhenAnotherLawTakesOver) {
+TEST(Tracking, KeepsItsModelStateWhenAnotherLawTakesOver) {
   for (const int ticks : {2, 1000}) {
     start();
     for (int i = 0; i < ticks; ++i)

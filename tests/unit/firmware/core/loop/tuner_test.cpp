@@ -28,7 +28,7 @@ TEST_GROUP(Tuner) {
   }
 };
 
-TEST(Tuner, KnowsNothingOfWhatThereIsNot) {
+TEST(Tuner, HasNoValueForMissingPlaces) {
   supercoil::Tuner tuner(channel, tick_s);
   for (const TuningSet set :
        {TuningSet::prepared, TuningSet::in_use, TuningSet::configured, TuningSet::stored}) {
@@ -40,7 +40,7 @@ TEST(Tuner, KnowsNothingOfWhatThereIsNot) {
   CHECK(tuner.prepare(1, integral, 800.0).refusal == Refusal::out_of_range);
 }
 
-TEST(Tuner, StoredAreTheValuesOfTheNextStart) {
+TEST(Tuner, StoredValuesAreThoseOfTheNextStart) {
   channel.tuning.controllers[0].values[integral] = 800.0;
   supercoil::Tuner tuner(channel, tick_s);
   DOUBLES_EQUAL(800.0, tuner.value(TuningSet::stored, 0, integral), 0.0);
@@ -50,7 +50,7 @@ TEST(Tuner, StoredAreTheValuesOfTheNextStart) {
   DOUBLES_EQUAL(configured, tuner.value(TuningSet::in_use, 0, integral), 0.0);
 }
 
-TEST(Tuner, WhatTheLoopTookIsInUseAndIsWhatIsStored) {
+TEST(Tuner, AcceptedValuesAreInUseAndAreStored) {
   supercoil::Tuner tuner(channel, tick_s);
   CHECK(tuner.prepare(0, integral, 800.0).refusal == Refusal::none);
   DOUBLES_EQUAL(800.0, tuner.value(TuningSet::prepared, 0, integral), 0.0);
@@ -79,7 +79,7 @@ TEST(Tuner, WhatTheLoopTookIsInUseAndIsWhatIsStored) {
   DOUBLES_EQUAL(800.0, tuner.value(TuningSet::stored, 0, integral), 0.0);
 }
 
-TEST(Tuner, WhatIsClearedIsStoredNoMoreOnceTheLoopHasDoneIt) {
+TEST(Tuner, ClearedValuesAreNoLongerStoredOnceTheLoopHasExecutedIt) {
   channel.tuning.controllers[0].values[integral] = 800.0;
   supercoil::Tuner tuner(channel, tick_s);
   for (const Refusal refusal : {Refusal::queue_full, Refusal::none}) {
@@ -100,7 +100,7 @@ TEST(Tuner, WhatIsClearedIsStoredNoMoreOnceTheLoopHasDoneIt) {
   LONGS_EQUAL(3, static_cast<int>(clear_tuning));
 }
 
-TEST(Tuner, JudgesASetByTheMuscleThatIsKnownNow) {
+TEST(Tuner, ChecksASetAgainstTheCurrentMuscle) {
   supercoil::Tuner tuner(channel, tick_s);
   control::PhysicalParameters strong = muscle;
   strong.force_per_kelvin_N_per_K *= 100.0;
@@ -113,7 +113,7 @@ TEST(Tuner, JudgesASetByTheMuscleThatIsKnownNow) {
   STRCMP_EQUAL("", tuner.problem().c_str());
 }
 
-TEST(Tuner, AnEstimatorBeginsAtTheMuscleThatIsKnownNow) {
+TEST(Tuner, AnEstimatorStartsAtTheCurrentMuscle) {
   const std::size_t trusted = control::tunable_named("trusted_error");
   const std::size_t place = first_estimator_place;
   supercoil::Tuner tuner(channel, tick_s);

@@ -33,7 +33,7 @@ std::vector<float> progress_from(double begins_K) {
 
 TEST_GROUP(CalibrateProgress){};
 
-TEST(CalibrateProgress, GrowsEvenlyWithTimeSoThatWhatIsLeftCanBeTold) {
+TEST(CalibrateProgress, GrowsLinearlyWithTime) {
   for (const double begins_K : {0.5, 3.0, 60.0}) {
     const std::vector<float> all = progress_from(begins_K);
     const auto steps = static_cast<double>(all.size());
@@ -86,7 +86,7 @@ double at_rest(double) {
 
 TEST_GROUP(CalibrateStillness){};
 
-TEST(CalibrateStillness, AMuscleThatDoesNotMoveIsColdBeforeItMustBe) {
+TEST(CalibrateStillness, AMotionlessMuscleIsColdBeforeTheWorstCaseTime) {
   const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
   DOUBLES_EQUAL(20.0 * mean, Resting{}.hottest_K_at_zero(at_rest), 0.2);
   // Without the setting that asks for it, as in a joint, stillness proves nothing.
@@ -95,7 +95,7 @@ TEST(CalibrateStillness, AMuscleThatDoesNotMoveIsColdBeforeItMustBe) {
   DOUBLES_EQUAL(1.0 * mean, strict.hottest_K_at_zero(at_rest), 0.01);
 }
 
-TEST(CalibrateStillness, OneThatStillCoolsIsWaitedFor) {
+TEST(CalibrateStillness, WaitsForAMuscleThatStillCools) {
   for (const double faster : {1.0, 1.5, 3.0}) {
     double zero_s = 0.0;
     const auto position_m = [&](double time_s) {
@@ -110,7 +110,7 @@ TEST(CalibrateStillness, OneThatStillCoolsIsWaitedFor) {
   }
 }
 
-TEST(CalibrateStillness, WhatASensorDoesNotShowIsNoRest) {
+TEST(CalibrateStillness, TooCoarseOrNoisyASensorDoesNotShowRest) {
   const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
   Resting coarse;
   coarse.settings.count_m = 1e-3;
@@ -120,7 +120,7 @@ TEST(CalibrateStillness, WhatASensorDoesNotShowIsNoRest) {
   DOUBLES_EQUAL(1.0 * mean, noisy.hottest_K_at_zero(at_rest), 0.01);
 }
 
-TEST(CalibrateStillness, BoundsThatDoNotFallTellNothing) {
+TEST(CalibrateStillness, ConstantBoundsDoNotGiveAZero) {
   Calibrate calibrate({.still_K = 20.0, .max_remaining_m = 20e-6});
   for (int i = 0; i < 6000; ++i)
     calibrate.step(15.0, 0.0, step_s);

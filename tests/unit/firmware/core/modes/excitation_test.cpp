@@ -104,7 +104,7 @@ TEST_GROUP(Excitation){};
 
 /// Where a small part of the power holds the muscle up, less than a twentieth of the power shows
 /// its mechanics while it cools.
-TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
+TEST(Excitation, StrokesReachTheirLowsAtAnyPower) {
   for (const double overpowered : {1.0, 3.0, 10.0}) {
     const Strokes strokes = strokes_of(overpowered);
     CHECK_EQUAL(Excitation::cycles, strokes.lowest_m.size());
@@ -127,12 +127,12 @@ TEST(Excitation, ASlowMusclesFirstStrokeEndsAtHalfItsReach) {
 }
 
 /// Play and creep hold a slow muscle in place for a while when its power changes.
-TEST(Excitation, AMuscleThatTurnsRoundSlowlyIsWaitedFor) {
+TEST(Excitation, WaitsForAMuscleThatReversesSlowly) {
   for (const double lowest : lows_of_slow_muscle_with_play())
     CHECK_COMPARE(lowest, <, 0.55);
 }
 
-TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {
+TEST(Excitation, AnExtensionRepeatsTheStrokesAtTheSamePace) {
   const Strokes once = strokes_of(3.0);
   const Strokes twice = strokes_of(3.0, true);
   CHECK_EQUAL(2 * Excitation::cycles, twice.lowest_m.size());
@@ -142,7 +142,7 @@ TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {
 }
 
 /// They do not begin at rest, because a slow muscle would take five time constants to get there.
-TEST(Excitation, ShorterStrokesBeginWhereTheLastOneEnded) {
+TEST(Excitation, ShorterStrokesStartWhereTheLastOneEnded) {
   const FirstShorterStroke stroke = first_shorter_stroke();
   CHECK_COMPARE(stroke.lowest_m, >, 0.95 * stroke.began_m);
   DOUBLES_EQUAL(0.7 * 0.85 * 0.55 * max_travel_m, stroke.highest_m, 0.03 * max_travel_m);

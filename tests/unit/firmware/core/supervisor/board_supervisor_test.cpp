@@ -67,14 +67,14 @@ void check_board_fault(Fault expected, Fault found) {
 
 TEST_GROUP(BoardSupervisor){};
 
-TEST(BoardSupervisor, FindsNothingWrongWhereAllIsWell) {
+TEST(BoardSupervisor, ReportsNoFaultInNormalOperation) {
   Board board;
   board.inputs.late_s = 0.00049;
   for (int i = 0; i < 3000; ++i)
     check_board_fault(Fault::none, board.step());
 }
 
-TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
+TEST(BoardSupervisor, DetectsEachFaultAtItsTimeAndNotEarlier) {
   for (const BoardCause& injected : board_causes) {
     Board board;
     for (int i = 0; i < 10; ++i)
@@ -89,14 +89,14 @@ TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
   }
 }
 
-TEST(BoardSupervisor, ASupplyThatIsNotReadIsNoVoltage) {
+TEST(BoardSupervisor, AnUnreadSupplyIsAnUnderVoltage) {
   Board board;
   board.inputs.supply.present = false;
   board.step();
   DOUBLES_EQUAL(0.0, board.supervisor.verdict().margin(Fault::over_voltage).measured, 0.0);
 }
 
-TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
+TEST(BoardSupervisor, DetectsAStalledTelemetryThread) {
   Board board;
   for (int i = 0; i < 10; ++i)
     check_board_fault(Fault::none, board.step());
@@ -107,7 +107,7 @@ TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
   CHECK_COMPARE(board.supervisor.verdict().margin(Fault::telemetry_dead).used(), >=, 0.99);
 }
 
-TEST(BoardSupervisor, ForgetsWhatIsOver) {
+TEST(BoardSupervisor, ClearsAFaultWhoseCauseIsGone) {
   for (const BoardCause& injected : board_causes) {
     Board board;
     const BoardInputs well = board.inputs;
@@ -122,7 +122,7 @@ TEST(BoardSupervisor, ForgetsWhatIsOver) {
 }
 
 // A bus fault is no reason to doubt the switches: it does not set the board's latch.
-TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
+TEST(BoardSupervisor, OnlyBoardFaultsStopTheHeartbeat) {
   for (const BoardCause& injected : board_causes) {
     Board board;
     injected.begins(board.inputs);
@@ -134,7 +134,7 @@ TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
   }
 }
 
-TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
+TEST(BoardSupervisor, TheFirstCauseOfATickDoesNotHideABoardFault) {
   Board board;
   board.inputs.bus = hal::CanState::bus_off;
   board.inputs.configuration_changed = true;
@@ -142,7 +142,7 @@ TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
   check_board_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
 }
 
-TEST(BoardSupervisor, ReportsTheFirstOfTwoFaultsOfTheBoard) {
+TEST(BoardSupervisor, ReportsTheFirstOfTwoBoardFaults) {
   Board board;
   board.inputs.stop_circuit.high = false;
   board.inputs.configuration_changed = true;

@@ -77,7 +77,7 @@ TEST(ChannelState, OrdinaryStopIsNotAFault) {
   CHECK(channel.state() == State::disarmed);
 }
 
-TEST(ChannelState, LeavesFaultOnlyByAnEdgeAfterTheCauseIsGone) {
+TEST(ChannelState, LeavesFaultOnlyOnAnEdgeAfterTheCauseIsGone) {
   ChannelState channel = active();
   channel.disarm(Fault::heater_short);
   CHECK(channel.arm() == Refusal::wrong_state);
@@ -92,7 +92,7 @@ TEST(ChannelState, LeavesFaultOnlyByAnEdgeAfterTheCauseIsGone) {
   CHECK(channel.first_cause() == Fault::none);
 }
 
-TEST(ChannelState, NeverGetsHotWithoutArmAndActivateWhateverHappens) {
+TEST(ChannelState, NeverHeatsWithoutArmAndActivate) {
   CHECK(rc::check("random commands", [] {
     ChannelState channel;
     bool armed_since = false;  // from the commands alone, independently of the state

@@ -124,13 +124,13 @@ void check_fault(Fault expected, Fault found) {
 
 TEST_GROUP(ChannelSupervisor){};
 
-TEST(ChannelSupervisor, FindsNothingWrongWhereAllIsWell) {
+TEST(ChannelSupervisor, ReportsNoFaultInNormalOperation) {
   Channel channel;
   for (int i = 0; i < 150000; ++i)
     check_fault(Fault::none, channel.step());
 }
 
-TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
+TEST(ChannelSupervisor, DetectsEachFaultAtItsTimeAndNotEarlier) {
   for (const InjectedFault& injected : injected_faults) {
     Channel channel;
     for (int i = 0; i < 10; ++i)
@@ -144,7 +144,7 @@ TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
 }
 
 // Except when a probe finds no resistance, which has no margin.
-TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
+TEST(ChannelSupervisor, EachFaultUsesUpItsMargin) {
   for (const InjectedFault& injected : injected_faults) {
     Channel channel;
     channel.step();
@@ -159,7 +159,7 @@ TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
   }
 }
 
-TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
+TEST(ChannelSupervisor, HasNoMarginsForBoardFaults) {
   Channel channel;
   channel.step();
   const Verdict& verdict = channel.supervisor.verdict();
@@ -167,7 +167,7 @@ TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
   DOUBLES_EQUAL(0.0, verdict.margin(Fault::under_voltage).used(), 0.0);
 }
 
-TEST(ChannelSupervisor, ForgetsWhatIsOver) {
+TEST(ChannelSupervisor, ClearsAFaultWhoseCauseIsGone) {
   for (const InjectedFault& injected : injected_faults) {
     // An exceeded energy budget stays exceeded; the return from a jump is another jump.
     if (injected.fault == Fault::energy_budget_exceeded || injected.fault == Fault::sensor_jump)
@@ -183,7 +183,7 @@ TEST(ChannelSupervisor, ForgetsWhatIsOver) {
   }
 }
 
-TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
+TEST(ChannelSupervisor, DetectsASensorWithoutNoiseWhileTheMuscleIsHot) {
   for (const bool hot : {false, true}) {
     Channel channel;
     channel.inputs.heater.hot = hot;
@@ -199,7 +199,7 @@ TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
   }
 }
 
-TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
+TEST(ChannelSupervisor, CannotDetectAFrozenSensorWithoutConfiguredNoise) {
   ChannelSupervision quiet;
   quiet.position_noise_rms_m = 0.0;
   ChannelSupervisor supervisor(quiet, 10.0, 10.8, 0.0, tick_s);
@@ -217,7 +217,7 @@ TEST(ChannelSupervisor, AStaleReadingIsNotAJump) {
     check_fault(Fault::none, channel.step());
 }
 
-TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
+TEST(ChannelSupervisor, WithoutAKnownSupplyNoCurrentIsAShort) {
   Channel channel;
   channel.inputs.heater.supply_V = 0.0;
   channel.inputs.heater.current.value = 1.0;
@@ -235,7 +235,7 @@ TEST(ChannelSupervisor, WithoutAReadingOfTheCurrentNeitherHeaterNorMuscleIsJudge
   DOUBLES_EQUAL(0.0, channel.moved_m(), 50e-6);
 }
 
-TEST(ChannelSupervisor, AResistanceDriftsOnlyWhereItIsMeasuredWithoutAGap) {
+TEST(ChannelSupervisor, ResistanceDriftNeedsMeasurementsWithoutAGap) {
   Channel channel;
   channel.inputs.heater.resistance_Ohm = 15.0;
   for (int i = 1; i < 1500; ++i) {
@@ -244,7 +244,7 @@ TEST(ChannelSupervisor, AResistanceDriftsOnlyWhereItIsMeasuredWithoutAGap) {
   }
 }
 
-TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome) {
+TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverRare) {
   for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
     Channel channel;
     ChannelInputs& e = channel.inputs;
@@ -267,7 +267,7 @@ TEST(ChannelSupervisor, CoolingIsNotALostController) {
     check_fault(Fault::none, channel.step());
 }
 
-TEST(ChannelSupervisor, AControllerIsNotLostWhereNothingIsToHeat) {
+TEST(ChannelSupervisor, AControllerIsNotLostWithoutAHeatingCommand) {
   Channel channel;
   channel.inputs.heater.limited = true;
   channel.inputs.axis.demanded_W = 5.0;
@@ -298,7 +298,7 @@ Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, 
 
 /// For a joint's muscle whose heat changes but which moves nothing. Where there is a minimum power,
 /// less may be asked for than it gets.
-TEST(ChannelSupervisor, OnlyAMuscleThatIsAskedForMoreThanItGetsIsLoose) {
+TEST(ChannelSupervisor, OnlyAMuscleWithUnmetDemandIsLoose) {
   for (const double demanded_W : {3.5, 3.7}) {
     check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none,
                 found_of_a_muscle_without_motion(
@@ -314,7 +314,7 @@ TEST(ChannelSupervisor, AMuscleThatIsOffIsNotLoose) {
 }
 
 // Positions from before say nothing about how far it has moved since.
-TEST(ChannelSupervisor, ALooseMuscleIsJudgedAnewAfterACalibrationAndWhereMoreIsKnownOfIt) {
+TEST(ChannelSupervisor, LooseRestartsAfterACalibrationAndWithANewMuscle) {
   constexpr int every = 700;  // less than the 750 within which it must be seen to move
   check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
                 e.axis.recalibrated.reset();
@@ -334,7 +334,7 @@ TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {
     check_fault(Fault::none, channel.step());
 }
 
-TEST(ChannelSupervisor, ANewCalibrationIsNoAnswerOfTheMuscle) {
+TEST(ChannelSupervisor, ARecalibrationIsNotAResponseOfTheMuscle) {
   for (const bool told : {false, true}) {
     Channel channel;
     for (int i = 0; i < 1000; ++i)
@@ -348,7 +348,7 @@ TEST(ChannelSupervisor, ANewCalibrationIsNoAnswerOfTheMuscle) {
 }
 
 /// Otherwise the window would never be judged.
-TEST(ChannelSupervisor, ANewCalibrationForgetsNoMotionOfTheWindow) {
+TEST(ChannelSupervisor, ARecalibrationKeepsTheMotionOfTheWindow) {
   for (const double ratio : {1.0, 2.0, -1.0}) {
     Channel channel;
     channel.step();

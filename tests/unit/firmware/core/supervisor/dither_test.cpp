@@ -27,7 +27,7 @@ double peak_response_m(const Dither& dither, double response_ratio = 1.0) {
 
 TEST_GROUP(Dither){};
 
-TEST(Dither, MovesTheMuscleBy20MicrometresAtMostAndIsDecidedInHalfASecond) {
+TEST(Dither, MovesTheMuscleAtMost20MicrometresAndIsDecidedInHalfASecond) {
   const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
   CHECK_COMPARE(peak_response_m(plan.dither), <=, 20.001e-6);
   CHECK_COMPARE(plan.dither.decided_s, <, 0.5);
@@ -42,12 +42,12 @@ TEST(Dither, OfAWholePeriodAddsNoHeat) {
   DOUBLES_EQUAL(0.0, sum, 0.0);
 }
 
-TEST(Dither, IsNotNeededBelowThePowerThatAQuarterOfTheLeastCoolingBears) {
+TEST(Dither, IsNotNeededBelowThePowerSafeAtAQuarterOfTheMinCooling) {
   // (130 - 25) K times 0.25 * 0.045 W/K; the true power may be 5 % more than measured.
   DOUBLES_EQUAL(105.0 * 0.25 * 0.045 / 1.05, plan_proof(paper_proof(), {}, 1000.0).safe_W, 1e-9);
 }
 
-TEST(Dither, IsDecidedInTimeAtThePowerThatItAllowsAndNotAtMore) {
+TEST(Dither, IsDecidedInTimeUpToTheProvablePower) {
   ProofSettings uncompared = paper_proof();
   uncompared.max_power_ratio = 1.94;
   uncompared.position_noise_rms_m = 20e-6;
@@ -76,7 +76,7 @@ TEST(Dither, IsTheSlowestAndGentlestThatIsDecidedInTime) {
   CHECK_COMPARE(plan.dither.half_steps, >, hurried.dither.half_steps);
 }
 
-TEST(Dither, IsNotNeededWhereAllThePowerThatThereIsCannotPassTheLimit) {
+TEST(Dither, IsNotNeededWhereMaxPowerCannotExceedTheLimit) {
   ProofSettings weak = paper_proof();
   weak.position_noise_rms_m = 200e-6;
   weak.max_W = 1.4;  // 1.05 times that over 0.25 * 0.045 W/K is 131 K; 135 K are allowed
@@ -86,14 +86,14 @@ TEST(Dither, IsNotNeededWhereAllThePowerThatThereIsCannotPassTheLimit) {
   DOUBLES_EQUAL(weak.max_W, plan.provable_W, 1e-9);
 }
 
-TEST(Dither, ThatTheNoiseHidesHoldsTheMuscleToTheSafePower) {
+TEST(Dither, HiddenByNoiseLimitsTheMuscleToTheSafePower) {
   ProofSettings noisy = paper_proof();
   noisy.position_noise_rms_m = 200e-6;
   const ProofPlan plan = plan_proof(noisy, {}, 1000.0);
   DOUBLES_EQUAL(plan.safe_W, plan.provable_W, 1e-9);
 }
 
-TEST(Dither, IsAsLargeAsTheMeasuredAnswerAllowsAndAsSoonDecided) {
+TEST(Dither, AmplitudeScalesInverselyWithTheMeasuredResponse) {
   const ProofPlan whole = plan_proof(paper_proof(), {}, 1000.0);
   for (const double ratio : {0.4, 2.0}) {
     ProofSettings measured = paper_proof();
@@ -106,7 +106,7 @@ TEST(Dither, IsAsLargeAsTheMeasuredAnswerAllowsAndAsSoonDecided) {
   }
 }
 
-TEST(Dither, ThatFrictionSwallowsHoldsTheMuscleToTheSafePower) {
+TEST(Dither, AbsorbedByFrictionLimitsTheMuscleToTheSafePower) {
   ProofSettings stuck = paper_proof();
   stuck.response_ratio = 0.01;
   const ProofPlan plan = plan_proof(stuck, {}, 1000.0);
@@ -114,7 +114,7 @@ TEST(Dither, ThatFrictionSwallowsHoldsTheMuscleToTheSafePower) {
   DOUBLES_EQUAL(plan.safe_W, plan.provable_W, 1e-9);
 }
 
-TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
+TEST(Dither, HasTheLongestHalfPeriodWhenTimeAllows) {
   ProofSettings patient = paper_proof();
   patient.trip_C = 400.0;
   patient.position_noise_rms_m = 3e-6;
@@ -122,7 +122,7 @@ TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
   LONGS_EQUAL(std::lround(1.2 / dither_step_s), plan.dither.half_steps);
 }
 
-TEST(Dither, OfASlowMuscleIsASlowOne) {
+TEST(Dither, IsSlowForASlowMuscle) {
   // A tenth of max_W takes seconds to move it by 20 um; at 2.8 W the limit is 5.6 s away.
   ProofSettings slow = slow_proof();
   slow.max_power_ratio = 1.94;

@@ -77,7 +77,7 @@ void check_says(const std::string& fault, const char* text, double value) {
 
 TEST_GROUP(Documented){};
 
-TEST(Documented, FaultsAreThoseOfTheirTable) {
+TEST(Documented, FaultsMatchTheirTable) {
   const auto rows = first_table_after("# Faults", "faults/README.md");
   UNSIGNED_LONGS_EQUAL(rows.size(), all_faults().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -90,7 +90,7 @@ TEST(Documented, FaultsAreThoseOfTheirTable) {
   }
 }
 
-TEST(Documented, NumbersOnTheBusAreThoseOfTheProtocol) {
+TEST(Documented, NumbersOnTheBusMatchTheProtocol) {
   check_names<State>("state", {State::disarmed, State::armed, State::active, State::fault});
   check_names<Refusal>(
       "refusal",

@@ -40,7 +40,7 @@ TEST(Faults, NoneAndUnknownNumbersHaveNoDescription) {
   CHECK(name(Fault::none) == "none");
 }
 
-TEST(Faults, HaveTheNumbersThatTheyHadFromTheBeginning) {
+TEST(Faults, KeepTheirOriginalNumbers) {
   struct Numbered {
     Fault fault;
     int number;

@@ -21,7 +21,7 @@ void check_fresh(const Detector& detector) {
 
 TEST_GROUP(FreshDetectors){};
 
-TEST(FreshDetectors, HaveUsedNothing) {
+TEST(FreshDetectors, HaveUsedNoMargin) {
   check_fresh(Limit(160.0));
   check_fresh(Flag());
   check_fresh(Above({5.9, 0.1}, tick_s));

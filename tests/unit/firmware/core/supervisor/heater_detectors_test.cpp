@@ -29,7 +29,7 @@ TEST(HeaterDetectors, OpenLoadTripsForDutyWithoutCurrent) {
   LONGS_EQUAL(20, ticks_until([&](int) { return detector.step(0.3, 0.01); }));
 }
 
-TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
+TEST(HeaterDetectors, OpenLoadIgnoresASmallDutyAndAGoodHeater) {
   OpenLoad detector({0.02, 0.5, 0.02}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.0); }, 1000));
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.3, 0.36); }, 1000));
@@ -94,7 +94,7 @@ TEST(HeaterDetectors, StuckOnWaitsForASlowSenseButNotForAStuckSwitch) {
 }
 
 /// The readings while the heater was on may be anything.
-TEST(HeaterDetectors, StuckOnGoesByCurrentsThatAreNumbersAlone) {
+TEST(HeaterDetectors, StuckOnUsesOnlyFiniteCurrents) {
   for (const double unknown : {std::nan(""), static_cast<double>(INFINITY)}) {
     StuckOn detector({.max_A = 0.02, .hold_s = 0.05, .filter_s = 0.01}, tick_s);
     detector.step(false, unknown);
@@ -102,7 +102,7 @@ TEST(HeaterDetectors, StuckOnGoesByCurrentsThatAreNumbersAlone) {
   }
 }
 
-TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
+TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsExpected) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {
     const double t = tick * tick_s;
@@ -116,7 +116,7 @@ TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
   DOUBLES_EQUAL(0.3 * 0.95 * 0.002, detector.margin().limit, 1e-6);
 }
 
-TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
+TEST(HeaterDetectors, NotRespondingDoesNotTripForAMovingMuscle) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
     const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * tick_s);
@@ -131,7 +131,7 @@ TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
   }));
 }
 
-TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
+TEST(HeaterDetectors, NotRespondingIgnoresMotionThatAMuscleMayHaveEnded) {
   // It is held: the slowest possible muscle still creeps, a faster one has arrived.
   for (const std::size_t slow : {0U, 1U, 2U}) {
     NotResponding detector({20.0, 0.3, 0.001}, tick_s);
@@ -144,7 +144,7 @@ TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
   }
 }
 
-TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatFalls) {
+TEST(HeaterDetectors, NotRespondingDoesNotJudgeWhenModelsDisagreeOnTheDirection) {
   // Derated: a slow muscle still warms while a fast one already cools.
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
@@ -154,7 +154,7 @@ TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatF
   }));
 }
 
-TEST(HeaterDetectors, NotRespondingDoesNotExpectAtOnceWhatIsAskedForAtItsWindowsEnd) {
+TEST(HeaterDetectors, NotRespondingAllowsTimeForMotionRequestedAtTheWindowsEnd) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(
       -1,
@@ -174,7 +174,7 @@ TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
   CHECK_FALSE(detector.step(100, -1));
 }
 
-TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
+TEST(HeaterDetectors, NotRespondingJudgesEachWindowSeparately) {
   // The muscle moved as expected in the first window, but not in the second.
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {
@@ -187,7 +187,7 @@ TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
   DOUBLES_EQUAL(0.0, detector.margin().measured, 1e-6);
 }
 
-TEST(HeaterDetectors, NotRespondingCountsAnewFromAnAnswerToTheSameEnd) {
+TEST(HeaterDetectors, NotRespondingRestartsAfterAResponseToTheSameTarget) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const auto step = [&](double expected_m) {
     return detector.step(0.011, NotResponding::possible({expected_m, expected_m, expected_m}));
@@ -205,7 +205,7 @@ TEST(HeaterDetectors, NotRespondingCountsAnewFromAnAnswerToTheSameEnd) {
               }));
 }
 
-TEST(HeaterDetectors, StuckOnAllowsFor50MillisecondsUnlessTold) {
+TEST(HeaterDetectors, StuckOnAllows50MillisecondsByDefault) {
   StuckOn detector({.max_A = 0.02}, tick_s);
   LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
 }

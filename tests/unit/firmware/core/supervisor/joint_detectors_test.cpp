@@ -39,7 +39,7 @@ TEST_GROUP(JointDetectors) {
   }
 };
 
-TEST(JointDetectors, EveryGainOfTheOtherMuscleIsPossible) {
+TEST(JointDetectors, PossibleMotionsIncludeEveryGainOfTheOtherMuscle) {
   const NotResponding::Expected expected{0.010, 0.012, 0.004};
   const NotResponding::Expected opposed{0.003, 0.004, 0.001};
   const auto motions = NotResponding::possible(expected, &opposed);
@@ -58,7 +58,7 @@ TEST(JointDetectors, EveryGainOfTheOtherMuscleIsPossible) {
   DOUBLES_EQUAL(0.010, NotResponding::possible(expected).m[0], 1e-12);
 }
 
-TEST(JointDetectors, LooseTripsHalfASecondAfterTheMotionShouldHaveBeenSeen) {
+TEST(JointDetectors, LooseTripsHalfASecondAfterMissingMotion) {
   const int ticks = tripped_at([&](int tick) { return step(true, 0.002, rising(tick), nothing); });
   CHECK_COMPARE(ticks, >=, 1499);
   CHECK_COMPARE(ticks, <=, 1502);
@@ -66,7 +66,7 @@ TEST(JointDetectors, LooseTripsHalfASecondAfterTheMotionShouldHaveBeenSeen) {
   DOUBLES_EQUAL(0.0, detector.margin().measured, 0.0);
 }
 
-TEST(JointDetectors, LooseIsNoMuscleThatGetsWhatIsAskedOfIt) {
+TEST(JointDetectors, LooseIgnoresAMuscleThatGetsItsDemand) {
   LONGS_EQUAL(
       -1, tripped_at([&](int tick) { return step(false, 0.002, rising(tick), nothing); }, 20'000));
   CHECK_FALSE(detector.margin().judged);
@@ -75,14 +75,14 @@ TEST(JointDetectors, LooseIsNoMuscleThatGetsWhatIsAskedOfIt) {
   CHECK_FALSE(detector.margin().judged);
 }
 
-TEST(JointDetectors, LooseIsNoMuscleThatMovesTheJointAThirdAsFar) {
+TEST(JointDetectors, LooseIgnoresAMuscleThatMovesTheJointAThirdAsFar) {
   LONGS_EQUAL(
       -1, tripped_at(
               [&](int tick) { return step(true, 0.35 * rising(tick)[0], rising(tick), nothing); },
               20'000));
 }
 
-TEST(JointDetectors, LooseCountsAnewFromWhereTheJointWasDrawn) {
+TEST(JointDetectors, LooseRestartsWhereTheOtherMusclePullsTheJoint) {
   // The other muscle draws the joint to its end stop within 0.1 s.
   const int ticks = tripped_at([&](int tick) {
     const double position_m = tick < 1000 ? 0.002 : -0.006;
@@ -92,13 +92,13 @@ TEST(JointDetectors, LooseCountsAnewFromWhereTheJointWasDrawn) {
   CHECK_COMPARE(ticks, <=, 2502);
 }
 
-TEST(JointDetectors, LooseIsNoMuscleThatTheOtherOneMayHoldStill) {
+TEST(JointDetectors, LooseIgnoresAMuscleThatTheOtherMayHoldStill) {
   LONGS_EQUAL(
       -1,
       tripped_at([&](int tick) { return step(true, 0.002, rising(tick), rising(tick)); }, 20'000));
 }
 
-TEST(JointDetectors, LooseIsAMuscleThatMovesTheJointTheOtherWay) {
+TEST(JointDetectors, LooseTripsWhenTheJointMovesTheOtherWay) {
   // Three times one expected millimetre, without a pause: none of its models stands still.
   const int ticks = tripped_at(
       [&](int tick) { return step(true, 0.002 - 0.4 * rising(tick)[0], rising(tick), nothing); });
@@ -114,7 +114,7 @@ TEST(JointDetectors, LooseIsAMuscleThatMovesTheJointTheOtherWay) {
   CHECK_FALSE(step(true, 0.0, rising(0), nothing));
 }
 
-TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
+TEST(JointDetectors, LooseIgnoresAMuscleThatALoadExtendsForAWhile) {
   // The wrong way for nearly three expected millimetres, then it follows; and so on.
   double position_m = 0.0;
   LONGS_EQUAL(-1, tripped_at(
@@ -127,7 +127,7 @@ TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
 }
 
 /// Any model may explain it: a slow muscle that still cools, or an opposing one that is stronger.
-TEST(JointDetectors, LooseIsNoMuscleIfAModelExplainsThatTheJointMovesTheOtherWay) {
+TEST(JointDetectors, LooseIgnoresOppositeMotionThatAnyModelExplains) {
   using Expected = NotResponding::Expected;
   const auto moves_away = [&](const Expected& of_rise, const Expected& opposed_of_rise) {
     detector = MuscleLoose({0.3, 0.003}, tick_s);

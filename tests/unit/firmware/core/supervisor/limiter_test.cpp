@@ -24,7 +24,7 @@ void check(Limiter::Result result, double power_W, LimitedBy by) {
 
 TEST_GROUP(Limiter){};
 
-TEST(Limiter, TellsWhatAHotMuscleMayHave) {
+TEST(Limiter, ReportsThePowerAllowedForAHotMuscle) {
   Limiter limiter({}, tick_s);
   DOUBLES_EQUAL(4.5, limiter.max_W(20.0), 1e-12);
   DOUBLES_EQUAL(4.5, limiter.max_W(130.0), 1e-12);
@@ -35,12 +35,12 @@ TEST(Limiter, TellsWhatAHotMuscleMayHave) {
   DOUBLES_EQUAL(0.5, limiter.max_W(145.0), 1e-12);
 }
 
-TEST(Limiter, LetsPassWhatIsAllowed) {
+TEST(Limiter, PassesAllowedPower) {
   Limiter limiter({}, tick_s);
   check(limiter.step(2.0, cool_C), 2.0, LimitedBy::nothing);
 }
 
-TEST(Limiter, SaysWhichLimitItWas) {
+TEST(Limiter, ReportsTheActiveLimit) {
   Limiter limiter({}, tick_s);
   check(limiter.step(9.0, cool_C), 4.5, LimitedBy::maximum);
   check(limiter.step(-1.0, cool_C), 0.0, LimitedBy::minimum);
@@ -49,14 +49,14 @@ TEST(Limiter, SaysWhichLimitItWas) {
   check(limiter.step(4.0, 500.0), 0.0, LimitedBy::temperature);
 }
 
-TEST(Limiter, GivesNoMoreThanTheMuscleHasProven) {
+TEST(Limiter, LimitsAnUnprovenMuscle) {
   Limiter limiter({}, tick_s);
   limiter.set_unproven(1.5);
   check(limiter.step(2.0, cool_C), 1.5, LimitedBy::unproven);
   check(limiter.step(1.4, cool_C), 1.4, LimitedBy::nothing);
 }
 
-TEST(Limiter, KeepsToANewRange) {
+TEST(Limiter, AppliesANewRange) {
   Limiter limiter({}, tick_s);
   limiter.set_range(0.2, 3.0);
   DOUBLES_EQUAL(0.2, limiter.min_W(), 0.0);
@@ -64,7 +64,7 @@ TEST(Limiter, KeepsToANewRange) {
   check(limiter.step(3.1, cool_C), 3.0, LimitedBy::maximum);
 }
 
-TEST(Limiter, SlowsRisesAndNeverFalls) {
+TEST(Limiter, LimitsTheSlewOfRisesButNotOfFalls) {
   LimiterSettings settings;
   settings.slew_W_per_s = 100.0;
   Limiter limiter(settings, tick_s);
@@ -86,7 +86,7 @@ TEST(Limiter, GivesNothingForNaN) {
   check(limiter.step(-2.0, std::nan("")), 0.0, LimitedBy::invalid);
 }
 
-TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {
+TEST(Limiter, NeverExceedsTheRequestOrTheLimits) {
   CHECK(rc::check("limits", [] {
     Limiter limiter({}, tick_s);
     for (int i = 0; i < 20; ++i) {
@@ -101,7 +101,7 @@ TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {
   }));
 }
 
-TEST(Limiter, NamesEachLimitByItsOwnName) {
+TEST(Limiter, EachLimitHasItsOwnName) {
   using enum LimitedBy;
   STRCMP_EQUAL("nothing", std::string(name(nothing)).c_str());
   STRCMP_EQUAL("minimum", std::string(name(minimum)).c_str());

@@ -21,14 +21,14 @@ TEST(MuscleDetectors, LimitTripsAtOnceAndForNaN) {
   CHECK(detector.step(std::nan("")));
 }
 
-TEST(MuscleDetectors, EnergyBudgetAllowsItsMeanPowerForEver) {
+TEST(MuscleDetectors, EnergyBudgetAllowsItsMeanPowerIndefinitely) {
   EnergyBudget detector({60.0, 30.0}, tick_s);
   for (int i = 0; i < 500000; ++i)
     CHECK_FALSE(detector.step(1.999));
   DOUBLES_EQUAL(0.9995, detector.margin().used(), 1e-3);
 }
 
-TEST(MuscleDetectors, EnergyBudgetTripsForABurstThatIsTooLong) {
+TEST(MuscleDetectors, EnergyBudgetTripsForTooLongABurst) {
   EnergyBudget detector({60.0, 30.0}, tick_s);
   int ticks = 0;
   while (!detector.step(4.0))
@@ -51,7 +51,7 @@ TEST(MuscleDetectors, ResistanceDriftTripsBothWays) {
   CHECK(probed(std::nan("")));
 }
 
-TEST(MuscleDetectors, ResistanceOfAHeatingMuscleMustDriftForAWhile) {
+TEST(MuscleDetectors, ResistanceDriftOfAHeatingMuscleMustPersist) {
   ResistanceDrift detector({0.2, 0.003}, tick_s);
   const auto heating = [&](double measured_Ohm) {
     return detector.step(measured_Ohm, 10.0, 11.0, false);

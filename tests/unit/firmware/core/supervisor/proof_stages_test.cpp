@@ -14,7 +14,7 @@ using test::paper_safe_W;
 
 TEST_GROUP(ProofStages){};
 
-TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilSomethingIsAnswered) {
+TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilAResponse) {
   HeldMuscle muscle(paper_proof());
   // Too much motion for a dead muscle, too little to exclude a dead sensor.
   muscle.swing_m = 60e-6;
@@ -28,7 +28,7 @@ TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilSomethingIsAnswered) {
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
 }
 
-TEST(ProofStages, ThatAreOverdueStaySoWhileMorePowerActsThanIsAllowed) {
+TEST(ProofStages, StayOverdueWhileMorePowerActsThanIsAllowed) {
   HeldMuscle muscle(paper_proof());
   muscle.swing_m = 60e-6;
   muscle.obeys = false;
@@ -50,7 +50,7 @@ TEST(ProofStages, NoDitherIsAddedThatIsNeverDecided) {
   LONGS_EQUAL(0, muscle.dither_ticks);
 }
 
-TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
+TEST(ProofStages, AMuscleAtItsLimitGetsTheSafePowerAtOnce) {
   HeldMuscle muscle(paper_proof());
   muscle.run(5.0);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
@@ -59,7 +59,7 @@ TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
-TEST(ProofStages, InWarmAirAMuscleIsAtItsLimitSooner) {
+TEST(ProofStages, InWarmAirAMuscleReachesItsLimitSooner) {
   constexpr double hotter_K = 55.0, warmer_K = 30.0;  // each alone leaves a second
   ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
   plan.adjust_for_air(paper_proof(), warmer_K);
@@ -73,7 +73,7 @@ TEST(ProofStages, InWarmAirAMuscleIsAtItsLimitSooner) {
   DOUBLES_EQUAL(plan.safe_W, muscle.proof.max_W(), 1e-9);
 }
 
-TEST(ProofStages, PowerIsTakenBackAfterThreeQuartersOfTheTimeToTheLimit) {
+TEST(ProofStages, PowerIsRemovedAfterThreeQuartersOfTheTimeToTheLimit) {
   const ProofSettings s = paper_proof();
   const double worst_W_per_K = 0.25 * s.thermal.bounds.min_transfer_W_per_K;
   const double full_K = 4.5 * 1.05 / worst_W_per_K;
@@ -92,7 +92,7 @@ TEST(ProofStages, PowerIsTakenBackAfterThreeQuartersOfTheTimeToTheLimit) {
   DOUBLES_EQUAL(0.75 * to_limit_s, undecided_s, 0.1);
 }
 
-TEST(ProofStages, ADitherHasRoomAtTheGreatestPower) {
+TEST(ProofStages, ADitherHasHeadroomAtMaxPower) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 4.5;
   muscle.run(60.0);
@@ -101,7 +101,7 @@ TEST(ProofStages, ADitherHasRoomAtTheGreatestPower) {
   CHECK_COMPARE(muscle.peak_W, <=, 4.5);
 }
 
-TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
+TEST(ProofStages, ARemovalOfPowerWithLittleMotionEndsInTime) {
   ProofSettings far = paper_proof();
   far.obvious_m = 0.1;  // farther than the muscle ever moves
   for (const bool contact : {false, true}) {
@@ -116,7 +116,7 @@ TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
   }
 }
 
-TEST(ProofStages, WhereFrictionSwallowsADitherNoResponseIsNotAFault) {
+TEST(ProofStages, NoResponseIsNotAFaultWhereFrictionAbsorbsTheDither) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(60.0);
@@ -129,7 +129,7 @@ TEST(ProofStages, WhereFrictionSwallowsADitherNoResponseIsNotAFault) {
   CHECK_FALSE(muscle.unanswered);
 }
 
-TEST(ProofStages, NoDitherIsAddedToAPowerThatHasNoRoomForIt) {
+TEST(ProofStages, NoDitherIsAddedToAPowerWithoutHeadroom) {
   ProofSettings far = paper_proof();
   far.obvious_m = 0.1;  // farther than the muscle ever moves: nothing is decided for 3 s
   HeldMuscle muscle(far);
@@ -147,7 +147,7 @@ TEST(ProofStages, NoDitherIsAddedToAPowerThatHasNoRoomForIt) {
   DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
 }
 
-TEST(ProofStages, AMuscleLearnedDuringADitherGoesOnWithoutOne) {
+TEST(ProofStages, LearningAMuscleEndsTheDither) {
   HeldMuscle muscle(paper_proof());
   while (muscle.proof.dither_W() == 0.0)
     muscle.run(0.01);
@@ -157,7 +157,7 @@ TEST(ProofStages, AMuscleLearnedDuringADitherGoesOnWithoutOne) {
   DOUBLES_EQUAL(0.0, muscle.proof.dither_W(), 0.0);
 }
 
-TEST(ProofStages, WhereFrictionSwallowsADitherAMotionProvesItselfUntilItEnds) {
+TEST(ProofStages, WhereFrictionAbsorbsTheDitherMotionIsProofWhileItLasts) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   const auto run_sine = [&](double time_s) {
@@ -191,7 +191,7 @@ TEST(ProofStages, AMuscleThatMovesAndLosesContactGetsTheSafePowerInTime) {
 }
 
 // Play hides the start of the fall; at the safe power there is time to wait for the rest of it.
-TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
+TEST(ProofStages, NoResponseAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 300e-6;
   muscle.run(9.0);
@@ -206,7 +206,7 @@ TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
 }
 
 // The muscle answered the removal of power: from then on there is time again.
-TEST(ProofStages, AMuscleThatMovedMayGoOn) {
+TEST(ProofStages, AMuscleThatRespondedGetsTimeAgain) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   for (int i = 0; i < 3000 && muscle.proof.max_W() > 0.0; ++i)
@@ -220,7 +220,7 @@ TEST(ProofStages, AMuscleThatMovedMayGoOn) {
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
 }
 
-TEST(ProofStages, ADeadMuscleIsFoundAtTheSafePowerToo) {
+TEST(ProofStages, ADeadMuscleIsDetectedAtTheSafePowerToo) {
   HeldMuscle muscle(paper_proof());
   muscle.run(9.0);
   muscle.off_sensor = true;
@@ -260,7 +260,7 @@ TEST(ProofStages, WithoutAPositionNothingIsJudged) {
   CHECK(muscle.unanswered);
 }
 
-TEST(ProofStages, BeginAnewWithAMuscleThatWasLearned) {
+TEST(ProofStages, RestartWithALearnedMuscle) {
   HeldMuscle muscle(paper_proof(), false);
   muscle.run(20.0);
   CHECK(std::isinf(muscle.proof.max_W()));
@@ -272,7 +272,7 @@ TEST(ProofStages, BeginAnewWithAMuscleThatWasLearned) {
   CHECK(muscle.unanswered);
 }
 
-TEST(ProofStages, ANewCalibrationIsNotMotion) {
+TEST(ProofStages, ARecalibrationIsNotMotion) {
   for (const bool told : {false, true}) {
     HeldMuscle muscle(paper_proof());
     muscle.run(20.0);
@@ -285,7 +285,7 @@ TEST(ProofStages, ANewCalibrationIsNotMotion) {
   }
 }
 
-TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
+TEST(ProofStages, AMotionHasAMomentToBecomeProofBeforeADither) {
   HeldMuscle muscle(paper_proof());
   muscle.off_sensor = true;  // so that only a dither could be answered
   muscle.hotter_K = 115.0;   // half a second from the limit: a dither is due at once
@@ -296,7 +296,7 @@ TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
 }
 
 // The new position at that moment is not motion and proves nothing.
-TEST(ProofStages, AMuscleLearnedAnewHasNotAnsweredYet) {
+TEST(ProofStages, ARelearnedMuscleHasNotRespondedYet) {
   const auto dither_begins = [](bool learned) {
     HeldMuscle muscle(paper_proof());
     muscle.off_sensor = true;
@@ -313,7 +313,7 @@ TEST(ProofStages, AMuscleLearnedAnewHasNotAnsweredYet) {
 }
 
 // The load moves too much for full power to show, but too slowly to hide the answer to a dither.
-TEST(ProofStages, ASlowLoadHidesNoAnswerToADither) {
+TEST(ProofStages, ASlowLoadDoesNotHideTheResponseToADither) {
   HeldMuscle muscle(paper_proof());
   muscle.run(20.0);
   muscle.min_W = 1e3;
@@ -325,7 +325,7 @@ TEST(ProofStages, ASlowLoadHidesNoAnswerToADither) {
   DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
 }
 
-TEST(ProofStages, ANewCalibrationSpoilsNoAnswerToADither) {
+TEST(ProofStages, ARecalibrationDoesNotSpoilTheResponseToADither) {
   HeldMuscle muscle(paper_proof());
   muscle.run(20.0);
   muscle.min_W = 1e3;

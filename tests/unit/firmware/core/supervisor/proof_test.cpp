@@ -14,7 +14,7 @@ using test::paper_proof;
 
 TEST_GROUP(Proof){};
 
-TEST(Proof, OfALivingMuscleIsFoundAgainAndAgain) {
+TEST(Proof, OfALivingMuscleIsRepeated) {
   HeldMuscle muscle(paper_proof());
   muscle.run(600.0);
   CHECK_FALSE(muscle.unanswered);
@@ -38,7 +38,7 @@ TEST(Proof, IsMissedWithinSecondsOfALostContact) {
   }
 }
 
-TEST(Proof, IsNoFaultWhereFrictionSwallowsADither) {
+TEST(Proof, IsNoFaultWhereFrictionAbsorbsTheDither) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(60.0);
@@ -53,7 +53,7 @@ TEST(Proof, IsNoFaultWhileALoadSwings) {
   CHECK_FALSE(muscle.unanswered);
 }
 
-TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
+TEST(Proof, IsNotRequiredAtTheSafePower) {
   for (const bool off_sensor : {false, true}) {
     HeldMuscle muscle(paper_proof());
     muscle.off_sensor = off_sensor;
@@ -64,7 +64,7 @@ TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
   }
 }
 
-TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {
+TEST(Proof, AllowsLessPowerTheLessAccuratelyItIsKnown) {
   ProofSettings uncompared = paper_proof();
   uncompared.max_power_ratio = 3.0;
   HeldMuscle muscle(uncompared);
@@ -80,7 +80,7 @@ TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {
   DOUBLES_EQUAL(wide_W, muscle.proof.max_W(), 1e-9);
 }
 
-TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
+TEST(Proof, IsNotRequiredOfAnUnidentifiedMuscleOrWhenSwitchedOff) {
   ProofSettings off = paper_proof();
   off.enabled = false;
   for (const bool known : {false, true}) {
@@ -94,7 +94,7 @@ TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
   }
 }
 
-TEST(Proof, IsGivenThePowerThatIsSafeInAirThatIsWarmerThanConfigured) {
+TEST(Proof, SafePowerIsLowerInAirWarmerThanConfigured) {
   const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
   const double left_K = paper_proof().derate_from_C - paper_proof().thermal.air.warmest_C;
   HeldMuscle muscle(paper_proof());
@@ -110,7 +110,7 @@ TEST(Proof, IsGivenThePowerThatIsSafeInAirThatIsWarmerThanConfigured) {
   DOUBLES_EQUAL(plan.safe_W, muscle.proof.max_W(), 0.0);
 }
 
-TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
+TEST(Proof, ProvablePowerIsLowerInAirWarmerThanConfigured) {
   ProofSettings strong = paper_proof();
   strong.max_W = 11.0;
   const double limit_K = strong.trip_C - strong.thermal.air.warmest_C;
@@ -146,7 +146,7 @@ void check_safe(const HeldMuscle& muscle, const ProofSettings& settings) {
 }  // namespace
 
 // Neither a rest nor a moment at low power gives back time that was used without a proof.
-TEST(Proof, IsNotPutOffByRestsNorByMomentsWithLittlePower) {
+TEST(Proof, IsNotPostponedByRestsOrMomentsOfLowPower) {
   for (const bool rests : {false, true}) {
     for (const double heated_s : {0.25, 0.5, 1.0, 2.0}) {
       HeldMuscle muscle(paper_proof());
@@ -166,7 +166,7 @@ TEST(Proof, IsNotPutOffByRestsNorByMomentsWithLittlePower) {
 }
 
 // At the safe power a muscle off its sensor becomes four times as hot as is believed.
-TEST(Proof, IsAskedForTheSoonerTheHotterTheMuscleMayHaveBecomeBefore) {
+TEST(Proof, IsRequiredSoonerTheHotterTheMuscleMayBe) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 1.1;
   muscle.run(20.0);
@@ -178,7 +178,7 @@ TEST(Proof, IsAskedForTheSoonerTheHotterTheMuscleMayHaveBecomeBefore) {
   check_safe(muscle, paper_proof());
 }
 
-TEST(Proof, OfAMuscleWhoseSensorMovesWhenItLetsGoIsMissedInTime) {
+TEST(Proof, IsMissedInTimeWhenTheSensorMovesAsItLosesContact) {
   ProofSettings s = paper_proof();
   s.position_noise_rms_m = 30e-6;
   s.max_power_ratio = 1.5;
@@ -200,7 +200,7 @@ TEST(Proof, OfAMuscleWhoseSensorMovesWhenItLetsGoIsMissedInTime) {
 }
 
 // Motion from any other cause does not postpone the proof beyond the time that there is.
-TEST(Proof, OfADeadMuscleIsAskedForWhileALoadSwings) {
+TEST(Proof, OfADeadMuscleIsRequiredWhileALoadSwings) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 4.5;
   muscle.run(20.0);

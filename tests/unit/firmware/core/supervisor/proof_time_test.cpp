@@ -16,7 +16,7 @@ using test::slow_proof;
 TEST_GROUP(ProofTime){};
 
 // A short rest does not give back the time that was used.
-TEST(ProofTime, AMuscleThatWasHeldToTheSafePowerIsUntilItAnswersOrMustHaveCooled) {
+TEST(ProofTime, TheSafePowerHoldsUntilTheMuscleRespondsOrMustHaveCooled) {
   for (const bool off_sensor : {false, true}) {
     HeldMuscle muscle(paper_proof());
     muscle.play_m = 200e-6;
@@ -32,7 +32,7 @@ TEST(ProofTime, AMuscleThatWasHeldToTheSafePowerIsUntilItAnswersOrMustHaveCooled
 }
 
 // The fall after the swing proves the muscle, once the swing is forgotten.
-TEST(ProofTime, WhatWasSeenAtRestIsForgottenAfterTwoSecondsToo) {
+TEST(ProofTime, MotionAtRestIsForgottenAfterTwoSecondsToo) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(60.0);
@@ -81,7 +81,7 @@ TEST(ProofTime, AMuscleThatIsHeldDownAtRestGetsItsPowerBackByADither) {
 }
 
 // The hot end already accounts for how hot the muscle may be before it is first heated.
-TEST(ProofTime, WhatAMuscleMayHaveBeenBeforeItIsHeatedUsesNoTime) {
+TEST(ProofTime, HeatFromBeforeTheFirstHeatingUsesNoTime) {
   HeldMuscle muscle(paper_proof());
   muscle.off_sensor = true;
   muscle.heating = false;
@@ -96,7 +96,7 @@ TEST(ProofTime, WhatAMuscleMayHaveBeenBeforeItIsHeatedUsesNoTime) {
   DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
 }
 
-TEST(ProofTime, WhatTheHotEndWasWhileItWasHeatedIsNotForgotten) {
+TEST(ProofTime, TheHotEndWhileHeatedIsRemembered) {
   HeldMuscle muscle(paper_proof());
   muscle.off_sensor = true;
   muscle.demanded_W = 1.3;
@@ -108,7 +108,7 @@ TEST(ProofTime, WhatTheHotEndWasWhileItWasHeatedIsNotForgotten) {
   CHECK_COMPARE(muscle.dither_ticks, >, 0);
 }
 
-TEST(ProofTime, WarmAirIsPartOfWhatAMuscleMayHaveBecome) {
+TEST(ProofTime, WarmAirCountsTowardsTheHotEnd) {
   for (const double warmer_K : {0.0, 30.0}) {
     ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
     plan.adjust_for_air(paper_proof(), warmer_K);
@@ -124,7 +124,7 @@ TEST(ProofTime, WarmAirIsPartOfWhatAMuscleMayHaveBecome) {
   }
 }
 
-TEST(ProofTime, AJumpPostponesASlowDitherByNoMoreThanTwoSeconds) {
+TEST(ProofTime, AJumpPostponesASlowDitherByAtMostTwoSeconds) {
   CHECK_COMPARE(plan_proof(slow_proof(), slow_muscle(), 1000.0).dither.decided_s, >, 3.0);
   const auto dither_after_s = [](double jump_m) {
     HeldMuscle muscle(slow_proof(), true, slow_muscle());
@@ -145,7 +145,7 @@ TEST(ProofTime, AJumpPostponesASlowDitherByNoMoreThanTwoSeconds) {
   CHECK_COMPARE(dither_after_s(0.001) - dither_after_s(0.0), <, 2.1);
 }
 
-TEST(ProofTime, AMuscleThatMovedIsDitheredAnewAfterARest) {
+TEST(ProofTime, AMuscleThatMovedIsDitheredAgainAfterARest) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(14.0);

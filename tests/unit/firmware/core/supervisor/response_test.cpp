@@ -39,13 +39,13 @@ double tail(double deviations) {
 
 TEST_GROUP(Response){};
 
-TEST(Response, OfADeadMuscleIsTakenForOneInAThousandBlocksAtMost) {
+TEST(Response, FalseResponsesOfADeadMuscleAreAtMostOneInAThousand) {
   CHECK_COMPARE(part_that_is(detectors::Response::Result::answered, 0.0, 50000), <=, 1.3e-3);
 }
 
 // 1e-9 cannot be counted. The missed fraction is at most twice a normal tail at 1, 2, 3 and 4
 // deviations, and half of the model's answer is 6.2 deviations from the threshold.
-TEST(Response, OfALivingMuscleIsMissedAsANormalTailSays) {
+TEST(Response, MissRateOfALivingMuscleFollowsTheNormalTail) {
   for (const double deviations : {1.0, 2.0, 3.0, 4.0}) {
     const double ratio =
         detectors::Response::silent_ratio + deviations / detectors::Response::needed_deviations;
@@ -68,7 +68,7 @@ TEST(Response, IsOpenWhileSomethingElseMovesThePosition) {
 
 // It moves by itself, at a rate of its own: 0.2 of the expected motion is too little, 0.45 is a
 // living muscle.
-TEST(Response, OfAMuscleThatMovesMuchByItselfIsOpenHoweverLongItLasts) {
+TEST(Response, StaysOpenForUnrelatedMotionThatLasts) {
   for (const double moved_ratio : {0.2, 0.45}) {
     detectors::Response answer(step_noise_m);
     auto result = detectors::Response::Result::open;
@@ -96,7 +96,7 @@ TEST(Response, IgnoresADrift) {
   CHECK_COMPARE(std::abs(last_m), <, 1e-7);
 }
 
-TEST(Response, TellsMotionByItsRmsOverTheBlock) {
+TEST(Response, MotionIsTheRmsOverTheBlock) {
   detectors::Response answer(step_noise_m);
   for (int i = 0; i < 1000; ++i)
     answer.step(0.0, i % 2 == 0 ? 100e-6 : -100e-6);
@@ -104,7 +104,7 @@ TEST(Response, TellsMotionByItsRmsOverTheBlock) {
   CHECK_FALSE(answer.moved(102e-6));
 }
 
-TEST(Response, FoundElsewhereIsReportedWithItsMargin) {
+TEST(Response, ReportedMarginCarriesAnExternalVerdict) {
   detectors::ReportedMargin reported;
   CHECK_FALSE(reported.step(false, {1e-3, 2e-3, true, true}));
   DOUBLES_EQUAL(2.0, reported.margin().used(), 1e-12);

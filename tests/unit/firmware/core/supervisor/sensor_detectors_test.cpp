@@ -14,7 +14,7 @@ const double nan_value = std::nan("");
 
 TEST_GROUP(SensorDetectors){};
 
-TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForOneWildReading) {
+TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForASingleOutlier) {
   OutOfRange detector({0.0, 0.04, 0.005}, tick_s);
   CHECK_FALSE(detector.step(0.05));
   for (int i = 0; i < 4; ++i)
@@ -47,13 +47,13 @@ TEST(SensorDetectors, OutOfRangeTripsForNaN) {
   CHECK(detector.step(nan_value));
 }
 
-TEST(SensorDetectors, OutOfRangeMarginIsHowNearTheEndIs) {
+TEST(SensorDetectors, OutOfRangeMarginIsTheDistanceToTheLimit) {
   OutOfRange detector({0.0, 0.04, 0.005}, tick_s);
   detector.step(0.03);
   DOUBLES_EQUAL(0.5, detector.margin().used(), 1e-9);
 }
 
-TEST(SensorDetectors, AFlagTripsAtOnceAndUsesAllOrNothing) {
+TEST(SensorDetectors, AFlagTripsAtOnceAndUsesAllOfItsMarginOrNone) {
   Flag detector;
   CHECK_FALSE(detector.step(false));
   DOUBLES_EQUAL(0.0, detector.margin().used(), 0.0);
@@ -109,7 +109,7 @@ TEST(SensorDetectors, DisagreeTripsAfterItsTime) {
   CHECK_FALSE(detector.step(50.0, 65.0));
 }
 
-TEST(SensorDetectors, JumpTakesTheFirstReadingForNoMotion) {
+TEST(SensorDetectors, JumpIgnoresTheFirstReading) {
   Jump detector({0.5, 1e-4});
   CHECK_FALSE(detector.step(0.010, tick_s));
   DOUBLES_EQUAL(0.0, detector.margin().measured, 0.0);

@@ -49,22 +49,22 @@ double measured_ratio(const Sensor& sensor, const ProofSettings& settings = pape
 
 TEST_GROUP(SmallSignal){};
 
-TEST(SmallSignal, OfALinearMuscleIsWhatArrives) {
+TEST(SmallSignal, RatioOfALinearMuscleIsItsGainRatio) {
   for (const double ratio : {0.3, 1.0, 1.6})
     DOUBLES_EQUAL(ratio, measured_ratio({.ratio = ratio}), 0.05);
 }
 
-TEST(SmallSignal, IsTakenByPlayBetweenMuscleAndSensor) {
+TEST(SmallSignal, IsAbsorbedByPlayBetweenMuscleAndSensor) {
   CHECK_COMPARE(measured_ratio({.play_m = 100e-6}), <, 0.05);
 }
 
-TEST(SmallSignal, BehindNoiseIsNotKnown) {
+TEST(SmallSignal, IsUnknownBehindNoise) {
   ProofSettings noisy = paper_proof();
   noisy.position_noise_rms_m = 500e-6;
   DOUBLES_EQUAL(0.0, measured_ratio({.noise_m = 500e-6}, noisy), 0.0);
 }
 
-TEST(SmallSignal, ThatIsStoppedIsOver) {
+TEST(SmallSignal, StopEndsIt) {
   SmallSignal measuring;
   CHECK_FALSE(measuring.running());
   const auto plan = plan_small_signal(paper_proof(), {}, held_W, rate_Hz);
@@ -85,7 +85,7 @@ TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
 }
 
 /// Also with a power too near to either limit for both halves of a dither.
-TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
+TEST(SmallSignal, IsPlannedWithinAMinuteAndWithHeadroom) {
   control::PhysicalParameters slow;
   slow.thermal_mass_J_per_K = 15.0 * slow.heat_transfer_W_per_K;
   DOUBLES_EQUAL(45.0, plan_small_signal(paper_proof(), slow, held_W, rate_Hz).settle_s, 0.0);
@@ -94,7 +94,7 @@ TEST(SmallSignal, IsPlannedWithinAMinuteAndWithRoom) {
   DOUBLES_EQUAL(2.25, plan_small_signal(paper_proof(), {}, 4.5, rate_Hz).hold_W, 1e-12);
 }
 
-TEST(SmallSignal, IsAsLargeWhateverWasFoundOfAnEarlierMuscle) {
+TEST(SmallSignal, AmplitudeIgnoresTheResponseOfAnEarlierMuscle) {
   ProofSettings rubbed = paper_proof();
   rubbed.response_ratio = 0.5;
   DOUBLES_EQUAL(plan_small_signal(paper_proof(), {}, held_W, rate_Hz).dither.amplitude_W,
@@ -122,7 +122,7 @@ TEST(SmallSignal, TakesTheTimeThatItsDitherNeeds) {
 }
 
 /// Without settling and without noise, from the very first step on.
-TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
+TEST(SmallSignal, RatioOfTheModelsOwnMotionIsOne) {
   const control::PhysicalParameters muscle;
   auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);
   plan.settle_s = plan.hold_W = 0.0;

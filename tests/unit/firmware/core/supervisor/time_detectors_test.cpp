@@ -12,7 +12,7 @@ namespace {}
 
 TEST_GROUP(TimeDetectors){};
 
-TEST(TimeDetectors, ConsecutiveCountForgetsAtEachGoodOne) {
+TEST(TimeDetectors, ConsecutiveCountResetsAtEachGoodOne) {
   ConsecutiveCount detector(3);
   CHECK_FALSE(detector.step(true));
   CHECK_FALSE(detector.step(true));
@@ -22,7 +22,7 @@ TEST(TimeDetectors, ConsecutiveCountForgetsAtEachGoodOne) {
   CHECK(detector.step(true));
 }
 
-TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
+TEST(TimeDetectors, SilentTripsWhenTheCounterStalls) {
   StalledCounter detector(0.01, tick_s);
   for (std::uint32_t i = 1; i < 100; ++i)
     CHECK_FALSE(detector.step(i));
@@ -70,7 +70,7 @@ TEST(TimeDetectors, AControllerIsLostAtOnceWhenItDemandsNaN) {
   CHECK_FALSE(detector.step(1.0, false));
 }
 
-TEST(TimeDetectors, ACounterThatNeverMovedIsFoundInTheSameTime) {
+TEST(TimeDetectors, ACounterThatNeverMovedIsDetectedInTheSameTime) {
   StalledCounter detector(0.01, tick_s);
   for (int i = 0; i < 9; ++i)
     CHECK_FALSE(detector.step(0));

@@ -80,7 +80,7 @@ TEST(Attribute, ReadsNothingElseAsANumber) {
   }
 }
 
-TEST(Attribute, NoTextAtAllMakesItFail) {
+TEST(Attribute, ParsesOnlyNumbersFromArbitraryText) {
   CHECK(rc::check("random text", [](const std::string& text) {
     const Number number = parse_number(text);
     if (number.status == hal::Status::ok) {
@@ -90,14 +90,14 @@ TEST(Attribute, NoTextAtAllMakesItFail) {
   }));
 }
 
-TEST(Attribute, SeesANewValueThroughTheSameDescriptor) {
+TEST(Attribute, ReadsANewValueThroughTheSameDescriptor) {
   const auto attribute = opened("1\n", hal_linux::Attribute::Use::read);
   LONGS_EQUAL(1, attribute.number().value);
   folder.write("value", "-31000\n");
   LONGS_EQUAL(-31000, attribute.number().value);
 }
 
-TEST(Attribute, WritesNumbersAsTheKernelReadsThem) {
+TEST(Attribute, WritesNumbersInTheKernelsFormat) {
   const auto attribute = opened("");
   check_status(hal::Status::ok, attribute.write(std::numeric_limits<std::int64_t>::min()));
   STRCMP_EQUAL("-9223372036854775808", folder.read("value").c_str());
@@ -113,7 +113,7 @@ TEST(Attribute, PassesOnWhyItCouldNotBeReadOrWritten) {
   }
 }
 
-TEST(Attribute, NamesPathValueAndCauseInTheSetUp) {
+TEST(Attribute, SetUpErrorsNamePathValueAndCause) {
   const auto attribute = opened("1");
   fail_next(Call::pwrite, "/value", EINVAL);
   const std::string path = folder / "value";
@@ -132,7 +132,7 @@ TEST(Attribute, NamesPathValueAndCauseInTheSetUp) {
                attribute.integer().error().text().c_str());
 }
 
-TEST(Attribute, RefusesWhatIsNotText) {
+TEST(Attribute, RefusesBinaryContent) {
   const auto attribute = opened("");
   STRCMP_CONTAINS("is empty", attribute.text().error().text().c_str());
   folder.write("value", std::string("\x7f"
@@ -145,7 +145,7 @@ TEST(Attribute, RefusesWhatIsNotText) {
   STRCMP_CONTAINS("is longer than a page", attribute.text().error().text().c_str());
 }
 
-TEST(Attribute, DoesNotHangOnAPipeInItsPlace) {
+TEST(Attribute, DoesNotBlockOnAPipeInItsPlace) {
   folder.make_pipe("pipe");
   // Without a reader, a pipe refuses a writer with ENXIO; with one it turns out not to be a file.
   for (const auto use : {hal_linux::Attribute::Use::read, hal_linux::Attribute::Use::write,

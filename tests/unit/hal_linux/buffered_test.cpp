@@ -31,19 +31,19 @@ TEST_GROUP(BufferedAdc) {
   hal_linux::BufferedAdc adc{std::unique_ptr<hal::AdcChannel>(device)};
 };
 
-TEST(BufferedAdc, HasNothingBeforeItWasServed) {
+TEST(BufferedAdc, HasNothingBeforeItIsServed) {
   check_sample(hal::Status::not_ready, 0, adc.latest());
   LONGS_EQUAL(0, device->reads);
 }
 
-TEST(BufferedAdc, GivesTheNewestConversionAgainWithItsOwnTime) {
+TEST(BufferedAdc, RepeatsTheNewestConversionWithItsOwnTime) {
   adc.serve();
   adc.serve();
   for (int i = 0; i < 3; ++i)
     check_sample(hal::Status::ok, 2, adc.latest());
 }
 
-TEST(BufferedAdc, TellsAFailureBesideTheLastGoodConversion) {
+TEST(BufferedAdc, ReportsAFailureWithTheLastGoodConversion) {
   adc.serve();
   for (const auto status : {hal::Status::io_error, hal::Status::gone, hal::Status::busy}) {
     device->status = status;
@@ -67,7 +67,7 @@ TEST_GROUP(BufferedPwm) {
   hal_linux::BufferedPwm pwm{std::unique_ptr<hal::PwmOutput>(device)};
 };
 
-TEST(BufferedPwm, WritesNothingBeforeItIsAsked) {
+TEST(BufferedPwm, WritesNothingBeforeItIsSet) {
   pwm.serve();
   LONGS_EQUAL(0, device->writes);
   LONGS_EQUAL(1000, pwm.steps());
@@ -93,7 +93,7 @@ TEST(BufferedPwm, ReadsNothingBackWhileAWriteIsUnderWay) {
   LONGS_EQUAL(-1, pwm.read_back());
 }
 
-TEST(BufferedPwm, RefusesAStepThatIsNone) {
+TEST(BufferedPwm, RefusesAStepOutOfRange) {
   check_status(hal::Status::ok, pwm.set(500));
   pwm.serve();
   for (const int step : {-1, 1001})
@@ -103,7 +103,7 @@ TEST(BufferedPwm, RefusesAStepThatIsNone) {
   LONGS_EQUAL(500, pwm.read_back());
 }
 
-TEST(BufferedPwm, TellsAFailureAtTheNextSetAndTriesAgain) {
+TEST(BufferedPwm, ReportsAFailureAtTheNextSetAndRetries) {
   device->status = hal::Status::gone;
   check_status(hal::Status::ok, pwm.set(500));
   pwm.serve();
@@ -119,7 +119,7 @@ TEST(BufferedPwm, TellsAFailureAtTheNextSetAndTriesAgain) {
   check_status(hal::Status::ok, pwm.set(0));
 }
 
-TEST(BufferedPwm, DoesNotCallAStallASuccess) {
+TEST(BufferedPwm, ReportsAStallAsBusy) {
   pwm.serve();
   for (int i = 0; i < hal_linux::BufferedPwm::max_unserved; ++i) {
     check_status(hal::Status::ok, pwm.set(1));

@@ -57,7 +57,7 @@ TEST_GROUP(ABus) {
   }
 };
 
-TEST(ABus, HasNothingToTellBeforeItsFirstRound) {
+TEST(ABus, HasNoTimesBeforeItsFirstRound) {
   const BusHealth health;
   UNSIGNED_LONGS_EQUAL(0, health.rounds.load());
   UNSIGNED_LONGS_EQUAL(0, health.skipped.load());
@@ -82,7 +82,7 @@ TEST(ABus, ServesEveryDeviceWhileAnotherFails) {
   CHECK(good.latest().status == hal::Status::ok);
 }
 
-TEST(ABus, SeesADeviceComeBack) {
+TEST(ABus, NoticesWhenADeviceComesBack) {
   const auto bus = started(200us);
   wait_for_rounds(*bus, 2);
   bad_device->status = hal::Status::gone;
@@ -93,7 +93,7 @@ TEST(ABus, SeesADeviceComeBack) {
   CHECK(bad.latest().status == hal::Status::ok);
 }
 
-TEST(ABus, ThatIsTooSlowLeavesPeriodsOutAndCountsThem) {
+TEST(ABus, ThatIsTooSlowSkipsPeriodsAndCountsThem) {
   slow.first = slow.then = 3ms;
   const auto bus = started(1ms);
   wait_for_rounds(*bus, 3);
@@ -119,7 +119,7 @@ TEST(ABus, DoesNotRunFasterThanItsPeriod) {
   CHECK(MonotonicClock::time() - start >= 4 * 2ms);
 }
 
-TEST(ABus, DoesNotCatchUpWhatItLeftOut) {
+TEST(ABus, DoesNotCatchUpSkippedPeriods) {
   slow.first = 30ms;
   auto bus = started(2ms);
   wait_for_rounds(*bus, 6);
@@ -128,7 +128,7 @@ TEST(ABus, DoesNotCatchUpWhatItLeftOut) {
   CHECK(slow.started.at(5) - slow.started.at(1) >= 3 * 2ms);
 }
 
-TEST(ABus, IsServedNoMoreWhenItHasEnded) {
+TEST(ABus, IsNoLongerServedOnceEnded) {
   auto bus = started(200us);
   wait_for_rounds(*bus, 2);
   bus.reset();
@@ -146,12 +146,12 @@ TEST(ABus, WithoutItsThreadIsAnError) {
   CHECK_FALSE(BusThread::start({"small", 0, -1, 1}, 1ms, {}).has_value());
 }
 
-TEST(ABus, OfAPeriodThatIsNoneIsAnError) {
+TEST(ABus, WithoutAPositivePeriodIsAnError) {
   const auto bus = BusThread::start({"i2c-1"}, 0ns, {});
   STRCMP_EQUAL("a bus's period must be above 0", bus.error().text().c_str());
 }
 
-TEST(ABus, TellsHowItsPrioritySettingWent) {
+TEST(ABus, ReportsTheResultOfSettingItsPriority) {
   const auto bus = BusThread::start({"i2c-1", 50, 0}, 1ms, {});
   LONGS_EQUAL(2, (*bus)->steps().size());
 }

@@ -43,7 +43,7 @@ TEST_GROUP(Descriptor) {
   }
 };
 
-TEST(Descriptor, ClosesWhatItHoldsOnce) {
+TEST(Descriptor, ClosesItsFileOnce) {
   auto first = opened();
   const int number = first.number();
   {
@@ -55,7 +55,7 @@ TEST(Descriptor, ClosesWhatItHoldsOnce) {
   CHECK_FALSE(is_open(number));
 }
 
-TEST(Descriptor, ClosesWhatItHeldWhenItIsGivenAnother) {
+TEST(Descriptor, ClosesItsFileWhenGivenAnother) {
   auto first = opened();
   auto second = opened();
   const int lost = first.number();
@@ -66,18 +66,18 @@ TEST(Descriptor, ClosesWhatItHeldWhenItIsGivenAnother) {
   LONGS_EQUAL(kept, first.number());
 }
 
-TEST(Descriptor, IsNotInheritedByProgramsThatAreStarted) {
+TEST(Descriptor, IsNotInheritedByChildPrograms) {
   CHECK((::fcntl(opened().number(), F_GETFD) & FD_CLOEXEC) != 0);
 }
 
-TEST(Descriptor, SaysWhichFileCannotBeOpened) {
+TEST(Descriptor, NamesTheFileThatCannotBeOpened) {
   const auto file = open_file(folder / "no", O_RDONLY);
   LONGS_EQUAL(ENOENT, file.error().code);
   STRCMP_EQUAL(("cannot open " + folder / "no" + ": No such file or directory").c_str(),
                file.error().text().c_str());
 }
 
-TEST(Descriptor, TellsErrnosApart) {
+TEST(Descriptor, MapsErrnosToStatuses) {
   check_status(hal::Status::ok, status_of(0));
   for (const int error : {EBUSY, ENOBUFS})
     check_status(hal::Status::busy, status_of(error));
@@ -89,7 +89,7 @@ TEST(Descriptor, TellsErrnosApart) {
   }
 }
 
-TEST(Descriptor, RepeatsWhatASignalInterrupts) {
+TEST(Descriptor, RetriesAfterASignal) {
   fail_next(Call::open, "/file", EINTR, 3);
   const auto file = opened();
   fail_next(Call::pread, "/file", EINTR, 3);
@@ -101,14 +101,14 @@ TEST(Descriptor, RepeatsWhatASignalInterrupts) {
   LONGS_EQUAL(0, waiting());
 }
 
-TEST(Descriptor, DoesNotRepeatForEver) {
+TEST(Descriptor, DoesNotRetryForever) {
   const auto file = opened();
   fail_next(Call::pwrite, "/file", EINTR, 1000);
   check_status(hal::Status::io_error, write_start(file, "CON", 3));
   CHECK(waiting() > 900);
 }
 
-TEST(Descriptor, CallsAShortWriteAnError) {
+TEST(Descriptor, TreatsAShortWriteAsAnError) {
   const auto file = opened();
   for (const long written : {0, 1, 2}) {
     next(Call::pwrite, "/file", [written] { return written; });
@@ -133,7 +133,7 @@ TEST(Descriptor, PassesOnWhyACallFailed) {
   }
 }
 
-TEST(Descriptor, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
+TEST(Descriptor, WorksWithDescriptorZero) {
   // A service may be started without standard input; the first file that it opens is then number 0.
   const int input = ::dup(0);
   next(Call::open, "/file", [] { return 0; });

@@ -62,18 +62,18 @@ TEST_GROUP(DevWatchdog) {
   }
 };
 
-TEST(DevWatchdog, TakesWholeSecondsAndNeverFewerThanAsked) {
+TEST(DevWatchdog, RoundsUpToWholeSeconds) {
   LONGS_EQUAL(5, (*open(5.0))->timeout_s());
   LONGS_EQUAL(2, (*open(1.2))->timeout_s());
   LONGS_EQUAL(1, (*open(0.1))->timeout_s());
 }
 
-TEST(DevWatchdog, TellsTheTimeThatTheDriverTookForTheOneAsked) {
+TEST(DevWatchdog, ReportsTheTimeoutThatTheDriverChose) {
   step_s = 8;
   LONGS_EQUAL(8, (*open(5.0))->timeout_s());
 }
 
-TEST(DevWatchdog, RefusesTimesThatCannotBe) {
+TEST(DevWatchdog, RefusesInvalidTimes) {
   max_s = 1'000'000;
   for (const double timeout_s : {0.0, -1.0, 86400.5, 1e9, std::nan("")}) {
     CHECK_FALSE(open(timeout_s).has_value());
@@ -82,7 +82,7 @@ TEST(DevWatchdog, RefusesTimesThatCannotBe) {
   LONGS_EQUAL(86400, (*open(86400.0))->timeout_s());
 }
 
-TEST(DevWatchdog, IsContentWithAShorterTimeThatTheDriverHas) {
+TEST(DevWatchdog, AcceptsAFixedShorterTimeoutOfTheDriver) {
   max_s = 0;
   has_s = 3;
   LONGS_EQUAL(3, (*open(5.0))->timeout_s());
@@ -98,14 +98,14 @@ TEST(DevWatchdog, IsStoppedAgainWhenItsTimeIsTooLong) {
   STRCMP_EQUAL("V", written().c_str());
 }
 
-TEST(DevWatchdog, IsFedWithAnythingButTheMagicLetter) {
+TEST(DevWatchdog, IsFedWithoutTheMagicLetter) {
   const auto watchdog = open(5.0);
   for (int i = 0; i < 3; ++i)
     check_status(hal::Status::ok, (*watchdog)->feed());
   CHECK(written() == std::string(3, '\0'));
 }
 
-TEST(DevWatchdog, GoesOnWhenTheProgramEndsWithoutReleasingIt) {
+TEST(DevWatchdog, KeepsRunningWhenTheProgramEndsWithoutReleasingIt) {
   { const auto watchdog = open(5.0); }
   STRCMP_EQUAL("", written().c_str());
 }
@@ -118,7 +118,7 @@ TEST(DevWatchdog, IsStoppedByTheMagicLetter) {
   check_status(hal::Status::gone, (*watchdog)->release());
 }
 
-TEST(DevWatchdog, ThatCannotBeStoppedIsFedOn) {
+TEST(DevWatchdog, KeepsBeingFedWhenItCannotBeStopped) {
   nowayout = true;
   const auto watchdog = open(5.0);
   check_status(hal::Status::out_of_range, (*watchdog)->release());
@@ -126,7 +126,7 @@ TEST(DevWatchdog, ThatCannotBeStoppedIsFedOn) {
   CHECK(written() == std::string(1, '\0'));
 }
 
-TEST(DevWatchdog, TellsWhetherItOutlivesTheProgram) {
+TEST(DevWatchdog, ReportsWhetherItOutlivesTheProgram) {
   CHECK((*open(5.0))->outlives_program());
   options = WDIOF_SETTIMEOUT;
   CHECK_FALSE((*open(5.0))->outlives_program());
@@ -144,7 +144,7 @@ TEST(DevWatchdog, PassesOnWhyItCouldNotBeFed) {
   check_status(hal::Status::ok, (*watchdog)->feed());
 }
 
-TEST(DevWatchdog, IsHeldBySomebodyElseOrNotThere) {
+TEST(DevWatchdog, FailsToOpenWhenBusyOrMissing) {
   fail_next(Call::open, "/watchdog", EBUSY);
   // For a file that is not open, the error names the path that was asked for.
   STRCMP_CONTAINS("watchdog: Device or resource busy", open(5.0).error().text().c_str());

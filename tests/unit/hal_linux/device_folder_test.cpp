@@ -33,20 +33,20 @@ TEST(DeviceFolders, AreChosenByName) {
   STRCMP_EQUAL("/r/pwmchip2", chosen("11-0040").c_str());
 }
 
-TEST(DeviceFolders, AreChosenByTheEndOfTheirPathWhenItHoldsASlash) {
+TEST(DeviceFolders, AreChosenByPathSuffixWhenItHasASlash) {
   STRCMP_EQUAL("/r/pwmchip0", chosen("i2c-1/1-0040").c_str());
   STRCMP_EQUAL("/r/pwmchip0", chosen("/1-0040").c_str());
   STRCMP_EQUAL("/r/pwmchip7", chosen("platform/soc/fe20c000.pwm").c_str());
   STRCMP_EQUAL("/r/pwmchip7", chosen("/sys/devices/platform/soc/fe20c000.pwm").c_str());
 }
 
-TEST(DeviceFolders, WhosePathOnlyEndsWithTheSameLettersAreNotMeant) {
+TEST(DeviceFolders, MatchOnlyWholePathComponents) {
   STRCMP_CONTAINS("no PWM chip whose path ends with '2c-1/1-0040' in /r: there are pwmchip0",
                   chosen("2c-1/1-0040").c_str());
   STRCMP_CONTAINS("no PWM chip", chosen("oc/fe20c000.pwm").c_str());
 }
 
-TEST(DeviceFolders, OfOneNameAreListed) {
+TEST(DeviceFolders, WithTheSameNameAreListed) {
   STRCMP_EQUAL(
       "more than one PWM chip with the name 'pca9685' in /r: "
       "pwmchip0 'pca9685' at /sys/devices/i2c-1/1-0040, "
@@ -54,13 +54,13 @@ TEST(DeviceFolders, OfOneNameAreListed) {
       chosen("pca9685").c_str());
 }
 
-TEST(DeviceFolders, AreNeverMeantByTheirNumberOrByNothing) {
+TEST(DeviceFolders, NeverMatchByNumberOrAnEmptyName) {
   STRCMP_CONTAINS("no PWM chip with the name 'pwmchip0' in /r", chosen("pwmchip0").c_str());
   STRCMP_CONTAINS("no PWM chip with the name '' in /r", chosen("").c_str());
   STRCMP_EQUAL("no PWM chip with the name 'x' in /r: there is none", chosen("x", {}).c_str());
 }
 
-TEST(DeviceFolders, AreFoundInTheOrderOfTheirNumbers) {
+TEST(DeviceFolders, AreListedInTheOrderOfTheirNumbers) {
   const TemporaryFolder root;
   for (const char* name : {"pwmchip10", "pwmchip9", "pwmchip", "pwmchip-1", "pwmchip1x", "other0",
                            "pwmchip99999999999999999999"}) {
@@ -73,7 +73,7 @@ TEST(DeviceFolders, AreFoundInTheOrderOfTheirNumbers) {
   STRCMP_EQUAL((root / "pwmchip10").c_str(), folders->at(1).folder.c_str());
 }
 
-TEST(DeviceFolders, OfARootThatIsNotThereAreAnError) {
+TEST(DeviceFolders, OfAMissingRootAreAnError) {
   const TemporaryFolder root;
   const auto folders = numbered_folders(root / "class/pwm", "pwmchip");
   LONGS_EQUAL(ENOENT, folders.error().code);

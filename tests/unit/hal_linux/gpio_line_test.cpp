@@ -54,7 +54,7 @@ TEST_GROUP(GpioLine) {
   }
 };
 
-TEST(GpioLine, IsLowFromTheFirstMomentToTheLast) {
+TEST(GpioLine, IsLowFromRequestToRelease) {
   FakeLine& line = processor->lines[2];
   line.value = 1;
   {
@@ -68,7 +68,7 @@ TEST(GpioLine, IsLowFromTheFirstMomentToTheLast) {
   CHECK(line.history == expected);
 }
 
-TEST(GpioLine, TellsWhyALevelWasNotTaken) {
+TEST(GpioLine, ReportsWhyALevelWasNotSet) {
   const auto enable = output("pinctrl-bcm2711", "GPIO5");
   for (const int error : {EIO, ENODEV, EBUSY, EAGAIN}) {
     gpio_kernel().fails_with = error;
@@ -93,7 +93,7 @@ TEST(GpioLine, ReadsBothLevelsAndFailures) {
   }
 }
 
-TEST(GpioLine, NamesTheChipsThatThereAre) {
+TEST(GpioLine, ListsTheAvailableChips) {
   dev.write("gpiochip2", "no chip");
   STRCMP_EQUAL(("no chip with the label 'pinctrl-rp1' in " + dev.path() +
                 ": there are gpiochip0 'raspberrypi-exp-gpio', gpiochip1 'pinctrl-bcm2711', "
@@ -103,7 +103,7 @@ TEST(GpioLine, NamesTheChipsThatThereAre) {
                answer("pinctrl-rp1", "GPIO5").c_str());
 }
 
-TEST(GpioLine, NamesTheLinesThatThereAre) {
+TEST(GpioLine, ListsTheAvailableLines) {
   STRCMP_EQUAL(
       "no line 'GPIO6' on gpiochip1 'pinctrl-bcm2711': there are 'ID_SDA', 'GPIO5', 'GPIO17'",
       answer("pinctrl-bcm2711", "GPIO6").c_str());
@@ -113,7 +113,7 @@ TEST(GpioLine, NamesTheLinesThatThereAre) {
                answer("silent", "x").c_str());
 }
 
-TEST(GpioLine, IsRefusedWhenItsNameIsNotItsOwn) {
+TEST(GpioLine, IsRefusedWhenItsNameIsAmbiguous) {
   processor->lines[0].name = "GPIO5";
   STRCMP_EQUAL("more than one line 'GPIO5' on gpiochip1 'pinctrl-bcm2711': 0 and 2",
                answer("pinctrl-bcm2711", "GPIO5").c_str());
@@ -122,13 +122,13 @@ TEST(GpioLine, IsRefusedWhenItsNameIsNotItsOwn) {
                   answer("pinctrl-bcm2711", "GPIO17").c_str());
 }
 
-TEST(GpioLine, IsFoundWhereAChipHasItsFormerNumberToo) {
+TEST(GpioLine, IsFoundWhenAChipAlsoHasItsFormerNumber) {
   dev.link("gpiochip4", "gpiochip1");
   gpio_kernel().chips[dev / "gpiochip4"] = *processor;
   STRCMP_EQUAL("open", answer("pinctrl-bcm2711", "GPIO5").c_str());
 }
 
-TEST(GpioLine, SaysWhoHoldsIt) {
+TEST(GpioLine, NamesItsHolder) {
   processor->lines[2].consumer = "fan";
   STRCMP_EQUAL(
       "cannot take line 'GPIO5' of gpiochip1 'pinctrl-bcm2711', which 'fan' holds: "
@@ -143,7 +143,7 @@ TEST(GpioLine, SaysWhoHoldsIt) {
                answer("pinctrl-bcm2711", "GPIO17").c_str());
 }
 
-TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
+TEST(GpioLine, IsReadWhileUndriven) {
   FakeLine& line = processor->lines[2];
   for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down}) {
     line.bias = bias;
@@ -163,7 +163,7 @@ TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
   STRCMP_CONTAINS("which 'fan' holds", held.error().text().c_str());
 }
 
-TEST(GpioLine, KeepsNoMemoryOfChipsThatWereLookedAt) {
+TEST(GpioLine, DoesNotLeakMemoryForInspectedChips) {
   const auto look = [&] { STRCMP_CONTAINS("no chip", answer("pinctrl-rp1", "GPIO5").c_str()); };
   look();
   const auto before = ::mallinfo2().uordblks;

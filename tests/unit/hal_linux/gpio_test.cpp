@@ -19,7 +19,7 @@ TEST_GROUP(Gpio) {
   }
 };
 
-TEST(Gpio, SaysThatThereIsNoChipAtAll) {
+TEST(Gpio, ReportsThatThereIsNoChip) {
   STRCMP_EQUAL(
       ("no chip with the label 'pinctrl-bcm2711' in " + dev.path() + ": there is no chip").c_str(),
       answer().c_str());
@@ -27,7 +27,7 @@ TEST(Gpio, SaysThatThereIsNoChipAtAll) {
   STRCMP_EQUAL("cannot list /nowhere: No such file or directory", input.error().text().c_str());
 }
 
-TEST(Gpio, SaysWhyAChipCannotBeOpened) {
+TEST(Gpio, ReportsWhyAChipCannotBeOpened) {
   dev.write("gpiochip0", "");
   dev.make_pipe("gpiochip1");
   dev.make_folder("gpiochip2");
@@ -37,7 +37,7 @@ TEST(Gpio, SaysWhyAChipCannotBeOpened) {
   }
 }
 
-TEST(Gpio, LeavesOutOtherNamesOfAChip) {
+TEST(Gpio, OmitsOtherNamesOfAChip) {
   dev.write("gpiochip0", "");
   dev.link("gpiochip4", "gpiochip0");
   dev.link("gpiochip5", "nowhere");

@@ -52,7 +52,7 @@ TEST_GROUP(IioAdc) {
   }
 };
 
-TEST(IioAdc, GivesCountsAndTheTimeBeforeTheConversion) {
+TEST(IioAdc, ReturnsCountsAndTheTimeBeforeTheConversion) {
   const auto adc = opened();
   const hal::Time before = MonotonicClock::time();
   const hal::Sample sample = adc->latest();
@@ -66,7 +66,7 @@ TEST(IioAdc, ReadsDifferentialInputs) {
   LONGS_EQUAL(5, (*adc)->latest().counts);
 }
 
-TEST(IioAdc, SeesEachNewValue) {
+TEST(IioAdc, ReadsEachNewValue) {
   const auto adc = opened();
   for (const std::int32_t counts : {0, 32767, -32768, INT32_MAX, INT32_MIN}) {
     tree.write(raw, std::to_string(counts) + "\n");
@@ -74,7 +74,7 @@ TEST(IioAdc, SeesEachNewValue) {
   }
 }
 
-TEST(IioAdc, IsNotAmbiguous) {
+TEST(IioAdc, RefusesAnAmbiguousName) {
   ConverterLocation where = place();
   where.device = "ads1115";
   STRCMP_EQUAL(("more than one converter with the name 'ads1115' in " + tree / "bus" +
@@ -85,7 +85,7 @@ TEST(IioAdc, IsNotAmbiguous) {
                answer(where).c_str());
 }
 
-TEST(IioAdc, NamesTheInputsThatThereAre) {
+TEST(IioAdc, ListsTheAvailableInputs) {
   STRCMP_EQUAL(("no input 'voltage7' on iio:device0 'ads1115' at " + tree / "devices/i2c-1/1-0048" +
                 ": there are voltage0, voltage0-voltage1")
                    .c_str(),
@@ -94,7 +94,7 @@ TEST(IioAdc, NamesTheInputsThatThereAre) {
   STRCMP_EQUAL("'' is not an input name", answer(place("")).c_str());
 }
 
-TEST(IioAdc, IsRefusedWhenItDoesNotAnswerAtOnce) {
+TEST(IioAdc, IsRefusedWhenItDoesNotRespondAtOnce) {
   fail_next(Call::pread, "_raw", EREMOTEIO);
   STRCMP_CONTAINS("in_voltage0_raw: Remote I/O error", answer(place()).c_str());
   tree.write(raw, "nothing\n");
@@ -111,7 +111,7 @@ TEST(IioAdc, PassesOnWhyThereIsNoValue) {
   CHECK(adc->latest().status == hal::Status::ok);
 }
 
-TEST(IioAdc, CallsWhatIsNoValueAnError) {
+TEST(IioAdc, TreatsInvalidTextAsAnError) {
   const auto adc = opened();
   for (const std::string& content :
        {std::string(), std::string("\n"), std::string("abc"), std::string("2147483648\n"),
@@ -122,7 +122,7 @@ TEST(IioAdc, CallsWhatIsNoValueAnError) {
   }
 }
 
-TEST(IioAdc, DoesNotHangOnAPipeOrAFolder) {
+TEST(IioAdc, DoesNotBlockOnAPipeOrAFolder) {
   tree.remove(raw);
   tree.make_pipe(raw);
   STRCMP_CONTAINS("is not a file", answer(place()).c_str());
@@ -131,7 +131,7 @@ TEST(IioAdc, DoesNotHangOnAPipeOrAFolder) {
   STRCMP_CONTAINS("is not a file", answer(place()).c_str());
 }
 
-TEST(IioAdc, TellsBetweenWhichCountsItsValuesLie) {
+TEST(IioAdc, ReportsTheRangeOfItsCounts) {
   const std::string type = at_48 + "/scan_elements/in_voltage0_type";
   CHECK_FALSE(count_range(place()).has_value());
   tree.write(type, "be:s16/16>>0\n");
@@ -158,7 +158,7 @@ TEST(IioAdc, GivesNoCountsWithAFailure) {
   LONGS_EQUAL(0, adc->latest().counts);
 }
 
-TEST(IioAdc, SaysThatThereAreNoConverters) {
+TEST(IioAdc, ReportsThatThereAreNoConverters) {
   ConverterLocation where = place();
   where.root = "/nowhere";
   STRCMP_EQUAL("cannot list /nowhere: No such file or directory", answer(where).c_str());

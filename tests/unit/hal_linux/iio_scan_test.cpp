@@ -54,7 +54,7 @@ TEST_GROUP(IioScan) {
   }
 };
 
-TEST(IioScan, EnablesWhatIsAskedForAndNothingElse) {
+TEST(IioScan, EnablesOnlyTheRequestedInputs) {
   const auto scan = opened();
   for (const auto& [name, on] : {std::pair("voltage0", "1\n"),
                                  {"voltage1", "0\n"},
@@ -121,7 +121,7 @@ TEST(IioScan, PassesOnWhyThereIsNoneAndKeepsTheLastScan) {
   CHECK(scan_->input(0).latest().status == hal::Status::io_error);
 }
 
-TEST(IioScan, CallsAPartOfAScanAnError) {
+TEST(IioScan, TreatsAPartialScanAsAnError) {
   const auto scan_ = opened();
   const std::string whole = scan(1, 2, 3);
   for (std::size_t bytes = 1; bytes < whole.size(); ++bytes) {
@@ -134,7 +134,7 @@ TEST(IioScan, CallsAPartOfAScanAnError) {
   }
 }
 
-TEST(IioScan, MayKeepFromTwoToFourThousand) {
+TEST(IioScan, BuffersFromTwoToFourThousandScans) {
   for (const int length : {2, 4096}) {
     ScanLocation place = board.place();
     place.length = length;
@@ -143,7 +143,7 @@ TEST(IioScan, MayKeepFromTwoToFourThousand) {
   }
 }
 
-TEST(IioScan, KeepsSixtyFourScansUnlessTold) {
+TEST(IioScan, BuffersSixtyFourScansByDefault) {
   ScanLocation place = board.place();
   place.length = ScanLocation{}.length;
   const auto scan_ = hal_linux::IioScan::open(place);

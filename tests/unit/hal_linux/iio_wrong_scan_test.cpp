@@ -21,14 +21,14 @@ TEST_GROUP(IioWrongScan) {
   }
 };
 
-TEST(IioWrongScan, IsOneOfNoOrDoubleOrUnknownInputs) {
+TEST(IioWrongScan, HasNoInputsOrDuplicateOrUnknownOnes) {
   STRCMP_EQUAL("a scan without inputs", answer_to({}).c_str());
   STRCMP_EQUAL("input 'voltage1' is listed twice", answer_to({"voltage1", "voltage1"}).c_str());
   STRCMP_EQUAL("'../x' is not an input name", answer_to({"../x"}).c_str());
   STRCMP_CONTAINS("in_voltage9_en: No such file or directory", answer_to({"voltage9"}).c_str());
 }
 
-TEST(IioWrongScan, IsOneOfALengthThatNobodyNeeds) {
+TEST(IioWrongScan, HasAnInvalidBufferLength) {
   for (const int length : {-1, 0, 1, 4097}) {
     ScanLocation place = board.place();
     place.length = length;
@@ -36,7 +36,7 @@ TEST(IioWrongScan, IsOneOfALengthThatNobodyNeeds) {
   }
 }
 
-TEST(IioWrongScan, NamesTheTriggersThatThereAre) {
+TEST(IioWrongScan, ListsTheAvailableTriggers) {
   fail_next(Call::pwrite, "/current_trigger", EINVAL);
   STRCMP_CONTAINS("Invalid argument; there are the triggers 'spi0.0-dev0', 'supercoil'",
                   answer(board.place()).c_str());
@@ -46,7 +46,7 @@ TEST(IioWrongScan, NamesTheTriggersThatThereAre) {
   STRCMP_CONTAINS("there are no triggers at all", answer(board.place()).c_str());
 }
 
-TEST(IioWrongScan, NeedsATriggerThatIsNamedOrSet) {
+TEST(IioWrongScan, NeedsANamedOrPresetTrigger) {
   ScanLocation place = board.place();
   place.trigger.clear();
   STRCMP_CONTAINS("no trigger is named and none is set in ", answer(place).c_str());
@@ -54,17 +54,17 @@ TEST(IioWrongScan, NeedsATriggerThatIsNamedOrSet) {
   STRCMP_EQUAL("open", answer(place).c_str());
 }
 
-TEST(IioWrongScan, HasNoTimes) {
+TEST(IioWrongScan, HasNoTimestamps) {
   board.tree.remove(board.device + "/scan_elements/in_timestamp_en");
   STRCMP_CONTAINS("in_timestamp_en: No such file or directory", answer(board.place()).c_str());
 }
 
-TEST(IioWrongScan, CannotHaveTheLoopsClock) {
+TEST(IioWrongScan, CannotUseTheLoopsClock) {
   fail_next(Call::pwrite, "/current_timestamp_clock", EINVAL);
   STRCMP_CONTAINS("cannot write 'monotonic' to ", answer(board.place()).c_str());
 }
 
-TEST(IioWrongScan, HasTypesThatAreNone) {
+TEST(IioWrongScan, HasInvalidTypes) {
   board.element("voltage0", 0, "le:s16/16X4>>0", false);
   STRCMP_CONTAINS("'le:s16/16X4>>0' is not a scan type", answer(board.place()).c_str());
   board.element("voltage0", 0, "le:u32/32>>0", false);
@@ -73,7 +73,7 @@ TEST(IioWrongScan, HasTypesThatAreNone) {
   STRCMP_EQUAL("open", answer(board.place()).c_str());
 }
 
-TEST(IioWrongScan, HasIndexesThatCannotBe) {
+TEST(IioWrongScan, HasInvalidIndexes) {
   board.element("voltage0", 2, "le:s16/16>>0", false);
   STRCMP_EQUAL("two elements of a scan have the same index", answer(board.place()).c_str());
   for (const char* index : {"-1\n", "99999999999\n"}) {
@@ -84,7 +84,7 @@ TEST(IioWrongScan, HasIndexesThatCannotBe) {
   STRCMP_CONTAINS("is not a whole number", answer(board.place()).c_str());
 }
 
-TEST(IioWrongScan, IsHeldBySomebodyElse) {
+TEST(IioWrongScan, IsHeldByAnotherProgram) {
   fail_next(Call::pwrite, "/buffer/enable", EBUSY);
   STRCMP_CONTAINS("buffer/enable: Device or resource busy", answer(board.place()).c_str());
   fail_next(Call::open, "/dev/iio:device0", EBUSY);

@@ -32,13 +32,13 @@ struct Letter {
 
 TEST_GROUP(MailboxOf){};
 
-TEST(MailboxOf, GivesTheFirstValueBeforeAnythingWasPut) {
+TEST(MailboxOf, ReturnsTheInitialValueBeforeAnyPut) {
   Mailbox<int> box(7);
   LONGS_EQUAL(7, box.newest());
   LONGS_EQUAL(0, Mailbox<int>().newest());
 }
 
-TEST(MailboxOf, GivesTheNewestAndKeepsIt) {
+TEST(MailboxOf, ReturnsTheNewestAndKeepsIt) {
   Mailbox<int> box;
   for (int i = 1; i < 20; ++i) {
     for (int j = 0; j < i; ++j)
@@ -48,7 +48,7 @@ TEST(MailboxOf, GivesTheNewestAndKeepsIt) {
   }
 }
 
-TEST(MailboxOf, TwoThreadsNeverTearsNorGoesBackNorLosesTheLast) {
+TEST(MailboxOf, TwoThreadsNeverTearsGoesBackOrLosesTheLast) {
   constexpr std::uint64_t last = 200'000;
   Mailbox<Letter> box;
   std::thread writer([&] {

@@ -43,7 +43,7 @@ TEST(MonotonicClock, ReturnsAtOnceFromATimeThatIsPast) {
   LONGS_EQUAL(1, waiting());
 }
 
-TEST(MonotonicClock, SleepsOnThroughSignals) {
+TEST(MonotonicClock, KeepsSleepingThroughSignals) {
   fail_next(Call::clock_nanosleep, "", EINTR, 5);
   const hal::Time wake = clock.now() + 2ms;
   CHECK(clock.wait_until(wake) >= wake);

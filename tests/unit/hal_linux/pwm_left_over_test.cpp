@@ -37,7 +37,7 @@ std::string all(const std::vector<std::string>& lines) {
 
 TEST_GROUP(PwmLeftOver){};
 
-TEST(PwmLeftOver, OfAnyKindIsBroughtToRestWithoutARefusal) {
+TEST(PwmLeftOver, OfAnyKindIsStoppedWithoutARefusedWrite) {
   CHECK(rc::check("from any state", [] {
     const PwmState left = left_over();
     const auto rules = *rc::gen::element(Rules::strict, Rules::since_6_8, Rules::enabled_only);
@@ -63,13 +63,13 @@ TEST(PwmLeftOver, NeverHeatsMoreThanBefore) {
 }
 
 /// A longer period would turn the output on.
-TEST(PwmLeftOver, ThatIsInversedAndAlwaysOffStaysOff) {
+TEST(PwmLeftOver, ThatIsInvertedAndOffStaysOff) {
   PwmKernel kernel({50'000, 50'000, true, true});
   CHECK(SysfsPwm::open({"pca9685", 5, 100'000, 4095, kernel.root()}).has_value());
   DOUBLES_EQUAL(0.0, kernel.max_on, 0.0);
 }
 
-TEST(PwmLeftOver, NoStepIsEverRefusedAndEachComesBack) {
+TEST(PwmLeftOver, EveryStepIsAcceptedAndReadsBack) {
   CHECK(rc::check("steps", [] {
     const int steps = *rc::gen::element(1, 2, 100, 4095, 5000);
     const auto period_ns = *rc::gen::element<std::int64_t>(5000, 100'001, 1'000'000, 999'999'937);

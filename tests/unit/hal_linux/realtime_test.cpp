@@ -48,7 +48,7 @@ TEST(Realtime, LocksMemoryOrSaysWhyNot) {
                lock_memory().remedy.c_str());
 }
 
-TEST(Realtime, SaysWhyThereIsNoPriority) {
+TEST(Realtime, ReportsWhyThereIsNoPriority) {
   fail_next(Call::set_scheduling, "", EPERM);
   const SetupStep step = set_fifo_priority(::pthread_self(), 80);
   STRCMP_EQUAL("priority 80 of SCHED_FIFO", step.step.c_str());
@@ -58,7 +58,7 @@ TEST(Realtime, SaysWhyThereIsNoPriority) {
                set_fifo_priority(::pthread_self(), 100).remedy.c_str());
 }
 
-TEST(Realtime, DoesNotBelieveASystemThatOnlySaysYes) {
+TEST(Realtime, VerifiesThatThePriorityWasSet) {
   next(Call::set_scheduling, "", [] { return 0; });
   check_failed(set_fifo_priority(::pthread_self(), 80),
                "accepted, but the thread does not have it");
@@ -76,7 +76,7 @@ TEST(Realtime, DoesNotBelieveASystemThatOnlySaysYes) {
   check_failed(pin_to_cpu(::pthread_self(), 700), "accepted, but the thread may run elsewhere");
 }
 
-TEST(Realtime, PinsToACpuThatThereIs) {
+TEST(Realtime, PinsOnlyToAnExistingCpu) {
   SetupStep first;
   SetupStep none;
   {
@@ -91,14 +91,14 @@ TEST(Realtime, PinsToACpuThatThereIs) {
   check_failed(pin_to_cpu(::pthread_self(), 1 << 20), "Invalid argument");
 }
 
-TEST(Realtime, HoldsTheCpusWakefulWithABinaryZero) {
+TEST(Realtime, KeepsTheCpusAwakeWithABinaryZero) {
   dev.write("cpu_dma_latency", "");
   CpuLatencyRequest cpus;
   check_worked(cpus.hold(dev / "cpu_dma_latency"));
   CHECK(dev.read("cpu_dma_latency") == std::string(4, '\0'));
 }
 
-TEST(Realtime, SaysWhyTheCpusMaySleep) {
+TEST(Realtime, ReportsWhyTheCpusMaySleep) {
   CpuLatencyRequest cpus;
   check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: No such file or directory");
   dev.write("cpu_dma_latency", "");
@@ -106,13 +106,13 @@ TEST(Realtime, SaysWhyTheCpusMaySleep) {
   check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: input/output error");
 }
 
-TEST(Realtime, AThreadsStackThatIsTooSmallIsAnError) {
+TEST(Realtime, TooSmallAThreadStackIsAnError) {
   const auto thread = Thread::start({"small", 0, -1, 1}, [] {});
   STRCMP_EQUAL("cannot start the thread 'small' with 1 bytes of stack: Invalid argument",
                thread.error().text().c_str());
 }
 
-TEST(Realtime, TellsTheLimitThatThisProgramHas) {
+TEST(Realtime, ReportsTheProgramsLimit) {
   rlimit limit{};
   LONGS_EQUAL(0, ::getrlimit(RLIMIT_MEMLOCK, &limit));
   const std::string bytes =
@@ -121,7 +121,7 @@ TEST(Realtime, TellsTheLimitThatThisProgramHas) {
   check_failed(lock_memory(), "the limit of locked memory is " + bytes + " bytes");
 }
 
-TEST(Realtime, AsksForThePriorityThatIsWanted) {
+TEST(Realtime, RequestsTheConfiguredPriority) {
   SetupStep step;
   int priority = 0;
   {

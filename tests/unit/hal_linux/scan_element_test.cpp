@@ -31,7 +31,7 @@ ScanType any_type() {
 
 TEST_GROUP(ScanElements){};
 
-TEST(ScanElements, EveryTypeIsRead) {
+TEST(ScanElements, EveryTypeIsParsed) {
   CHECK(rc::check("types", [] {
     const ScanType type = any_type();
     const auto read = parse_scan_type(as_text(type));
@@ -40,7 +40,7 @@ TEST(ScanElements, EveryTypeIsRead) {
   }));
 }
 
-TEST(ScanElements, WhatIsNoTypeIsRefused) {
+TEST(ScanElements, InvalidTypesAreRefused) {
   for (const char* text : {"",
                            "le",
                            "le:",
@@ -84,7 +84,7 @@ TEST(ScanElements, RandomTextIsRefusedOrSane) {
   }));
 }
 
-TEST(ScanElements, ValuesComeBackFromTheirBytes) {
+TEST(ScanElements, ValuesAreDecodedFromTheirBytes) {
   CHECK(rc::check("values", [](std::uint64_t dirt) {
     const ScanType type = any_type();
     const std::uint64_t mask =
@@ -103,7 +103,7 @@ TEST(ScanElements, ValuesComeBackFromTheirBytes) {
   }));
 }
 
-TEST(ScanElements, LieAsTheKernelLaysThem) {
+TEST(ScanElements, AreLaidOutAsByTheKernel) {
   const auto type = [](const char* text) { return *parse_scan_type(text); };
   // The kernel's documentation: 2 bytes, 6 of padding, 8 of time.
   std::vector<ScanElement> one = {{1, type("le:s64/64>>0"), 0}, {0, type("le:s16/16>>0"), 0}};

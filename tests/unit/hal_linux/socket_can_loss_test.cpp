@@ -53,7 +53,7 @@ TEST_GROUP(SocketCanLoss) {
   }
 };
 
-TEST(SocketCanLoss, InterfaceThatIsDownAndUpAgainIsHeardAgain) {
+TEST(SocketCanLoss, InterfaceThatComesUpAgainIsReceivedAgain) {
   kernel.set_down("can0");
   check_gone();
   kernel.set_up("can0");
@@ -73,7 +73,7 @@ TEST(SocketCanLoss, InterfaceThatVanishedComesBackUnderAnotherNumber) {
   LONGS_EQUAL(1, kernel.filters.size());  // set on the new socket too
 }
 
-TEST(SocketCanLoss, IsNoticedBySendingToo) {
+TEST(SocketCanLoss, IsDetectedBySendingToo) {
   for (const int error : {ENETDOWN, ENXIO, ENODEV}) {
     fail_next(Call::write, "", error);
     check(hal::Status::gone, can->send({0x201, 0, {}, {}}));
@@ -84,7 +84,7 @@ TEST(SocketCanLoss, IsNoticedBySendingToo) {
   }
 }
 
-TEST(SocketCanLoss, LooksForItSeldom) {
+TEST(SocketCanLoss, RetriesRarely) {
   kernel.set_down("can0");
   check_gone();
   kernel.set_up("can0");
@@ -112,14 +112,14 @@ TEST(SocketCanLoss, InterfaceThatIsDownAtFirstMayComeUpLater) {
   check_hears();
 }
 
-TEST(SocketCanLoss, ControllerThatIsOffTheBusAlreadyIsToldSo) {
+TEST(SocketCanLoss, ControllerAlreadyBusOffIsReported) {
   kernel.lose_carrier("can0");
   open();
   check(hal::Status::not_ready, can->receive(frame));
   CHECK(can->state() == hal::CanState::bus_off);
 }
 
-TEST(SocketCanLoss, WhateverFailsWhileItComesBackIsTriedAgain) {
+TEST(SocketCanLoss, FailuresDuringRecoveryAreRetried) {
   kernel.set_down("can0");
   check_gone();
   kernel.set_up("can0");

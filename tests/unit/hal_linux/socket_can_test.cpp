@@ -44,7 +44,7 @@ TEST_GROUP(SocketCan) {
   }
 };
 
-TEST(SocketCan, HearsOnlyWhatItListensToAndTheControllersErrors) {
+TEST(SocketCan, ReceivesOnlyItsIdentifiersAndControllerErrors) {
   const auto can = opened();
   LONGS_EQUAL(2, kernel.filters.size());
   LONGS_EQUAL(0x202, kernel.filters[1].can_id);
@@ -54,7 +54,7 @@ TEST(SocketCan, HearsOnlyWhatItListensToAndTheControllersErrors) {
   CHECK(can->state() == hal::CanState::active);
 }
 
-TEST(SocketCan, HearsNothingOrAllWhereNothingIsListed) {
+TEST(SocketCan, ReceivesNothingOrEverythingWithoutAList) {
   place.listen.clear();
   static_cast<void>(opened());
   LONGS_EQUAL(0, kernel.filters.size());
@@ -65,7 +65,7 @@ TEST(SocketCan, HearsNothingOrAllWhereNothingIsListed) {
   UNSIGNED_LONGS_EQUAL(CAN_EFF_FLAG | CAN_RTR_FLAG, kernel.filters[0].can_mask);
 }
 
-TEST(SocketCan, GivesFramesInTheirOrderAndThenNothing) {
+TEST(SocketCan, ReturnsFramesInOrderAndThenNothing) {
   const auto can = opened();
   kernel.deliver(0x201, {1, 2, 3});
   kernel.deliver(0x202);
@@ -80,7 +80,7 @@ TEST(SocketCan, GivesFramesInTheirOrderAndThenNothing) {
   check(hal::Status::not_ready, can->receive(frame));
 }
 
-TEST(SocketCan, FrameThatWaitedIsAsOldAsItIs) {
+TEST(SocketCan, FrameKeepsItsTimeOfArrival) {
   const auto can = opened();
   const hal::Time before = MonotonicClock::time();
   kernel.deliver(0x201, {1});
@@ -92,7 +92,7 @@ TEST(SocketCan, FrameThatWaitedIsAsOldAsItIs) {
   CHECK(frame.received < after + 100ms);
 }
 
-TEST(SocketCan, SendsAFrameAsItIs) {
+TEST(SocketCan, SendsAFrameUnchanged) {
   const auto can = opened();
   check(hal::Status::ok, can->send({0x7FF, 8, {1, 2, 3, 4, 5, 6, 7, 8}, {}}));
   check(hal::Status::ok, can->send({0, 1, {9, 9, 9}, {}}));
@@ -105,7 +105,7 @@ TEST(SocketCan, SendsAFrameAsItIs) {
   LONGS_EQUAL(0, second->data[1]);  // bytes beyond the length are not sent
 }
 
-TEST(SocketCan, RefusesWhatIsNoFrame) {
+TEST(SocketCan, RefusesInvalidFrames) {
   const auto can = opened();
   check(hal::Status::out_of_range, can->send({0x800, 0, {}, {}}));
   check(hal::Status::out_of_range, can->send({0x201, 9, {}, {}}));
@@ -123,7 +123,7 @@ TEST(SocketCan, FullQueueIsBusyAndNothingElseChanges) {
   CHECK(can->state() == hal::CanState::active);
 }
 
-TEST(SocketCan, PassesOverFramesOfOtherKinds) {
+TEST(SocketCan, SkipsFramesOfOtherKinds) {
   const auto can = opened();
   kernel.deliver(0x201 | CAN_EFF_FLAG, {1});
   kernel.deliver(0x201 | CAN_RTR_FLAG);
@@ -143,7 +143,7 @@ TEST(SocketCan, PassesOverFramesOfOtherKinds) {
   LONGS_EQUAL(7, frame.data[0]);
 }
 
-TEST(SocketCan, IsNotHeldUpByAFloodOfThem) {
+TEST(SocketCan, IsNotBlockedByAFloodOfThem) {
   const auto can = opened();
   kernel.flood = 1000;
   check(hal::Status::not_ready, can->receive(frame));
@@ -171,7 +171,7 @@ TEST(SocketCan, FollowsTheControllersErrorFrames) {
   CHECK(hal::CanState::active == state_after(CAN_ERR_RESTARTED, 0));
 }
 
-TEST(SocketCan, HearingTheBusProvesThatBusOffHasPassed) {
+TEST(SocketCan, ReceptionProvesThatBusOffHasPassed) {
   const auto can = opened();
   kernel.deliver(CAN_ERR_FLAG | CAN_ERR_BUSOFF, {0, 0, 0, 0, 0, 0, 0, 0});
   kernel.from_this_machine = true;
@@ -184,7 +184,7 @@ TEST(SocketCan, HearingTheBusProvesThatBusOffHasPassed) {
   CHECK(can->state() == hal::CanState::active);
 }
 
-TEST(SocketCan, OtherErrorsOfTheSocketAreTold) {
+TEST(SocketCan, OtherErrorsOfTheSocketAreReported) {
   const auto can = opened();
   kernel.receive_errors = {EIO};
   check(hal::Status::io_error, can->receive(frame));
@@ -196,7 +196,7 @@ TEST(SocketCan, OtherErrorsOfTheSocketAreTold) {
   LONGS_EQUAL(1, kernel.sockets);
 }
 
-TEST(SocketCan, NamesTheInterfacesThatThereAre) {
+TEST(SocketCan, ListsTheAvailableInterfaces) {
   kernel.plug("can1", 4);
   kernel.plug("eth0", 2, 1);
   place.interface = "can7";
@@ -208,7 +208,7 @@ TEST(SocketCan, NamesTheInterfacesThatThereAre) {
   STRCMP_EQUAL("no CAN interface 'eth0': there is none", problem_of_opening().c_str());
 }
 
-TEST(SocketCan, SaysWhatCannotBeSetUp) {
+TEST(SocketCan, ReportsWhatCannotBeSetUp) {
   kernel.socket_error = EAFNOSUPPORT;
   STRCMP_CONTAINS("no CAN sockets (kernel modules can, can-raw): Address family",
                   problem_of_opening().c_str());
@@ -217,7 +217,7 @@ TEST(SocketCan, SaysWhatCannotBeSetUp) {
   STRCMP_CONTAINS("cannot set up a CAN socket: receive filters: ", problem_of_opening().c_str());
 }
 
-TEST(SocketCan, RefusesPlacesThatCannotBe) {
+TEST(SocketCan, RefusesInvalidPlaces) {
   place.listen = {0x800};
   STRCMP_EQUAL("can0: 2048 is not an 11-bit identifier (0 to 2047)", problem_of_opening().c_str());
   place.listen.assign(513, 1);

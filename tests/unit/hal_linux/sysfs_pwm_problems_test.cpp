@@ -29,7 +29,7 @@ std::string answer(const PwmLocation& where) {
 
 TEST_GROUP(SysfsPwmProblems){};
 
-TEST(SysfsPwmProblems, AreSaidOfNumbersThatCannotBe) {
+TEST(SysfsPwmProblems, AreReportedForInvalidNumbers) {
   PwmKernel kernel;
   PwmLocation where = place(kernel);
   where.steps = 0;
@@ -47,7 +47,7 @@ TEST(SysfsPwmProblems, AreSaidOfNumbersThatCannotBe) {
   LONGS_EQUAL(0, kernel.writes.size());
 }
 
-TEST(SysfsPwmProblems, NameTheChipsThatThereAre) {
+TEST(SysfsPwmProblems, ListTheAvailableChips) {
   PwmKernel kernel;
   PwmLocation where = place(kernel);
   where.device = "platform/soc/fe20c000.pwm";
@@ -59,13 +59,13 @@ TEST(SysfsPwmProblems, NameTheChipsThatThereAre) {
   STRCMP_EQUAL("cannot list /nowhere: No such file or directory", answer(where).c_str());
 }
 
-TEST(SysfsPwmProblems, TellAnOutputThatTheKernelUses) {
+TEST(SysfsPwmProblems, NameAnOutputInUseByTheKernel) {
   PwmKernel kernel({}, false);
   fail_next(Call::pwrite, "/export", EBUSY);
   STRCMP_CONTAINS("is used by a kernel driver", answer(place(kernel)).c_str());
 }
 
-TEST(SysfsPwmProblems, AreNoneWhereUdevGivesTheFilesAMomentLater) {
+TEST(SysfsPwmProblems, AreAbsentWhenUdevGrantsTheFilesAMomentLater) {
   PwmKernel kernel({}, false);
   fail_next(Call::access, "/pwm5/period", EACCES, 3);
   next(Call::access, "/pwm5/period", [] { return 0; });
@@ -89,21 +89,21 @@ TEST(SysfsPwmProblems, NameTheWriteThatFailed) {
   }
 }
 
-TEST(SysfsPwmProblems, LeadToNoFurtherWrites) {
+TEST(SysfsPwmProblems, StopFurtherWrites) {
   PwmKernel kernel({2'000'000, 1'000'000, true, false});
   fail_next(Call::pwrite, "/duty_cycle", EIO);
   static_cast<void>(answer(place(kernel)));
   LONGS_EQUAL(0, kernel.writes.size());
 }
 
-TEST(SysfsPwmProblems, AreSeenWhenADriverSaysYesAndDoesNothing) {
+TEST(SysfsPwmProblems, AreDetectedWhenADriverAcceptsWritesAndIgnoresThem) {
   PwmKernel kernel({2'000'000, 0, true, false});
   next(Call::pwrite, "/period", [] { return 7; });
   STRCMP_CONTAINS("took every write and now shows period 2000000 ns",
                   answer(place(kernel)).c_str());
 }
 
-TEST(SysfsPwmProblems, AreSeenWhenADriverKeepsItsDutyOrItsPolarityOrStaysDisabled) {
+TEST(SysfsPwmProblems, AreDetectedWhenADriverKeepsDutyOrPolarityOrStaysDisabled) {
   const auto answer_of = [](const PwmState& left, const char* attribute, long taken) {
     PwmKernel kernel(left);
     next(Call::pwrite, attribute, [taken] { return taken; });
@@ -115,7 +115,7 @@ TEST(SysfsPwmProblems, AreSeenWhenADriverKeepsItsDutyOrItsPolarityOrStaysDisable
   STRCMP_CONTAINS(", inversed", answer_of({1'000'000, 0, false, true}, "/polarity", 6).c_str());
 }
 
-TEST(SysfsPwmProblems, ComeOfWrongContent) {
+TEST(SysfsPwmProblems, IncludeWrongContent) {
   for (const char* attribute : {"period", "duty_cycle", "enable", "polarity"}) {
     for (const std::string& content :
          {std::string(), std::string("\x7f\0", 2), std::string(5000, '1')}) {
@@ -133,7 +133,7 @@ TEST(SysfsPwmProblems, ComeOfWrongContent) {
   }
 }
 
-TEST(SysfsPwmProblems, ComeOfFoldersAndPipesInTheAttributesPlace) {
+TEST(SysfsPwmProblems, IncludeFoldersAndPipesInTheAttributesPlace) {
   for (const char* attribute : {"period", "duty_cycle", "enable", "polarity"}) {
     const std::string path = std::string(output) + "/" + attribute;
     PwmKernel kernel;
@@ -147,7 +147,7 @@ TEST(SysfsPwmProblems, ComeOfFoldersAndPipesInTheAttributesPlace) {
   }
 }
 
-TEST(SysfsPwmProblems, ComeOfAChipWithoutItsFiles) {
+TEST(SysfsPwmProblems, IncludeAChipWithoutItsFiles) {
   PwmKernel kernel({}, false);
   kernel.tree.remove("class/pwm/pwmchip3/npwm");
   STRCMP_CONTAINS("npwm: No such file or directory", answer(place(kernel)).c_str());

@@ -27,13 +27,13 @@ std::unique_ptr<SysfsPwm> opened(const PwmKernel& kernel) {
 
 TEST_GROUP(SysfsPwm){};
 
-TEST(SysfsPwm, ExportsItsOutputWhenNobodyHas) {
+TEST(SysfsPwm, ExportsItsOutputIfNotExported) {
   PwmKernel kernel({}, false);
   const auto pwm = opened(kernel);
   STRCMP_EQUAL("export 5", kernel.writes.front().c_str());
 }
 
-TEST(SysfsPwm, DoesNotExportWhatIsExported) {
+TEST(SysfsPwm, DoesNotExportAnExportedOutput) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   STRCMP_EQUAL("period 1000000", kernel.writes.front().c_str());
@@ -46,7 +46,7 @@ TEST(SysfsPwm, IsFoundByEachOfItsNames) {
   }
 }
 
-TEST(SysfsPwm, WritesADutyOfItsPeriod) {
+TEST(SysfsPwm, WritesADutyAsAFractionOfItsPeriod) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   check_status(hal::Status::ok, pwm->set(1000));
@@ -57,7 +57,7 @@ TEST(SysfsPwm, WritesADutyOfItsPeriod) {
   LONGS_EQUAL(0, kernel.state.duty_ns);
 }
 
-TEST(SysfsPwm, RefusesAStepThatIsNoneAndChangesNothing) {
+TEST(SysfsPwm, RefusesAStepOutOfRangeAndChangesNothing) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   check_status(hal::Status::ok, pwm->set(7));
@@ -68,7 +68,7 @@ TEST(SysfsPwm, RefusesAStepThatIsNoneAndChangesNothing) {
   LONGS_EQUAL(7, pwm->read_back());
 }
 
-TEST(SysfsPwm, ReadsBackWhatTheKernelHasNotWhatItWasTold) {
+TEST(SysfsPwm, ReadsBackTheKernelsDuty) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   check_status(hal::Status::ok, pwm->set(2000));
@@ -76,7 +76,7 @@ TEST(SysfsPwm, ReadsBackWhatTheKernelHasNotWhatItWasTold) {
   LONGS_EQUAL(400, pwm->read_back());
 }
 
-TEST(SysfsPwm, ReadsBackNothingWhenThereIsNoSensibleDuty) {
+TEST(SysfsPwm, ReadsBackNothingWithoutAPlausibleDuty) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   for (const char* duty : {"", "text\n", "-1\n", "1000001\n", "99999999999999999999\n"}) {
@@ -98,7 +98,7 @@ TEST(SysfsPwm, ZeroesItsDutyBeforeItIsDisabledWhenItEnds) {
   CHECK_FALSE(kernel.state.enabled);
 }
 
-TEST(SysfsPwm, IsDisabledAtItsEndAlsoWhenItsDutyCannotBeZeroed) {
+TEST(SysfsPwm, IsDisabledAtItsEndEvenIfItsDutyCannotBeZeroed) {
   PwmKernel kernel;
   auto pwm = opened(kernel);
   check_status(hal::Status::ok, pwm->set(4000));
@@ -107,7 +107,7 @@ TEST(SysfsPwm, IsDisabledAtItsEndAlsoWhenItsDutyCannotBeZeroed) {
   CHECK_FALSE(kernel.state.enabled);
 }
 
-TEST(SysfsPwm, PassesOnWhyADutyWasNotTaken) {
+TEST(SysfsPwm, PassesOnWhyADutyWasNotSet) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   for (const int error : {EAGAIN, EBUSY, EIO, ENODEV, EINVAL, EREMOTEIO}) {
@@ -120,7 +120,7 @@ TEST(SysfsPwm, PassesOnWhyADutyWasNotTaken) {
   check_status(hal::Status::ok, pwm->set(1000));
 }
 
-TEST(SysfsPwm, WinksWithoutEverBeingOn) {
+TEST(SysfsPwm, PulsesEnableWithoutEverBeingOn) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   kernel.writes.clear();

@@ -83,12 +83,12 @@ TEST_GROUP(CheckCanLink) {
   }
 };
 
-TEST(CheckCanLink, IsInOrder) {
+TEST(CheckCanLink, AcceptsAGoodInterface) {
   check_finding("ok", "up, no bit rate, queue of 1000 frames", "", found());
   STRCMP_EQUAL("CAN supercoil-no0", found().what.c_str());
 }
 
-TEST(CheckCanLink, NamesWhatThereIsInstead) {
+TEST(CheckCanLink, ListsTheAvailableInterfaces) {
   check_finding("problem",
                 "no interface 'can0' in " + root / "sys/class/net" + ": there are eth0, supercoil",
                 "load its driver", found("can0"));
@@ -127,7 +127,7 @@ TEST(CheckCanLink, FindsTheBitRateInTheKernelsAnswer) {
   }
 }
 
-TEST(CheckCanLink, AsksTheKernelForTheBitRateOfThisInterface) {
+TEST(CheckCanLink, RequestsTheBitRateOfThisInterface) {
   set_netlink([](const Bytes& question) {
     nlmsghdr header{};
     ifinfomsg link{};

@@ -43,11 +43,11 @@ TEST_GROUP(CheckRivals) {
   }
 };
 
-TEST(CheckRivals, CountsTheKernelsOwnOnly) {
+TEST(CheckRivals, OnlyCountsKernelThreads) {
   check_finding("ok", "none above priority 80 (besides 1 kernel thread)", "", found());
 }
 
-TEST(CheckRivals, NamesProgramsThatComeFirst) {
+TEST(CheckRivals, NamesProgramsWithAHigherPriority) {
   root.write("proc/300/task/300/stat", stat("pulse (audio)", of_user, 0, SCHED_OTHER));
   root.write("proc/300/task/301/stat", stat("pulse (audio)", of_user, 90, SCHED_FIFO));
   root.write("proc/300/task/302/stat", stat("pulse (audio)", of_user, 90, SCHED_FIFO));
@@ -61,7 +61,7 @@ TEST(CheckRivals, NamesProgramsThatComeFirst) {
   check_finding("warning", "as loud (80)", "chrt", found(79));
 }
 
-TEST(CheckRivals, TakesNoHarmFromWhatEndsMeanwhile) {
+TEST(CheckRivals, ToleratesThreadsThatEndMeanwhile) {
   root.make_folder("proc/600/task/600");
   root.write("proc/601/task/601/stat", "601 (cut");
   root.write("proc/602/task/602/stat", "602 (cut) R 1 2 3");
@@ -75,13 +75,13 @@ TEST(CheckRivals, TakesNoHarmFromWhatEndsMeanwhile) {
   CHECK_FALSE(parse_thread_stat("5 (x) S a b c d e f g").has_value());
 }
 
-TEST(CheckRivals, CountsAProgramOnceThatProcHasUnderTwoNames) {
+TEST(CheckRivals, CountsAProgramListedTwiceInProcOnce) {
   root.write("proc/300/task/301/stat", stat("pulse", of_user, 90, SCHED_FIFO));
   root.link("proc/thread-self", "proc/300");
   check_finding("warning", "pulse (90) above priority 80", "chrt", found());
 }
 
-TEST(CheckRivals, AreComparedWithPriority80UnlessTold) {
+TEST(CheckRivals, AreComparedWithPriority80ByDefault) {
   root.write("proc/300/task/300/stat", stat("as loud", of_user, 80, SCHED_FIFO));
   root.write("proc/300/task/301/stat", stat("louder", of_user, 81, SCHED_FIFO));
   Told told;

@@ -48,7 +48,7 @@ TEST_GROUP(CheckKernel) {
   }
 };
 
-TEST(CheckKernel, KnowsARealTimeKernel) {
+TEST(CheckKernel, RecognisesARealTimeKernel) {
   check_finding("ok", "6.1.0-56-rt-arm64, real-time (PREEMPT_RT)", "", kernel());
   root.write("sys/kernel/realtime", "0\n");
   check_finding("warning", "not a real-time kernel", "PREEMPT_RT", kernel());
@@ -56,7 +56,7 @@ TEST(CheckKernel, KnowsARealTimeKernel) {
   check_finding("warning", "6.1.0-56-rt-arm64, not a real-time kernel", "PREEMPT_RT", kernel());
 }
 
-TEST(CheckKernel, TellsTheShareOfRealTimeThreads) {
+TEST(CheckKernel, ReportsTheFractionForRealTimeThreads) {
   check_finding("ok", "may use 95 % of each 1000000 us", "", throttling());
   root.write("proc/sys/kernel/sched_rt_runtime_us", "-1\n");
   check_finding("ok", "may use all of the processor", "", throttling());
@@ -72,7 +72,7 @@ TEST(CheckKernel, TellsTheShareOfRealTimeThreads) {
   check_finding("warning", "not known: cannot open ", "a kernel that reports it", throttling());
 }
 
-TEST(CheckKernel, KnowsNoShareOfAPeriodThatIsNone) {
+TEST(CheckKernel, HasNoFractionWithoutAPositivePeriod) {
   for (const char* period : {"0\n", "-1\n"}) {
     root.write("proc/sys/kernel/sched_rt_period_us", period);
     check_finding("warning", "sched_rt_runtime_us has no period", "a kernel that reports it",
@@ -80,7 +80,7 @@ TEST(CheckKernel, KnowsNoShareOfAPeriodThatIsNone) {
   }
 }
 
-TEST(CheckKernel, NamesProcessorsThatSlowDown) {
+TEST(CheckKernel, NamesProcessorsThatMaySlowDown) {
   check_finding("ok", "no cpufreq", "", governor());
   for (const char* cpu : {"cpu0", "cpu1", "cpu2"})
     root.write(cpus + cpu + "/cpufreq/scaling_governor", "performance\n");
@@ -90,7 +90,7 @@ TEST(CheckKernel, NamesProcessorsThatSlowDown) {
   check_finding("warning", "governor 'ondemand' on cpu1, cpu2", "echo performance", governor());
 }
 
-TEST(CheckKernel, AsksForTheLoopsOwnProcessor) {
+TEST(CheckKernel, RecommendsIsolatingTheLoopsProcessor) {
   check_finding("ok", "running 0-3, isolated none", "", processors(-1));
   check_finding("warning", "other work may run on the loop's CPU, 3", "isolcpus=3", processors(3));
   check_finding("warning", "other work may run on the loop's CPU, 0", "isolcpus=0", processors(0));
@@ -119,7 +119,7 @@ TEST(CheckKernel, NamesDebiansRealTimeKernelForThisProcessor) {
   check_finding("warning", "not a real-time kernel", "on Debian " + package + ":", kernel());
 }
 
-TEST(CheckKernel, LeavesTheLoopAnyProcessorUnlessTold) {
+TEST(CheckKernel, AllowsTheLoopAnyProcessorByDefault) {
   check_finding("ok", "running 0-3", "",
                 only([&](const hal::FindingSink& sink) { check_processors(machine, {}, sink); }));
 }

@@ -47,7 +47,7 @@ TEST_GROUP(CheckRights) {
   }
 };
 
-TEST(CheckRights, SaysWhatRefusesThePriority) {
+TEST(CheckRights, NamesWhatPreventsThePriority) {
   check_finding("warning",
                 "not priority 80 of SCHED_FIFO: Operation not permitted; the limit of priority is",
                 "LimitRTPRIO=99", priority(EPERM));

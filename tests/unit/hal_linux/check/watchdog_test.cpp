@@ -43,11 +43,11 @@ TEST_GROUP(CheckWatchdog) {
   }
 };
 
-TEST(CheckWatchdog, KnowsItWithoutOpeningIt) {
+TEST(CheckWatchdog, IdentifiesItWithoutOpeningIt) {
   check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));
 }
 
-TEST(CheckWatchdog, NamesWhatThereIsInstead) {
+TEST(CheckWatchdog, ListsTheAvailableWatchdogs) {
   check_finding("problem",
                 root / "dev/watchdog" + ": No such file or directory; in " +
                     root / "sys/class/watchdog" + " there are watchdog0 'i6300ESB timer'",
@@ -59,28 +59,28 @@ TEST(CheckWatchdog, NamesWhatThereIsInstead) {
   check_finding("problem", "there is none", "load its driver", found(root / "dev/none"));
 }
 
-TEST(CheckWatchdog, SaysThatSomebodyElseHasIt) {
+TEST(CheckWatchdog, ReportsThatAnotherProgramHasIt) {
   root.write(first + "state", "active\n");
   check_finding("problem", "another process uses it", "RuntimeWatchdogSec=off", found(device));
   check_finding("ok", "is watchdog0", "", found(device, true));
 }
 
-TEST(CheckWatchdog, SaysThatItCannotBeStopped) {
+TEST(CheckWatchdog, ReportsThatItCannotBeStopped) {
   root.write(first + "nowayout", "1\n");
   check_finding("warning", "cannot be stopped (nowayout)", "nowayout=0", found(device));
 }
 
-TEST(CheckWatchdog, SaysThatThisUserMayNotWriteToIt) {
+TEST(CheckWatchdog, ReportsThatThisUserMayNotWriteToIt) {
   fail_next(Call::access, device, EACCES);
   check_finding("problem", "/dev/null: Permission denied", "run as root", found(device));
 }
 
-TEST(CheckWatchdog, SaysThatItIsNotKnown) {
+TEST(CheckWatchdog, ReportsAnUnknownWatchdog) {
   root.write(first + "dev", "10:131\n");
   check_finding("warning", "/dev/null exists; ", "CONFIG_WATCHDOG_SYSFS", found(device));
 }
 
-TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
+TEST(CheckWatchdog, IdentifiesTheFirstOneByItsOtherName) {
   // /dev/watchdog has its own numbers, which no folder shows.
   root.write(first + "dev", "250:0\n");
   set_device(10, 130);
@@ -93,7 +93,7 @@ TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
   }
 }
 
-TEST(CheckWatchdog, TakesNoOtherOneForTheFirst) {
+TEST(CheckWatchdog, DoesNotMistakeAnotherOneForTheFirst) {
   TemporaryFolder without_first;
   without_first.write("sys/class/watchdog/watchdog1/identity", "other\n");
   without_first.write("sys/class/watchdog/watchdog1/dev", "250:1\n");

@@ -184,7 +184,7 @@ TEST(DaemonThreads, NonsenseIsAnswered) {
   CHECK(ask(socket, std::string("1 arm\0disarm", 12)).starts_with("wrong: "));
 }
 
-TEST(DaemonThreads, AnExcessClientIsToldThatItIsRefused) {
+TEST(DaemonThreads, AnExcessClientIsRefused) {
   std::vector<BoardSocket> clients;
   for (int i = 0; i < 20; ++i) {
     clients.push_back(client());

@@ -110,7 +110,7 @@ TEST(CalibrateStillness, WaitsForAMuscleThatStillCools) {
   }
 }
 
-TEST(CalibrateStillness, TooCoarseOrNoisyASensorDoesNotShowRest) {
+TEST(CalibrateStillness, ACoarseOrNoisySensorCannotShowRest) {
   const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
   Resting coarse;
   coarse.settings.count_m = 1e-3;

@@ -200,7 +200,7 @@ TEST(Proof, IsMissedInTimeWhenTheSensorMovesAsItLosesContact) {
 }
 
 // Motion from any other cause does not postpone the proof beyond the time that there is.
-TEST(Proof, OfADeadMuscleIsRequiredWhileALoadSwings) {
+TEST(Proof, IsRequiredOfADeadMuscleWhileALoadSwings) {
   HeldMuscle muscle(paper_proof());
   muscle.demanded_W = 4.5;
   muscle.run(20.0);

@@ -55,11 +55,11 @@ double value(const hal::CanFrame& frame, std::string_view signal) {
 
 TEST_GROUP(Codec){};
 
-TEST(Codec, TheTableHasTheCodecsMessages) {
+TEST(Codec, TableListsTheMessagesOfTheCodec) {
   LONGS_EQUAL(codec_messages.size(), all_messages.size());
 }
 
-TEST(Codec, EveryFrameReadsAsTheCodecReadsIt) {
+TEST(Codec, EveryFrameDecodesAsTheCodecDecodesIt) {
   for (const CodecMessage& message : codec_messages) {
     const bool holds = rc::check(std::string(message.name), [&] {
       hal::CanFrame frame = empty_frame(message, *rc::gen::inRange<std::uint16_t>(1, 64));
@@ -71,7 +71,7 @@ TEST(Codec, EveryFrameReadsAsTheCodecReadsIt) {
   }
 }
 
-TEST(Codec, RawValuesAtTheEndsOfTheirRangesReadAsTheCodecReadsThem) {
+TEST(Codec, RawValuesAtRangeLimitsDecodeAsTheCodecDecodesThem) {
   for (const CodecMessage& message : codec_messages) {
     for (const SignalInfo& signal : find_message(message.name)->signals) {
       const std::int64_t sign = std::int64_t{1} << (signal.length - 1U);
@@ -85,7 +85,7 @@ TEST(Codec, RawValuesAtTheEndsOfTheirRangesReadAsTheCodecReadsThem) {
   }
 }
 
-TEST(Codec, WhatIsReadIsWrittenBackAsItWas) {
+TEST(Codec, RawValuesRoundTrip) {
   for (const CodecMessage& message : codec_messages) {
     for (const SignalInfo& signal : find_message(message.name)->signals) {
       const std::int64_t sign = std::int64_t{1} << (signal.length - 1U);
@@ -112,7 +112,7 @@ TEST(Codec, WhatIsReadIsWrittenBackAsItWas) {
   }
 }
 
-TEST(Codec, AValueBeyondTheRangeBecomesItsEndAndNeverNotAvailable) {
+TEST(Codec, ValuesOutOfRangeSaturateAndNeverBecomeNotAvailable) {
   for (const CodecMessage& message : codec_messages) {
     for (const SignalInfo& signal : find_message(message.name)->signals) {
       if (signal.raw == Raw::floating) continue;
@@ -150,7 +150,7 @@ TEST(Codec, TheReservedRawValueIsNaN) {
   LONGS_EQUAL(35, reserved);
 }
 
-TEST(Codec, AnEstimateHasTheParameterThatItCarriesAndNoOther) {
+TEST(Codec, AnEstimateDecodesOnlyTheParameterThatItCarries) {
   const CodecMessage& message = codec_messages[13];
   constexpr std::size_t first = 4;  // after parameter, trusted, identify_notes, error_bound
   for (std::uint8_t parameter = 0; parameter < 16; ++parameter) {
@@ -182,7 +182,7 @@ TEST(Codec, OnlyIdentifiersAndLengthsOfTheProtocolAreFrames) {
   }
 }
 
-TEST(Codec, NamesAreFoundAndWrongOnesTold) {
+TEST(Codec, KnownNamesAreFoundAndUnknownOnesRejected) {
   CHECK(find_message("Nonsense") == nullptr);
   const MessageInfo& status = *find_message("Status");
   LONGS_EQUAL(10, signal_index(status, "counter"));

@@ -43,19 +43,19 @@ TEST(Candump, WritesWhatCandumpWrites) {
   STRCMP_EQUAL("(0000000000.000000) vcan1 001#\n", candump_line(frame, -1s, "vcan1").c_str());
 }
 
-TEST(Candump, TimesOfASimulatedRunCountFromItsBegin) {
+TEST(Candump, TimesOfASimulatedRunCountFromItsStart) {
   CHECK(time_of_run(simulation_epoch) == 0s);
   CHECK(time_of_run(simulation_epoch + 12345678us) == 12345678us);
   CHECK(time_of_run(simulation_epoch + 1'000'000s) == 1'000'000s);
 }
 
-TEST(Candump, TimesOfOtherLogsStayAsTheyAre) {
+TEST(Candump, TimesOfOtherLogsAreKept) {
   for (const hal::Time time :
        {hal::Time{0}, hal::Time{2592000s}, simulation_epoch - 1us, hal::Time{1436509052249713us}})
     CHECK(time_of_run(time) == time);
 }
 
-TEST(Candump, EveryFrameComesBack) {
+TEST(Candump, EveryFrameRoundTrips) {
   CHECK(rc::check("line and frame", [] {
     hal::CanFrame frame = any_frame();
     const std::int64_t time_us = *rc::gen::inRange<std::int64_t>(0, 4294967295'000000);
@@ -67,7 +67,7 @@ TEST(Candump, EveryFrameComesBack) {
   }));
 }
 
-TEST(Candump, ReadsWhatOtherVersionsWrite) {
+TEST(Candump, ReadsOutputOfOtherVersions) {
   const auto read = parse_candump_line("(1.5) slcan7 7ff#deadBEEF R\r\n");
   CHECK(read && read->is_standard);
   LONGS_EQUAL(0x7FF, read->frame.id);
@@ -76,7 +76,7 @@ TEST(Candump, ReadsWhatOtherVersionsWrite) {
   CHECK(read->frame.received == 1500ms);
 }
 
-TEST(Candump, FramesOfOtherKindsAreNotOurs) {
+TEST(Candump, IgnoresFramesOfOtherKinds) {
   CHECK_FALSE(is_ours("(1.0) can0 00000281#00"));
   CHECK_FALSE(is_ours("(1.0) can0 1FFFFFFF#0011223344556677"));
   CHECK_FALSE(is_ours("(1.0) can0 20000080#0000000000000000"));

@@ -69,7 +69,7 @@ TEST_GROUP(MasterAnswers) {
   }
 };
 
-TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNameOnly) {
+TEST(MasterAnswers, ClaimIsGrantedOnlyByTheAnswerToItsOwnName) {
   Master other{node, 0x4321};
   const auto claim = other.claim();
   CHECK_FALSE(other.receive_acknowledge(answer(claim, telemetry::lease, 0x1234, Refusal::none))
@@ -77,7 +77,7 @@ TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNameOnly) {
   CHECK_FALSE(other.holds_lease());
 }
 
-TEST(MasterAnswers, ASecondClaimRepeatsTheNonceAndOneOfAHolderNone) {
+TEST(MasterAnswers, ASecondClaimRepeatsTheNonceAndAHoldersClaimHasNone) {
   Master other{node, 0x1234};
   DOUBLES_EQUAL(0.0, value_of(other.claim()), 0.0);
   claim(other, Refusal::claim_again, nonce);
@@ -85,7 +85,7 @@ TEST(MasterAnswers, ASecondClaimRepeatsTheNonceAndOneOfAHolderNone) {
   DOUBLES_EQUAL(0.0, value_of(master.claim()), 0.0);
 }
 
-TEST(MasterAnswers, LeaseIsGoneWhenItWasGivenBack) {
+TEST(MasterAnswers, ReleasingALeaseEndsIt) {
   const auto asked = master.release();
   DOUBLES_EQUAL(-1.0, value_of(asked), 0.0);
   CHECK(master.receive_acknowledge(answer(asked, telemetry::lease, granted, Refusal::none, 0))
@@ -93,7 +93,7 @@ TEST(MasterAnswers, LeaseIsGoneWhenItWasGivenBack) {
   CHECK_FALSE(master.holds_lease());
 }
 
-TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {
+TEST(MasterAnswers, LeaseEndsWhenTheNodeReportsItLost) {
   for (const auto refusal : {Refusal::no_lease, Refusal::not_lease_holder}) {
     Master holder = master;
     const auto asked = holder.command(Verb::rest, 0.0);
@@ -103,7 +103,7 @@ TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {
   }
 }
 
-TEST(MasterAnswers, LeaseOutlivesRefusalsThatAreNotAboutIt) {
+TEST(MasterAnswers, LeaseOutlivesUnrelatedRefusals) {
   const auto asked = master.command(Verb::position, 1.0);
   const auto heard = master.receive_acknowledge(
       answer(asked, static_cast<std::uint8_t>(Verb::position), granted, Refusal::out_of_range));
@@ -111,7 +111,7 @@ TEST(MasterAnswers, LeaseOutlivesRefusalsThatAreNotAboutIt) {
   CHECK_TRUE(master.holds_lease());
 }
 
-TEST(MasterAnswers, LeaseEndsByTheAnswerToItsOwnWrite) {
+TEST(MasterAnswers, LeaseEndsOnTheAnswerToItsOwnWrite) {
   const auto asked = master.setting_write(1, 4.0);
   const auto heard = master.receive_setting(
       setting_answer(counter_of(asked), granted, Refusal::not_lease_holder), true);
@@ -119,7 +119,7 @@ TEST(MasterAnswers, LeaseEndsByTheAnswerToItsOwnWrite) {
   CHECK_FALSE(master.holds_lease());
 }
 
-TEST(MasterAnswers, SomebodyElsesWriteEndsNoLease) {
+TEST(MasterAnswers, AnotherMastersWriteDoesNotEndTheLease) {
   const auto asked = master.setting_write(1, 4.0);
   const auto theirs = setting_answer(counter_of(asked), granted + 1, Refusal::not_lease_holder);
   CHECK_FALSE(master.receive_setting(theirs, true).has_value());
@@ -128,7 +128,7 @@ TEST(MasterAnswers, SomebodyElsesWriteEndsNoLease) {
   CHECK_TRUE(master.holds_lease());
 }
 
-TEST(MasterAnswers, DamagedAnswerIsNone) {
+TEST(MasterAnswers, DamagedAnswersAreIgnored) {
   const auto asked = master.command(Verb::rest, 0.0);
   auto damaged = answer(asked, static_cast<std::uint8_t>(Verb::rest), granted, Refusal::no_lease);
   damaged.data[2] ^= 0x10U;

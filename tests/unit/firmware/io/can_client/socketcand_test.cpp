@@ -59,7 +59,7 @@ std::string inside(const std::string& text) {
 
 TEST_GROUP(Socketcand){};
 
-TEST(Socketcand, ElementsAreCutOutOfTheStream) {
+TEST(Socketcand, ElementsAreExtractedFromTheStream) {
   CHECK(elements_of("< hi >< ok >") == (Elements{"hi", "ok"}));
   CHECK(elements_of("noise > < open  can0 > noise <rawmode>< half") ==
         (Elements{"open  can0", "rawmode"}));
@@ -83,7 +83,7 @@ TEST(Socketcand, TheSplitOfTheStreamDoesNotMatter) {
   }));
 }
 
-TEST(Socketcand, AnElementThatIsTooLongIsPassedOver) {
+TEST(Socketcand, TooLongAnElementIsSkipped) {
   CHECK(elements_of("<" + std::string(256, 'x') + ">< ok >") ==
         (Elements{std::string(256, 'x'), "ok"}));
   CHECK(elements_of("<" + std::string(257, 'x') + ">< ok >") == (Elements{"ok"}));
@@ -96,7 +96,7 @@ TEST(Socketcand, AnElementThatIsTooLongIsPassedOver) {
   CHECK(reader.take() == "ok");
 }
 
-TEST(Socketcand, TheTextIsThatOfTheProtocol) {
+TEST(Socketcand, TextFollowsTheProtocol) {
   hal::CanFrame frame;
   frame.id = 0x123;
   frame.length = 2;
@@ -105,7 +105,7 @@ TEST(Socketcand, TheTextIsThatOfTheProtocol) {
   STRCMP_EQUAL("< frame 123 0000000023.424242 AA00 >", frame_text(frame, 23424242us).c_str());
 }
 
-TEST(Socketcand, EveryFrameComesBack) {
+TEST(Socketcand, EveryFrameRoundTrips) {
   CHECK(rc::check("send and frame", [] {
     hal::CanFrame frame = any_frame();
     const std::int64_t time_us = *rc::gen::inRange<std::int64_t>(0, 4294967295'000000);
@@ -119,7 +119,7 @@ TEST(Socketcand, EveryFrameComesBack) {
   }));
 }
 
-TEST(Socketcand, ReadsWhatOthersWrite) {
+TEST(Socketcand, ReadsOutputOfOtherPrograms) {
   const auto sent = parse_send("send 7ff 3 a 0 0B");  // as python-can sends it
   CHECK(sent.has_value());
   LONGS_EQUAL(0x7FF, sent->id);

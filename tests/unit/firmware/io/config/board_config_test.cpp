@@ -35,7 +35,7 @@ void check_says(const std::string& text, const std::string& part) {
 
 TEST_GROUP(BoardConfig){};
 
-TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
+TEST(BoardConfig, DescriptionSaysWhatALostMuscleOfABundleCauses) {
   const auto described = [](const std::string& keys, const std::string& heater = "") {
     return describe(read(test::small_board_with(
         "[channel.heater]\n", "[channel.bundle]\n" + keys + "\n[channel.heater]\n" + heater)));
@@ -55,7 +55,7 @@ TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
              "one shorted muscle of 3 in series is 33 % less resistance");
 }
 
-TEST(BoardConfig, ABundleMayBeThatOfEveryChannel) {
+TEST(BoardConfig, ABundleMayBeSetForEveryChannel) {
   const BoardConfig c =
       read(test::small_board + "[every_channel.bundle]\nmuscles = 3\nwired = 'parallel'\n");
   CHECK(c.labels[0].bundle && c.labels[0].bundle->muscles == 3 && c.labels[0].bundle->parallel());
@@ -134,7 +134,7 @@ TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
   check_says(text, "near skin: full power up to 38 °C, none from 43 °C on");
 }
 
-TEST(BoardConfig, WhatTuneHasStoredIsToldBesideItsController) {
+TEST(BoardConfig, DescriptionHasTheTuningStoredByTune) {
   BoardConfig c = read(test::small_board);
   CHECK(describe(c).find("stored by tune") == std::string::npos);
   auto& values = c.settings.channels[0].tuning.controllers[0].values;
@@ -162,7 +162,7 @@ TEST(BoardConfig, SmallBoardIsCompletedByDefaults) {
   UNSIGNED_LONGS_EQUAL(1, channel.estimators.size());
 }
 
-TEST(BoardConfig, ChannelSaysOtherwiseThanEveryChannel) {
+TEST(BoardConfig, ChannelOverridesEveryChannel) {
   const BoardConfig c = read(test::small_board +
                              "[every_channel]\nname = 'all'\n"
                              "muscle = {stiffness_N_per_m = 20.0, damping_Ns_per_m = 3.0}\n"
@@ -175,14 +175,14 @@ TEST(BoardConfig, ChannelSaysOtherwiseThanEveryChannel) {
   DOUBLES_EQUAL(7.0, channel.controllers[0].pi.integral_W_per_m_s, 0.0);
 }
 
-TEST(BoardConfig, ControllerOfAChannelReplacesTheCommonOneWhole) {
+TEST(BoardConfig, ControllerOfAChannelReplacesTheWholeCommonOne) {
   const BoardConfig c = read(test::small_board +
                              "[every_channel.controller]\nkind = 'pi'\nintegral_W_per_m_s = 7.0\n"
                              "[channel.controller]\nkind = 'pd_ff'\n");
   CHECK(c.settings.channels[0].controllers[0].kind == control::ControllerKind::pd_ff);
 }
 
-TEST(BoardConfig, ThresholdsOfASlowBoardAreAFewTicksAtLeast) {
+TEST(BoardConfig, ThresholdsOfASlowBoardLastAtLeastAFewTicks) {
   const BoardConfig c = read(test::small_board_with("charge_pump_decay_ms = 20",
                                                     "charge_pump_decay_ms = 150\nrate_Hz = 100"));
   const ChannelSupervision& s = c.settings.channels[0].supervision;
@@ -192,7 +192,7 @@ TEST(BoardConfig, ThresholdsOfASlowBoardAreAFewTicksAtLeast) {
   DOUBLES_EQUAL(0.03, c.settings.channels[0].position.max_age_s, 1e-12);
 }
 
-TEST(BoardConfig, AShortMustLastTwoTicksWhereItsCurrentMayBeOfAnother) {
+TEST(BoardConfig, AShortMustLastTwoTicksWhereItsCurrentMayBeStale) {
   const auto short_s = [](const BoardConfig& c) {
     return c.settings.channels[0].supervision.short_s;
   };
@@ -210,7 +210,7 @@ TEST(BoardConfig, AShortMustLastTwoTicksWhereItsCurrentMayBeOfAnother) {
   DOUBLES_EQUAL(0.02, short_s(example("raspberry-pi-pca9685-ads1115.toml")), 1e-12);
 }
 
-TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
+TEST(BoardConfig, DescriptionNamesIneffectiveDetectors) {
   const std::string quiet =
       describe(read(test::small_board_with("max_m = 0.041", "max_m = 0.041\nnoise_rms_m = 0.0")));
   check_says(quiet,
@@ -223,7 +223,7 @@ TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
   check_says(coarse, "channel 1: resistance_drift: a probe's 21.6 mA is only 4.32 counts");
 }
 
-TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
+TEST(BoardConfig, ThermalFuseIsRequestedAndComparedWithTheTrip) {
   const auto described = [](const std::string& fuse) {
     const std::string heater = "cold_resistance_Ohm = 10.0\n";
     return describe(read(test::small_board_with(heater, heater + fuse)));
@@ -261,7 +261,7 @@ TEST(BoardConfig, MemoryCountsRingAndRecorder) {
   CHECK(memory.loop > 10000);
 }
 
-TEST(BoardConfig, CanIsAbsentUnlessItIsAskedForAndThenHasTheProtocolsRates) {
+TEST(BoardConfig, CanIsOffByDefaultAndHasTheProtocolsRatesWhenOn) {
   CHECK_FALSE(read(test::small_board).can.has_value());
   check_says(describe(read(test::small_board)), "CAN: none");
   const BoardConfig c = read(test::small_board + "[can]\n");
@@ -299,7 +299,7 @@ offset_C = -2
   check_says(describe(c), "air 0.1");  // ms of bus time
 }
 
-TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
+TEST(BoardConfig, PromisesAnErrorForLearnedFeedforwardOnly) {
   BoardConfig c = read(test::small_board);
   const BoardSettings& board = c.settings;
   ChannelSettings& channel = c.settings.channels[0];
@@ -317,7 +317,7 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   check_says(describe_promises(board, 0)[0], "no error is promised");
 }
 
-TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
+TEST(BoardConfig, RecommendsAControllerOrNamesTheOneInUse) {
   BoardConfig c = read(test::small_board);
   ChannelSettings& channel = c.settings.channels[0];
   const std::string law =
@@ -333,7 +333,7 @@ TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
   CHECK(describe_recommendation(c.settings, 0).empty());
 }
 
-TEST(BoardConfig, AdvisesWhereLittleOfTheTravelIsHeld) {
+TEST(BoardConfig, AdvisesWhenLittleOfTheTravelCanBeHeld) {
   BoardConfig c = read(test::small_board_with("min_m = -0.001", "min_m = -0.03"));
   ChannelSettings& channel = c.settings.channels[0];
   const Feasibility f = feasibility(channel, c.settings);
@@ -350,7 +350,7 @@ TEST(BoardConfig, AdvisesWhereLittleOfTheTravelIsHeld) {
   check_says(advice(c)[0], "in the coldest air it holds no more than ");
 }
 
-TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {
+TEST(BoardConfig, AdviceNamesChannelsAndWhatToChange) {
   // The example's sensor ends 1 mm below zero, so it does not see a muscle in cold air.
   check_says(describe(example("raspberry-pi-pca9685-ads1115.toml")),
              "\nadvice\n  channels 1, 2, 3, 4: in the coldest air it rests 8.06 mm below its zero, "

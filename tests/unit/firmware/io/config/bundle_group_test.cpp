@@ -38,7 +38,7 @@ std::string with_channels(const std::string& list) {
 
 TEST_GROUP(BundleConfig){};
 
-TEST(BundleConfig, WhatFollowsHasItsLeadersPosition) {
+TEST(BundleConfig, FollowersUseTheLeadersPosition) {
   const BoardConfig c = read_bundle_board(board_with_bundle);
   UNSIGNED_LONGS_EQUAL(1, c.settings.bundles.size());
   UNSIGNED_LONGS_EQUAL(0, c.settings.bundles[0].leader());
@@ -62,7 +62,7 @@ TEST(BundleConfig, TheProofOfResponseIsTheLeaders) {
   }
 }
 
-TEST(BundleConfig, CheckTellsWhoLeadsAndWithHowMuch) {
+TEST(BundleConfig, CheckNamesTheLeaderAndThePower) {
   const std::string text = describe(read_bundle_board(board_with_bundle));
   STRCMP_CONTAINS(
       "bundle 1: lifter\n  muscles     channels 1 and 2 pull together; commands go to channel 1\n"
@@ -82,7 +82,7 @@ TEST(BundleConfig, TheLeaderMayBeALaterChannel) {
                   problems.c_str());
 }
 
-TEST(BundleConfig, WrongOnesAreToldWhatIsWrong) {
+TEST(BundleConfig, ErrorsNameTheProblem) {
   check_refused("bundle[1].channels: is missing: it must be a list of 2 numbers, each 1 to 2",
                 replaced(board_with_bundle, "channels = [1, 2]\n", ""));
   check_refused("bundle[1].channels = [1]: must be a list of 2 numbers, each 1 to 2",
@@ -108,7 +108,7 @@ TEST(BundleConfig, ABoardThatLacksItsChannelsIsRefused) {
                 small_board + one_bundle);
 }
 
-TEST(BundleConfig, WhatTheLeaderGoesByForAllIsNotStricterElsewhere) {
+TEST(BundleConfig, FollowersMayNotBeStricterThanTheLeader) {
   const auto refused = [](const std::string& what, const std::string& old,
                           const std::string& replacement) {
     check_refused("channel 2's " + what + " that of channel 1, which leads",
@@ -125,12 +125,12 @@ TEST(BundleConfig, WhatTheLeaderGoesByForAllIsNotStricterElsewhere) {
   refused("limits.slew_W_per_s is less than", "max_W = 4.0", "max_W = 4.0\nslew_W_per_s = 2.0");
 }
 
-TEST(BundleConfig, OfAWrongOneOnlyWhatIsWrongIsTold) {
+TEST(BundleConfig, ReportsOnlyTheWrongKey) {
   const std::string problems = problems_of(with_channels("[1, 1]"));
   CHECK(problems.find("position") == std::string::npos);
 }
 
-TEST(BundleConfig, ASensorThatTwoChannelsNameIsPointedToIt) {
+TEST(BundleConfig, SharingASensorSuggestsABundle) {
   check_refused(
       "those that pull together a [[bundle]]",
       small_board + second_of_bundle +

@@ -35,17 +35,17 @@ std::string why_not(const std::string& text, std::size_t channel, const std::str
 
 TEST_GROUP(EditToml){};
 
-TEST(EditToml, ReplacesAValueWhereItStandsWithItsComment) {
+TEST(EditToml, ReplacesAValueInPlaceAndKeepsItsComment) {
   check_edit("[[channel]]\nlimits.max_W = 4.5   # µW? no\nname = 'a'\n", 0, "limits.max_W", "3.25",
              "[[channel]]\nlimits.max_W = 3.25   # µW? no\nname = 'a'\n");
 }
 
-TEST(EditToml, FindsItsPlaceBehindLettersOfSeveralBytes) {
+TEST(EditToml, HandlesMultiByteCharacters) {
   check_edit("[[channel]]\nlimits = { note = 'Ω µ °', max_W = 4.5 } # Ω\n", 0, "limits.max_W", "2",
              "[[channel]]\nlimits = { note = 'Ω µ °', max_W = 2 } # Ω\n");
 }
 
-TEST(EditToml, AddsAKeyToATableInWhicheverFormItIsWritten) {
+TEST(EditToml, AddsAKeyToATableInAnyForm) {
   check_edit("[[channel]]\nlimits = { max_W = 1 }\n", 0, "limits.max_travel_m", "0.01",
              "[[channel]]\nlimits = { max_W = 1, max_travel_m = 0.01 }\n");
   check_edit("[[channel]]\nlimits = {}\n", 0, "limits.max_W", "1",
@@ -56,7 +56,7 @@ TEST(EditToml, AddsAKeyToATableInWhicheverFormItIsWritten) {
              "0.01", "[[channel]]\nname = 'a'\n[channel.limits]\nmax_travel_m = 0.01\nmax_W = 1");
 }
 
-TEST(EditToml, ATableThatIsNotThereBeginsInTheChannelsFirstLines) {
+TEST(EditToml, AMissingTableIsAddedAtTheStartOfItsChannel) {
   check_edit(
       "# board\n[[channel]]\nname = 'a'\n[[channel]]\nname = 'b'\n", 1, "muscle.damping_Ns_per_m",
       "2",
@@ -69,7 +69,7 @@ TEST(EditToml, AWholeTableCanBeReplaced) {
              "[[channel]]\ncontroller = { kind = 'mrac' } # mine\n");
 }
 
-TEST(EditToml, RefusesWhatWouldChangeMoreOrIsNoToml) {
+TEST(EditToml, RefusesInvalidTomlAndImpossibleEdits) {
   const std::string two = "[[channel]]\nname = 'a'\n[[channel.controller]]\nkind = 'pi'\n";
   STRCMP_CONTAINS("there is no channel 2", why_not(two, 1, "limits.max_W", "1").c_str());
   STRCMP_CONTAINS("limits.max_W = 1 kW", why_not(two, 0, "limits.max_W", "1 kW").c_str());
@@ -79,7 +79,7 @@ TEST(EditToml, RefusesWhatWouldChangeMoreOrIsNoToml) {
 }
 
 /// Each example remains a valid board, and the rest of it is unchanged.
-TEST(EditToml, EveryExampleTakesANewMuscle) {
+TEST(EditToml, EveryExampleAcceptsANewMuscle) {
   for (const char* name :
        {"raspberry-pi-pwm-ads1115", "raspberry-pi-pca9685-ads1115", "on-chip-pwm-fast-converter"}) {
     const auto before = parse_board_config(text_of_example(name), name);

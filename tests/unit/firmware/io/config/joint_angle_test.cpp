@@ -47,7 +47,7 @@ void check_only_problem(const std::string& problem, const std::string& text) {
 
 TEST_GROUP(JointInDegrees){};
 
-TEST(JointInDegrees, TheAntagonistMayPullAtALeverOfItsOwn) {
+TEST(JointInDegrees, TheAntagonistMayHaveItsOwnLever) {
   const std::string text = ranged("[-20, 30.0]") + "antagonist_lever_m = 0.010\n";
   const BoardConfig c = read_in_degrees(text);
   DOUBLES_EQUAL(30.0 * degree_m, travel_m(c, 0), 1e-12);
@@ -95,7 +95,7 @@ TEST(JointInDegrees, ATravelInMetresMustAgreeWithTheRange) {
       ranged("[-21, 30]", agreeing));
 }
 
-TEST(JointInDegrees, ARangeThatCannotBeIsNamedAlone) {
+TEST(JointInDegrees, AnInvalidRangeIsTheOnlyProblemReported) {
   check_only_problem(
       "64: joint[1].range_deg = [10, 30]: must be two angles, the first below 0 and the "
       "second above it",
@@ -112,7 +112,7 @@ TEST(JointInDegrees, ARangeThatCannotBeIsNamedAlone) {
       ranged("[-20, 170]"));
 }
 
-TEST(JointInDegrees, OfOneMuscleTheRangeBeginsWhereThatIsCold) {
+TEST(JointInDegrees, TheRangeOfAOneMuscleJointStartsWhereItIsCold) {
   const std::string finger = small_board_with("max_travel_m = 0.025\n", "") +
                              "[[joint]]\nopposed_by = 'spring'\nagonist = 1\nlever_m = 0.015\n";
   DOUBLES_EQUAL(40.0 * degree_m, travel_m(read_in_degrees(ranged("[0, 40]", finger)), 0), 1e-12);
@@ -129,7 +129,7 @@ TEST(JointInDegrees, OfOneMuscleTheRangeBeginsWhereThatIsCold) {
   STRCMP_CONTAINS("channel[1].limits.max_travel_m: is missing", problems_of(finger).c_str());
 }
 
-TEST(JointInDegrees, ItsSensorMayBeDescribedByAngles) {
+TEST(JointInDegrees, SensorMayBeDescribedByAngles) {
   const BoardConfig c = read_in_degrees(in_deg);
   const ChannelSettings& agonist = c.settings.channels[0];
   DOUBLES_EQUAL(-0.003 * degree_m, agonist.position.scaling.per_count, 1e-12);
@@ -143,7 +143,7 @@ TEST(JointInDegrees, ItsSensorMayBeDescribedByAngles) {
   DOUBLES_EQUAL(1e-5, usual.settings.channels[0].supervision.position_noise_rms_m, 1e-15);
 }
 
-TEST(JointInDegrees, OfALeverThatDependsOnTheAngleAReadingIsAtTheLeverOfZero) {
+TEST(JointInDegrees, ReadingsUseAVariableLeversRadiusAtZero) {
   const BoardConfig c =
       read_in_degrees(replaced(in_deg, "lever_m = 0.015\n",
                                "lever_m = [0.014, 0.016, 0.012]\nlever_range_deg = [-40, 40]\n"));
@@ -151,7 +151,7 @@ TEST(JointInDegrees, OfALeverThatDependsOnTheAngleAReadingIsAtTheLeverOfZero) {
                 1e-12);
 }
 
-TEST(JointInDegrees, WhatTheSensorCannotReadIsToldInDegrees) {
+TEST(JointInDegrees, SensorLimitsAreReportedInDegrees) {
   check_only_problem(
       "59: channel[2].limits.max_travel_m (its default): is 0.00523599 from its joint's "
       "range_deg, and must be within what the sensor can read: its agonist's position.min_deg = "
@@ -166,7 +166,7 @@ TEST(JointInDegrees, WhatTheSensorCannotReadIsToldInDegrees) {
       problems_of(replaced(in_deg, "min_deg = -90", "min_m = -0.01")).c_str());
 }
 
-TEST(JointInDegrees, AMuscleByItselfHasNoAngle) {
+TEST(JointInDegrees, ASingleMuscleHasNoAngle) {
   // Nothing else is reported about a joint that is wrong.
   check_only_problem("63: joint[1].agonist = 9: must be 1 to 2",
                      replaced(in_deg, "agonist = 1\n", "agonist = 9\n"));

@@ -33,7 +33,7 @@ TEST(JointLeverConfig, ALeverMayDependOnTheAngle) {
     STRCMP_CONTAINS(part, text.c_str());
 }
 
-TEST(JointLeverConfig, ALeverThatCannotBeIsNamed) {
+TEST(JointLeverConfig, AnInvalidLeverIsNamed) {
   const auto check_lever = [](const std::string& part, const std::string& lines) {
     check_answer(part, replaced(board_with_joint, "lever_m = 0.015\n", lines));
   };
@@ -62,7 +62,7 @@ TEST(JointLeverConfig, ALeverThatCannotBeIsNamed) {
   check_lever("joint[1].lever_m = 'long': must be a number, 0.0001 to 1", "lever_m = 'long'\n");
 }
 
-TEST(JointLeverConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
+TEST(JointLeverConfig, TheSensorMustCoverTheContractionAtItsLever) {
   const auto with_lever = [](const std::string& levers, const std::string& travel_m) {
     const std::string board =
         replaced(board_with_joint, "lever_m = 0.015\n",

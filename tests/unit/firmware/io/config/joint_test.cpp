@@ -30,7 +30,7 @@ const std::string swapped = replaced(replaced(board_with_joint, "agonist = 1\n",
 
 TEST_GROUP(JointConfig){};
 
-TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
+TEST(JointConfig, AntagonistHasTheAgonistsPositionNegated) {
   const BoardConfig c = read_board(board_with_joint);
   UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
   const JointSettings& joint = c.settings.joints[0];
@@ -112,7 +112,7 @@ TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
   STRCMP_CONTAINS("agonist channel 2, antagonist channel 1", describe(c).c_str());
 }
 
-TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
+TEST(JointConfig, CoContractionDefaultsToAFifthOfTheWeakerMuscle) {
   // 4 W of the antagonist, each of which moves the joint as far as 0.089/0.0712 W of the agonist,
   // are more than the agonist's 4.5 W.
   DOUBLES_EQUAL(0.2 * 4.5, read_board(board_with_joint).settings.joints[0].co_contraction_W, 1e-12);
@@ -122,7 +122,7 @@ TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
       0.0);
 }
 
-TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
+TEST(JointConfig, CoContractionHasALimit) {
   const auto limit_W = [](const std::string& more) {
     return read_board(board_with_joint + more).settings.joints[0].max_co_contraction_W;
   };
@@ -161,7 +161,7 @@ TEST(JointConfig, APairThatCanTearItselfIsRefused) {
                board_with_joint + "pretension_N = -1\n");
 }
 
-TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
+TEST(JointConfig, TheMuscleThatPullsHarderIsNamed) {
   const std::string badly_cooled =
       replaced(board_with_joint,
                "max_mass_J_per_K = 0.20\nmin_transfer_W_per_K = 0.045\nmax_transfer_W_per_K = "
@@ -180,7 +180,7 @@ TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
   STRCMP_EQUAL("", problems_of(cool + "max_pull_N = 0.45\n").c_str());
 }
 
-TEST(JointConfig, CheckSaysWhatThePairBears) {
+TEST(JointConfig, CheckReportsTheForcesOfThePair) {
   const std::string text =
       describe(read_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
   for (const char* part :
@@ -192,14 +192,14 @@ TEST(JointConfig, CheckSaysWhatThePairBears) {
     STRCMP_CONTAINS(part, text.c_str());
 }
 
-TEST(JointConfig, OneConverterIsReadOnce) {
+TEST(JointConfig, ASharedConverterIsReadOnce) {
   const std::string on_bus = replaced(board_with_joint, "device = \"adc\"\ninput = \"voltage1\"",
                                       "device = \"adc\"\nbus = \"i2c-1\"\ninput = \"voltage1\"");
   const BoardConfig c = read_board(on_bus);
   UNSIGNED_LONGS_EQUAL(1, bus_time(c.wiring, c.wiring.buses[0]).users.size());
 }
 
-TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
+TEST(JointConfig, CheckReportsWhatTheJointCanDo) {
   const std::string text = describe(read_board(board_with_joint));
   for (const char* part :
        {"joint 1: elbow", "agonist channel 1, antagonist channel 2", "lever of 15 mm",
@@ -214,7 +214,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
     STRCMP_CONTAINS(part, text.c_str());
 }
 
-TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
+TEST(JointConfig, CheckReportsWhereAMuscleGoesSlack) {
   STRCMP_CONTAINS("  slack       unknown: pretension_N is not configured\n",
                   describe(read_board(board_with_joint)).c_str());
   const BoardConfig alike = read_board(board_with_joint + "pretension_N = 0.02\n");
@@ -239,14 +239,14 @@ TEST(JointConfig, CheckSaysFromWhereOnAMuscleIsSlack) {
   check_answer("joint[1].stiffness_ratio", board_with_joint + "stiffness_ratio = [0.5]\n");
 }
 
-TEST(JointConfig, HowFarItTurnsBackIsTheAgonistsSensorsMatter) {
+TEST(JointConfig, TheAgonistsSensorLimitsTheAntagonistsTravel) {
   STRCMP_EQUAL(
       "b.toml:60: channel[2].limits.max_travel_m = 0.02: must be within what the sensor can read: "
       "its agonist's position.min_m = 0\n",
       problems_of(replaced(board_with_joint, "min_m = -0.041", "min_m = 0.0")).c_str());
 }
 
-TEST(JointConfig, NothingFollowsFromWhatIsWrongWithAJoint) {
+TEST(JointConfig, AnErrorInAJointCausesNoFurtherErrors) {
   const auto check_only = [](const std::string& problem, const std::string& text) {
     STRCMP_EQUAL(("b.toml:" + problem + "\n").c_str(), problems_of(text).c_str());
   };
@@ -262,7 +262,7 @@ TEST(JointConfig, NothingFollowsFromWhatIsWrongWithAJoint) {
              replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
 }
 
-TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
+TEST(JointConfig, ProofOfResponseIsNotAvailableInAJoint) {
   const std::string proof = board_with_joint + "[every_channel.detectors]\nproof_of_response = ";
   check_answer(
       "every_channel.detectors.proof_of_response = true: is not available in a joint: the other "
@@ -277,7 +277,7 @@ TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
   CHECK(text.find("proof_of_response is false") == std::string::npos);
 }
 
-TEST(JointConfig, WhatBothDescribeOfTheJointShouldBeTheSame) {
+TEST(JointConfig, MusclesShouldAgreeOnTheJointsParameters) {
   const auto described = [](const std::string& lines) {
     return describe(read_board(replaced(board_with_joint, "heat_transfer_W_per_K = 0.0712\n",
                                         "heat_transfer_W_per_K = 0.0712\n" + lines)));
@@ -295,7 +295,7 @@ TEST(JointConfig, WhatBothDescribeOfTheJointShouldBeTheSame) {
   CHECK(alike.find("describes the whole joint") == std::string::npos);
 }
 
-TEST(JointConfig, AnAntagonistIsLed) {
+TEST(JointConfig, AnAntagonistHasNoControllerOfItsOwn) {
   const BoardConfig c = read_board(board_with_joint);
   STRCMP_CONTAINS("controllers led by channel 1: its own are not used",
                   describe_channel(c, 1).c_str());
@@ -304,7 +304,7 @@ TEST(JointConfig, AnAntagonistIsLed) {
   CHECK(advice(c.settings.channels[1], c.settings).empty());
 }
 
-TEST(JointConfig, WhatCannotBeIsNamed) {
+TEST(JointConfig, ImpossibleKeysAreNamed) {
   check_answer(
       "channel[2].position: is taken from its agonist, channel 1, with the opposite sign",
       replaced(board_with_joint, "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",

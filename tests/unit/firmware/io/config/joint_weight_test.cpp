@@ -36,7 +36,7 @@ void check_only_arm_problem(const std::string& problem, const std::string& text)
 
 TEST_GROUP(JointWithAWeight){};
 
-TEST(JointWithAWeight, SaysHowHeavyTheArmIsAndWhereItHangs) {
+TEST(JointWithAWeight, HasTheArmsWeightAndHangingAngle) {
   const ChannelSettings channel = read_arm(arm).settings.channels[0];
   CHECK(channel.joint.turns() && channel.joint.weighs() && !channel.joint.has_other());
   DOUBLES_EQUAL(0.005, channel.joint.weight_Nm, 0.0);
@@ -53,7 +53,7 @@ TEST(JointWithAWeight, SaysHowHeavyTheArmIsAndWhereItHangs) {
       replaced(replaced(arm, "gravity", "spring"), "hangs_at_deg = -45\n", ""));
 }
 
-TEST(JointWithAWeight, CheckTellsThePowerOfItsAngles) {
+TEST(JointWithAWeight, CheckReportsThePowerToHoldAngles) {
   const std::string told = describe(read_arm(arm));
   STRCMP_CONTAINS(
       "  joint       turned against gravity; lever of 15 mm; held indefinitely up to 9.7 mm (37°); "
@@ -64,14 +64,14 @@ TEST(JointWithAWeight, CheckTellsThePowerOfItsAngles) {
       told.c_str());
 }
 
-TEST(JointWithAWeight, MustDrawTheArmBackFromWhereverItIs) {
+TEST(JointWithAWeight, MustPullTheArmBackFromEveryAngle) {
   check_only_arm_problem(
       "48: joint[1].hangs_at_deg = -130: lets the arm stand upright at 50°, from where nothing "
       "pulls it back, and its travel goes up to 60°",
       replaced(arm, "-45", "-130"));
 }
 
-TEST(JointWithAWeight, IsNotAllThatTheMuscleDescribes) {
+TEST(JointWithAWeight, MustNotExceedTheMusclesStiffness) {
   check_only_arm_problem(
       "47: joint[1].weight_Nm = 0.0101: alone makes the joint 31.7412 N/m stiff at 0°, and "
       "channel[1].muscle.stiffness_N_per_m = 31.7 is that of muscle and weight together: raise it, "
@@ -79,7 +79,7 @@ TEST(JointWithAWeight, IsNotAllThatTheMuscleDescribes) {
       replaced(arm, "weight_Nm = 0.005", "weight_Nm = 0.0101"));
 }
 
-TEST(JointWithAWeight, IsAdvisedToEndWhereItTipsOver) {
+TEST(JointWithAWeight, AdvisesToEndTheTravelWhereTheArmTipsOver) {
   const auto advised = [](const std::string& text) {
     std::string all;
     for (const std::string& line : advice(read_arm(text)))

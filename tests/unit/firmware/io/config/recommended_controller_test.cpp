@@ -29,7 +29,7 @@ TEST(RecommendedController, ASlowMuscleGetsALowerBandwidth) {
   DOUBLES_EQUAL(8.0, recommended_controller(muscle).bandwidth_rad_per_s, 0.0);
 }
 
-TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
+TEST(RecommendedController, ADelayLowersTheBandwidthToKeepAMargin) {
   const control::PhysicalParameters muscle;
   const auto margin_at = [&](const RecommendedController& recommended, double delay_s) {
     const auto law = control::fixed_law(recommended.applied_to({}), muscle);
@@ -52,7 +52,7 @@ TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
                   recommended_controller(muscle, {1e-3, 0.1}).reason.c_str());
 }
 
-TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
+TEST(RecommendedController, AccountsForAChannelsDelayAndObstacles) {
   const BoardSettings board;
   ChannelSettings channel;
   channel.heater.delay_s = 0.1;
@@ -65,7 +65,7 @@ TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
 }
 
 /// On a linear muscle feedback improves nothing and only adds noise.
-TEST(RecommendedController, NothingIsCalledCloserThatPromisesMoreThanWhatIsInUse) {
+TEST(RecommendedController, IsNotCalledCloserThanAControllerThatPromisesLess) {
   const BoardSettings board;
   ChannelSettings channel;
   channel.muscle_identified = true;
@@ -122,7 +122,7 @@ TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferen
                   recommended_controller(muscle).model_reason.c_str());
 }
 
-TEST(RecommendedController, AControllerDiffersByItsLawItsShapingOrATenthOfItsBandwidth) {
+TEST(RecommendedController, DiffersByLawShapingOrATenthOfTheBandwidth) {
   const RecommendedController recommended = recommended_controller({});
   control::ControllerSettings controller = recommended.applied_to({});
   CHECK_FALSE(recommended.differs_from(controller));

@@ -16,11 +16,11 @@ using supercoil::test::small_board_with;
 
 TEST_GROUP(WrongBoard){};
 
-TEST(WrongBoard, SmallBoardIsInOrder) {
+TEST(WrongBoard, SmallBoardIsValid) {
   STRCMP_EQUAL("", problems_of(small_board).c_str());
 }
 
-TEST(WrongBoard, MisspeltKeyIsSaidOnceAlthoughItIsRequired) {
+TEST(WrongBoard, MisspeltRequiredKeyIsReportedOnce) {
   check_replaced("cold_resistance_Ohm", "cold_resistence_Ohm",
                  "b.toml:33: channel[1].heater.cold_resistence_Ohm = 10: is not a key of "
                  "[channel[1].heater]; did you mean cold_resistance_Ohm?");
@@ -32,7 +32,7 @@ TEST(WrongBoard, MissingUnitIsNamed) {
                  "you mean max_W (the unit is part of the name)?");
 }
 
-TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
+TEST(WrongBoard, RenamedKeyNamesTheNewOne) {
   check_replaced("[[bus]]", "[can]\nmost_load = 0.5\n[[bus]]",
                  "b.toml:11: can.most_load = 0.5: was renamed in 0.2.0: write can.max_load");
   // Reported once, although the new key is required.
@@ -49,7 +49,7 @@ TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
       small_board + "[every_channel.detectors]\nresistance_part = 0.3\n");
 }
 
-TEST(WrongBoard, ABoardOf0_1_0IsRefusedByItsRenamedKeysAlone) {
+TEST(WrongBoard, ABoardOf0_1_0IsRefusedOnlyForItsRenamedKeys) {
   const auto config = supercoil::config::read_board_config(SUPERCOIL_BOARD_OF_0_1_0);
   CHECK_FALSE(config.has_value());
   UNSIGNED_LONGS_EQUAL(8, config.error().size());
@@ -57,7 +57,7 @@ TEST(WrongBoard, ABoardOf0_1_0IsRefusedByItsRenamedKeysAlone) {
     STRCMP_CONTAINS("was renamed in 0.2.0: write ", problem.message.c_str());
 }
 
-TEST(WrongBoard, EveryRenamedKeyIsRefusedInItsTableOnly) {
+TEST(WrongBoard, EveryRenamedKeyIsRefusedOnlyInItsTable) {
   for (const supercoil::config::RenamedKey& renamed : supercoil::config::renamed_keys) {
     const std::string key(renamed.old_key);
     const toml::table table{{key, 1.0}};
@@ -85,13 +85,13 @@ TEST(WrongBoard, NotANumber) {
                  "b.toml:40: channel[1].limits.max_W = nan: must be 0.001 to 1000");
 }
 
-TEST(WrongBoard, ThermalFuseOfAnImpossibleTemperature) {
+TEST(WrongBoard, ThermalFuseAtAnImpossibleTemperature) {
   check_replaced("cold_resistance_Ohm = 10.0", "cold_resistance_Ohm = 10.0\nthermal_fuse_C = 45",
                  "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 if "
                  "there is no thermal fuse");
 }
 
-TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
+TEST(WrongBoard, ABundleWhoseBrokenThreadIsNotDetected) {
   const std::string before = "[channel.heater]\n";
   const auto bundle = [&](const std::string& keys) {
     return "[channel.bundle]\n" + keys + "\n" + before;
@@ -118,7 +118,7 @@ TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
                  "b.toml:34: channel[1].bundle.wired = 'both': must be one of: series, parallel");
 }
 
-TEST(WrongBoard, ABundleOfEveryChannelIsCheckedAsItsOwn) {
+TEST(WrongBoard, ABundleOfEveryChannelIsCheckedForEachChannel) {
   const auto problems = [](const std::string& keys) {
     return problems_of(small_board + "[every_channel.bundle]\n" + keys + "\n");
   };
@@ -137,7 +137,7 @@ TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
                  "weighed_mass_J_per_K: an assumed mass narrows nothing");
 }
 
-TEST(WrongBoard, ATimeConstantThatNoMuscleWithinTheBoundsHas) {
+TEST(WrongBoard, TimeConstantOutsideTheThermalBounds) {
   check_replaced("min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.13\nmax_time_constant_s = 0.5",
                  "b.toml:36: channel[1].thermal.max_time_constant_s = 0.5: must not be less than "
                  "min_mass_J_per_K / max_transfer_W_per_K = 0.722222");
@@ -154,12 +154,12 @@ TEST(WrongBoard, MissingKeyHasTheLineOfItsTable) {
                  "number, 0.1 to 10000");
 }
 
-TEST(WrongBoard, MissingTableSaysWhatItNeeds) {
+TEST(WrongBoard, MissingTableNamesWhatItNeeds) {
   check_replaced("[ambient]\ncoldest_C = 15\nwarmest_C = 30\n", "",
                  "b.toml: ambient: is missing; it needs coldest_C, warmest_C");
 }
 
-TEST(WrongBoard, MissingTextIsNotEmptyText) {
+TEST(WrongBoard, MissingTextDiffersFromEmptyText) {
   check_replaced("line = \"BEAT\"", "",
                  "b.toml:5: lines.heartbeat.line: is missing: it must be text in quotes");
   check_replaced("line = \"BEAT\"", "line = ''",
@@ -188,7 +188,7 @@ TEST(WrongBoard, SeventeenChannels) {
   check_problems("b.toml:117: channel: a board has 1 to 16 [[channel]], not 17", text);
 }
 
-TEST(WrongBoard, NoChannel) {
+TEST(WrongBoard, NoChannels) {
   check_problems("b.toml: channel: a board has 1 to 16 [[channel]], not 0",
                  small_board.substr(0, small_board.find("[[channel]]")));
 }
@@ -208,7 +208,7 @@ TEST(WrongBoard, ThermalBoundsOutOfOrder) {
                  "max_transfer_W_per_K");
 }
 
-TEST(WrongBoard, BoundOfPowerNarrowerThanWhatTheSensesMayHide) {
+TEST(WrongBoard, PowerBoundNarrowerThanPossibleSenseErrors) {
   check_replaced("max_transfer_W_per_K = 0.18",
                  "max_transfer_W_per_K = 0.18\npower_part = [0.95, 1.05]",
                  "b.toml:39: channel[1].thermal.power_part = [0.95, 1.05]: contradicts "
@@ -217,7 +217,7 @@ TEST(WrongBoard, BoundOfPowerNarrowerThanWhatTheSensesMayHide) {
                  "a meter (supercoil doctor --compare-senses)");
 }
 
-TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
+TEST(WrongBoard, ControllerUnstableOnItsMuscle) {
   check_replaced("max_travel_m = 0.025",
                  "max_travel_m = 0.025\n"
                  "[channel.controller]\nkind = 'pi'\nproportional_W_per_m = 50000.0\n",
@@ -239,12 +239,12 @@ TEST(WrongBoard, PowerBeyondTheSupply) {
       "a duty of 1: min_V²/cold_resistance_Ohm = 11.664 W");
 }
 
-TEST(WrongBoard, DeratingThatBeginsAfterTheTrip) {
+TEST(WrongBoard, DeratingThatStartsAboveTheTrip) {
   check_replaced("max_W = 4.5", "max_W = 4.5\nderate_from_C = 165.0",
                  "b.toml:41: channel[1].limits.derate_from_C = 165: must be less than trip_C");
 }
 
-TEST(WrongBoard, NothingNearSkinIsHotterThanThePreset) {
+TEST(WrongBoard, NearSkinTemperaturesMayNotExceedThePreset) {
   check_replaced("max_W = 4.5", "max_W = 4.5\npreset = 'skin'\ntrip_C = 60.0",
                  "b.toml:42: channel[1].limits.trip_C = 60: must be 0 to 43");
 }
@@ -255,7 +255,7 @@ TEST(WrongBoard, TravelBeyondTheSensor) {
                  "can read: position.max_m = 0.041");
 }
 
-TEST(WrongBoard, ProbeThatIsTooMuchTooLongOrNothing) {
+TEST(WrongBoard, ProbeTooStrongTooLongOrTooSmall) {
   const std::string heater = "cold_resistance_Ohm = 10.0";
   check_replaced(heater, heater + "\nprobe_duty = 0.05",
                  "b.toml:34: channel[1].heater.probe_duty = 0.05: must be 0.0001 to 0.02");
@@ -266,7 +266,7 @@ TEST(WrongBoard, ProbeThatIsTooMuchTooLongOrNothing) {
                  "PWM's 31 steps: a probe would be 0");
 }
 
-TEST(WrongBoard, WhatFixedPointCannotHold) {
+TEST(WrongBoard, ValuesTooLargeForFixedPoint) {
   const std::string answer = problems_of(
       small_board +
       "[channel.controller]\nkind = 'pi'\narithmetic = 'q8.24'\nproportional_W_per_m = 50000.0\n");
@@ -276,7 +276,7 @@ TEST(WrongBoard, WhatFixedPointCannotHold) {
       answer.c_str());
 }
 
-TEST(WrongBoard, MistakeInEveryChannelIsSaidOnce) {
+TEST(WrongBoard, MistakeInEveryChannelIsReportedOnce) {
   const std::string channels = "[[channel]]\n[[channel]]\n";
   const std::string answer =
       problems_of(small_board + channels + "[every_channel.limits]\nmax_w = 3.0\n");
@@ -288,7 +288,7 @@ TEST(WrongBoard, MistakeInEveryChannelIsSaidOnce) {
   CHECK_TEXT(answer.find("max_w = 3", at + message.size()) == std::string::npos, answer.c_str());
 }
 
-TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
+TEST(WrongBoard, MistakesAreReportedInTheOrderOfTheFile) {
   std::string text = small_board_with("charge_pump_decay_ms = 20", "charge_pump_decay_ms = -1");
   text.replace(text.find("max_W = 4.5"), 11, "max_W = 0.0");
   text += "[operator]\nport = 8080\n";
@@ -300,7 +300,7 @@ TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
       text);
 }
 
-TEST(WrongBoard, FileThatIsNotThere) {
+TEST(WrongBoard, MissingFile) {
   const auto config = supercoil::config::read_board_config("/nowhere/b.toml");
   STRCMP_EQUAL("/nowhere/b.toml: there is no such file\n",
                supercoil::config::to_text(config.error()).c_str());

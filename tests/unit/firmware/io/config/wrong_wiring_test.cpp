@@ -53,13 +53,13 @@ TEST(WrongWiring, BufferedWithoutABus) {
                  "served by its thread");
 }
 
-TEST(WrongWiring, PumpThatOpensBeforeToleratedOverrunsAreOver) {
+TEST(WrongWiring, PumpThatDecaysWithinToleratedOverruns) {
   check_replaced("charge_pump_decay_ms = 20", "charge_pump_decay_ms = 8",
                  "b.toml:2: board.charge_pump_decay_ms = 8: must exceed twice the tolerated "
                  "overruns: 5 in a row at 1000 Hz are 5 ms, so more than 10 ms, not 8");
 }
 
-TEST(WrongWiring, BusThatIsTooSlow) {
+TEST(WrongWiring, TooSlowABus) {
   check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nwait_ms = 1.2",
                  "b.toml:11: bus[1].name = 'i2c-1': the bus would be busy for 1.34 ms of a tick of "
                  "1 ms (134 %); the limit is 70 %");
@@ -71,7 +71,7 @@ TEST(WrongWiring, BusTimeOfADirectDevice) {
                  "= \"…\"");
 }
 
-TEST(WrongWiring, AgeThatABufferedValueAlwaysHas) {
+TEST(WrongWiring, MaxAgeBelowThatOfABufferedValue) {
   check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nmax_age_ms = 0.5",
                  "b.toml:26: channel[1].position.max_age_ms = 0.5: must be at least one tick: a "
                  "buffered value becomes older than that before the next one arrives");
@@ -93,19 +93,19 @@ TEST(WrongWiring, CaptureBehindABus) {
       "b.toml:26: channel[1].position.capture.length = 1: must be 2 to 65536");
 }
 
-TEST(WrongWiring, CanBusThatWouldBeTooBusy) {
+TEST(WrongWiring, OverloadedCanBus) {
   check_problems(
       "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % by messages sent at "
       "a rate; the limit is 50 % (max_load): choose lower rates",
       small_board + "[can]\nbit_rate = 50000\n");
 }
 
-TEST(WrongWiring, NodesOfCanThatThereAreNot) {
+TEST(WrongWiring, InvalidCanNodes) {
   check_problems("b.toml:43: can.first_node = 64: must be 1 to 63",
                  small_board + "[can]\nfirst_node = 64\n");
 }
 
-TEST(WrongWiring, RatesOfCanThatThereAreNot) {
+TEST(WrongWiring, InvalidCanRates) {
   check_problems("b.toml:43: can.rates.status_Hz = 0: must be 1 to 1000",
                  small_board + "[can]\nrates = {status_Hz = 0}\n");
   check_problems(
@@ -114,13 +114,13 @@ TEST(WrongWiring, RatesOfCanThatThereAreNot) {
       small_board + "[can]\nrates = {powr_Hz = 10}\n");
 }
 
-TEST(WrongWiring, NameOfAnInterfaceThatTheKernelCannotHave) {
+TEST(WrongWiring, InvalidInterfaceName) {
   check_problems(
       "b.toml:43: can.interface = 'a-name-of-16-char': must be a name of 1 to 15 characters",
       small_board + "[can]\ninterface = 'a-name-of-16-char'\n");
 }
 
-TEST(WrongWiring, SensorOfTheAirWithoutAScaleOrWithAnInputThatIsTaken) {
+TEST(WrongWiring, AirSensorWithoutAScaleOrWithAUsedInput) {
   check_replaced(
       "warmest_C = 30\n", "warmest_C = 30\n[ambient.sensor]\ndevice = 'adc'\ninput = 'voltage3'\n",
       "b.toml:10: ambient.sensor.C_per_count: is missing: it must be a number, -10 to 10");

@@ -70,7 +70,7 @@ TEST(Captures, ADeviceRunsOnceForAllItsInputs) {
   LONGS_EQUAL(3000, (*supply)->latest().counts);
 }
 
-TEST(Captures, ItRunsUntilTheLastOfItsInputsEnds) {
+TEST(Captures, ADeviceRunsUntilItsLastInputIsReleased) {
   std::unique_ptr<hal::AdcChannel> kept;
   {
     Captures captures(wiring, machine);

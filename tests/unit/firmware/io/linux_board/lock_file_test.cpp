@@ -24,7 +24,7 @@ TEST_GROUP(LockFile) {
   }
 };
 
-TEST(LockFile, OnlyOneHoldsIt) {
+TEST(LockFile, HasOnlyOneHolder) {
   {
     const auto first = LockFile::take(folder / "lock");
     CHECK(first.has_value());
@@ -37,27 +37,27 @@ TEST(LockFile, OnlyOneHoldsIt) {
   CHECK(LockFile::take(folder / "lock").has_value());
 }
 
-TEST(LockFile, WithoutItsFolderItSaysSo) {
+TEST(LockFile, ReportsAMissingFolder) {
   const auto lock = LockFile::take(folder / "none/lock");
   const std::string why =
       folder / "none/lock" + ": the lock file cannot be created: No such file or directory";
   STRCMP_EQUAL(why.c_str(), lock.error().text().c_str());
 }
 
-TEST(LockFile, NoSymbolicLinkIsFollowed) {
+TEST(LockFile, DoesNotFollowASymbolicLink) {
   folder.write("other", "of somebody else");
   folder.link("lock", "other");
   refused("is a symbolic link, which is not followed");
   STRCMP_EQUAL("of somebody else", folder.read("other").c_str());
 }
 
-TEST(LockFile, NoFileIsMadeWhereALinkPoints) {
+TEST(LockFile, DoesNotCreateTheTargetOfALink) {
   folder.link("lock", "absent");
   refused("is a symbolic link, which is not followed");
   CHECK(::access((folder / "absent").c_str(), F_OK) != 0);
 }
 
-TEST(LockFile, AFileOfTwoNamesIsLeftAlone) {
+TEST(LockFile, AFileWithTwoNamesIsLeftAlone) {
   folder.write("other", "of somebody else");
   CHECK_EQUAL(0, ::link((folder / "other").c_str(), (folder / "lock").c_str()));
   refused("has 2 names (hard links) and may be another file");
@@ -75,7 +75,7 @@ TEST(LockFile, AFolderIsRefused) {
 }
 
 /// Only root can give a file to another user.
-TEST(LockFile, AFileOfAForeignUserIsLeftAlone) {
+TEST(LockFile, AFileOfAnotherUserIsLeftAlone) {
   if (::geteuid() != 0) return;
   constexpr uid_t somebody = 65534;
   folder.write("lock", "of somebody else");
@@ -85,7 +85,7 @@ TEST(LockFile, AFileOfAForeignUserIsLeftAlone) {
 }
 
 /// As root's doctor finds it: the service's user owns both the folder and the file.
-TEST(LockFile, TheOwnerOfItsFolderMayOwnIt) {
+TEST(LockFile, MayBelongToTheOwnerOfItsFolder) {
   if (::geteuid() != 0) return;
   constexpr uid_t service = 65534;
   folder.write("lock", "1\n");

@@ -109,7 +109,7 @@ TEST(Csv, NaNIsEmptyAndInfinityIsInf) {
   STRCMP_EQUAL("", fields[31].c_str());
 }
 
-TEST(Csv, NumbersWithoutANameAreShownAsNumbers) {
+TEST(Csv, UnnamedValuesAreShownAsNumbers) {
   Row r{};
   r.state = 9;
   r.mode = 200;
@@ -139,7 +139,7 @@ TEST(Csv, EveryStateModeAndLimitHasItsName) {
     STRCMP_CONTAINS(expected[i], all[i + 1].c_str());
 }
 
-TEST(Csv, NumbersAreReadBackAsTheyWere) {
+TEST(Csv, NumbersRoundTrip) {
   for (const float value : {1.0F / 3.0F, 1e-30F, -3.4e38F, std::numeric_limits<float>::denorm_min(),
                             std::numeric_limits<float>::max(), -0.0F}) {
     Row r{};
@@ -160,13 +160,13 @@ TEST(Csv, TimesAreExact) {
   STRCMP_EQUAL("0.000000001", split(all[2], ',')[0].c_str());
 }
 
-TEST(Csv, TimesThatAreFurtherApartThanFitsDoNoHarm) {
+TEST(Csv, OverflowingTimeDifferencesAreHarmless) {
   recording.header.fault_time_ns = std::numeric_limits<std::int64_t>::min();
   recording.rows = {row(std::numeric_limits<std::int64_t>::max(), 0)};
   LONGS_EQUAL(2, lines().size());
 }
 
-TEST(Csv, OfManyRowsComesInPartsAndStopsAtTheFirstThatCannotBeWritten) {
+TEST(Csv, IsWrittenInPartsAndStopsAtTheFirstFailure) {
   for (int i = 0; i < 10'000; ++i)
     recording.rows.push_back(row(i * tick_ns, 0));
   LONGS_EQUAL(10'001, lines().size());

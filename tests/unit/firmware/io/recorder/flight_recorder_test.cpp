@@ -38,20 +38,20 @@ TEST(FlightRecorder, WritesTenSecondsBeforeAndOneSecondAfterTheFault) {
   STRCMP_EQUAL("", notes().c_str());
 }
 
-TEST(FlightRecorder, SoonAfterTheStartRecordsWhatThereIs) {
+TEST(FlightRecorder, SoonAfterTheStartRecordsTheAvailableRows) {
   ticks.until(2.99);
   ticks.fault(0);
   ticks.until(5.0);
   check_rows(recording(1).rows, 0.0, 4.0);
 }
 
-TEST(FlightRecorder, RecordsAFaultThatIsThereInTheFirstRow) {
+TEST(FlightRecorder, RecordsAFaultPresentInTheFirstRow) {
   ticks.fault(0, Fault::self_test_failed);
   ticks.until(2.0);
   check_rows(recording(1).rows, 0.0, 1.0);
 }
 
-TEST(FlightRecorder, IsWholeWhereverTheMemoryBeginsAnew) {
+TEST(FlightRecorder, IsCompleteWhereverTheRingBufferWraps) {
   // The memory holds 16 s and two ticks: faults 11.37 s apart end up at every place in it.
   for (int i = 1; i <= 40; ++i) {
     const double at_s = 12.0 + i * 11.37;
@@ -64,7 +64,7 @@ TEST(FlightRecorder, IsWholeWhereverTheMemoryBeginsAnew) {
   LONGS_EQUAL(20, recordings());
 }
 
-TEST(FlightRecorder, FaultsOfSeveralChannelsShareARecordingThatTheyDoNotExtend) {
+TEST(FlightRecorder, FaultsOfSeveralChannelsShareARecordingWithoutExtendingIt) {
   ticks.until(19.99);
   ticks.fault(1);
   ticks.until(20.99);
@@ -78,7 +78,7 @@ TEST(FlightRecorder, FaultsOfSeveralChannelsShareARecordingThatTheyDoNotExtend) 
   LONGS_EQUAL(0, (written.rows.end() - 4)->fault);
 }
 
-TEST(FlightRecorder, AFaultInTheTickAfterTheSecondIsAnotherRecording) {
+TEST(FlightRecorder, AFaultInTheTickAfterARecordingStartsAnother) {
   ticks.until(19.99);
   ticks.fault(1);
   ticks.until(21.0);
@@ -100,7 +100,7 @@ TEST(FlightRecorder, AFaultIsRecordedAgainOnlyAfterAReset) {
   LONGS_EQUAL(2, recordings());
 }
 
-TEST(FlightRecorder, ResetAndTrippedAgainWithinATickIsAFault) {
+TEST(FlightRecorder, AResetAndTripWithinATickIsANewFault) {
   ticks.fault(0);
   ticks.until(30.0);
   ticks.fault(0, Fault::heater_open);
@@ -122,7 +122,7 @@ TEST(FlightRecorder, LostRowsAreAGapInTheTimes) {
   CHECK(rows[gap + 2].time_ns == 19 * second_ns);
 }
 
-TEST(FlightRecorder, RowsOfAChannelThatThereIsNotAreIgnored) {
+TEST(FlightRecorder, RowsOfUnknownChannelsAreIgnored) {
   recorder.add(row(0, 2, Fault::over_travel));
   recorder.add(row(0, 255, Fault::over_travel));
   ticks.fault(0);
@@ -130,7 +130,7 @@ TEST(FlightRecorder, RowsOfAChannelThatThereIsNotAreIgnored) {
   check_rows(recording(1).rows, 0.0, 1.0);
 }
 
-TEST(FlightRecorder, WhenTheLoopStandsStillPollWrites) {
+TEST(FlightRecorder, PollWritesWhenTheLoopHasStalled) {
   ticks.until(19.99);
   ticks.fault(0);
   ticks.until(20.2);
@@ -142,7 +142,7 @@ TEST(FlightRecorder, WhenTheLoopStandsStillPollWrites) {
   LONGS_EQUAL(1, recordings());
 }
 
-TEST(FlightRecorder, FinishWritesWhatWouldBecomeDueLater) {
+TEST(FlightRecorder, FinishWritesARecordingBeforeItIsDue) {
   ticks.until(19.99);
   ticks.fault(0);
   ticks.until(20.2);

@@ -70,7 +70,7 @@ TEST(Mishap, CountsTheCalls) {
   LONGS_EQUAL(calls_of_a_recording, files.calls());
 }
 
-TEST(Mishap, ACallThatFailsOnceOrForGoodLeavesWholeRecordings) {
+TEST(Mishap, ACallThatFailsOnceOrForeverLeavesWholeRecordings) {
   for (int call = 0; call < calls_of_a_recording; ++call) {
     for (const bool for_good : {false, true}) {
       for (const bool takes_effect : {false, true}) {
@@ -134,7 +134,7 @@ TEST(Mishap, KilledBeforeAndAfterEveryCallLeavesWholeRecordings) {
   }
 }
 
-TEST(Mishap, AFileSystemWithoutRoomForItIsReported) {
+TEST(Mishap, AFullFileSystemIsReported) {
   Child child([&](int report) {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit small{10'000, 10'000};
@@ -151,7 +151,7 @@ TEST(Mishap, AFileSystemWithoutRoomForItIsReported) {
   LONGS_EQUAL(0, content().size());
 }
 
-TEST(Mishap, AFolderThatComesBackInTimeGetsTheRecording) {
+TEST(Mishap, AFolderThatReappearsInTimeGetsTheRecording) {
   const std::string later = folder.path() + "/mounted";
   FlightRecorder recorder(later, 2, rate_Hz, real);
   Ticks ticks{recorder, 0, {Fault::over_travel, Fault::none}};

@@ -42,7 +42,7 @@ TEST_GROUP(Recording) {
   }
 };
 
-TEST(Recording, IsReadAsItWasWritten) {
+TEST(Recording, RoundTrips) {
   LONGS_EQUAL(header_bytes + 4 * sizeof(Row), file.size());
   const auto read = decode(file, Damaged::refuse);
   CHECK(read.has_value());
@@ -58,7 +58,7 @@ TEST(Recording, IsReadAsItWasWritten) {
   STRCMP_EQUAL("", read->damage.c_str());
 }
 
-TEST(Recording, SaysWhichProgramWroteItWhereThatIsKnown) {
+TEST(Recording, NamesTheProgramThatWroteItIfKnown) {
   recorder::Header header = decode(file, Damaged::refuse)->header;
   header.program = "0.2.0+git20261122.150233.2780ebf";
   file.replace(0, header_bytes, encode(header));
@@ -68,7 +68,7 @@ TEST(Recording, SaysWhichProgramWroteItWhereThatIsKnown) {
   STRCMP_CONTAINS("program = 0.2", error(with("\"0.2.0", "0.2.0")).c_str());
 }
 
-TEST(Recording, FieldsStandWhereTheDocumentationSays) {
+TEST(Recording, FieldOffsetsMatchTheDocumentation) {
   LONGS_EQUAL(0, offsetof(Row, time_ns));
   LONGS_EQUAL(8, offsetof(Row, channel));
   LONGS_EQUAL(9, offsetof(Row, state));
@@ -103,7 +103,7 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(108, offsetof(Row, multiplexed_value));
 }
 
-TEST(Recording, TheHeaderIsTextThatSaysWhatFollows) {
+TEST(Recording, TheHeaderIsTextThatDescribesTheRows) {
   const std::string start = file.substr(0, header_bytes);
   STRCMP_CONTAINS("supercoil flight recording, format 1, CRC-32 ", start.c_str());
   STRCMP_CONTAINS(
@@ -130,14 +130,14 @@ TEST(Recording, TheLongestHeaderFits) {
   STRCMP_EQUAL("is cut off: 0 of 4294967295 rows are there", error(text).c_str());
 }
 
-TEST(Recording, TheCrcOfTwoPlacesIsThatOfBothInOne) {
+TEST(Recording, TheCrcOfTwoPartsIsThatOfTheWhole) {
   const std::string_view text = "123456789";
   // The check value for CRC-32 in catalogues of CRCs.
   LONGS_EQUAL(0xCBF43926, storage::crc32(text));
   LONGS_EQUAL(storage::crc32(text), storage::crc32("1234", "56789"));
 }
 
-TEST(Recording, EveryFlippedBitIsNoticed) {
+TEST(Recording, EveryFlippedBitIsDetected) {
   for (std::size_t i = 0; i < file.size(); ++i) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string changed = file;
@@ -147,7 +147,7 @@ TEST(Recording, EveryFlippedBitIsNoticed) {
   }
 }
 
-TEST(Recording, EveryLengthButTheRightOneIsNoticed) {
+TEST(Recording, EveryWrongLengthIsDetected) {
   for (std::size_t size = 0; size < file.size(); ++size)
     CHECK(!error(file.substr(0, size)).empty());
   CHECK(!error(file + '\0').empty());
@@ -172,7 +172,7 @@ TEST(Recording, EachKindOfDamageHasItsMessage) {
   STRCMP_EQUAL("is damaged: its header is not as it was written", error(changed).c_str());
 }
 
-TEST(Recording, OtherFormatsAndSizesOfRowsAreRefusedAlsoAsDamaged) {
+TEST(Recording, OtherFormatsAndRowSizesAreRefusedEvenWhenReadingDamaged) {
   std::string newer = file;
   newer[std::strlen("supercoil flight recording, format ")] = '2';
   for (const Damaged damaged : {Damaged::refuse, Damaged::read}) {
@@ -182,7 +182,7 @@ TEST(Recording, OtherFormatsAndSizesOfRowsAreRefusedAlsoAsDamaged) {
   }
 }
 
-TEST(Recording, AHeaderThatLiesIsNotBelieved) {
+TEST(Recording, AWrongRowCountInTheHeaderIsRejected) {
   STRCMP_EQUAL("is cut off: 4 of 4000000000 rows are there",
                error(with("rows = 4", "rows = 4000000000")).c_str());
   STRCMP_EQUAL("has 112 bytes more than were written", error(with("rows = 4", "rows = 3")).c_str());
@@ -207,7 +207,7 @@ TEST(Recording, AHeaderThatLiesIsNotBelieved) {
                   error(with("rows_CRC32 = \"", "rows_CRC32 = \"x")).c_str());
 }
 
-TEST(Recording, WhatIsCutOffIsReadUpToTheLastWholeRow) {
+TEST(Recording, ATruncatedFileIsReadUpToTheLastWholeRow) {
   const auto read = decode(file.substr(0, header_bytes + 3 * sizeof(Row) + 50), Damaged::read);
   CHECK(read.has_value());
   STRCMP_EQUAL("is cut off: 3 of 4 rows are there", read->damage.c_str());
@@ -215,7 +215,7 @@ TEST(Recording, WhatIsCutOffIsReadUpToTheLastWholeRow) {
   LONGS_EQUAL(30, read->header.fault);
 }
 
-TEST(Recording, WithAChangedRowAllAreRead) {
+TEST(Recording, AllRowsAreReadWhenOneIsCorrupted) {
   std::string changed = file;
   changed[header_bytes + 112] = 1;
   const auto read = decode(changed, Damaged::read);
@@ -223,11 +223,11 @@ TEST(Recording, WithAChangedRowAllAreRead) {
   CHECK(!read->damage.empty());
 }
 
-TEST(Recording, WhatWasAddedIsNotRead) {
+TEST(Recording, AppendedBytesAreNotRead) {
   LONGS_EQUAL(4, decode(file + file, Damaged::read)->rows.size());
 }
 
-TEST(Recording, WithADamagedHeaderTheRowsSayWhichFaultItWas) {
+TEST(Recording, WithADamagedHeaderTheFaultComesFromTheRows) {
   std::string changed = file;
   changed.replace(60, 300, 300, '\0');
   const auto read = decode(changed, Damaged::read);
@@ -248,7 +248,7 @@ TEST(Recording, WithoutAWholeRowThereIsNothingToRead) {
                error(file.substr(0, 100), Damaged::read).c_str());
 }
 
-TEST(Recording, AnythingAtAllIsReadWithoutHarm) {
+TEST(Recording, ArbitraryContentIsReadSafely) {
   // With every byte of the header and of the rows changed, no more rows are read than exist.
   for (std::size_t i = 0; i < file.size(); ++i) {
     for (const char value : {'\0', '\xFF', '9', '\n', '"'}) {

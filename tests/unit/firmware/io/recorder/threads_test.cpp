@@ -46,7 +46,7 @@ TEST_GROUP(Threads) {
   }
 };
 
-TEST(Threads, RowsArriveInOrderAndAllOfThemWhileRecordingsAreWritten) {
+TEST(Threads, AllRowsArriveInOrderWhileRecordingsAreWritten) {
   constexpr int faults = 6;
   constexpr double apart_s = 20.0;
   std::thread loop([&] {
@@ -75,7 +75,7 @@ TEST(Threads, RowsArriveInOrderAndAllOfThemWhileRecordingsAreWritten) {
   }
 }
 
-TEST(Threads, RowsThatAFullRingLostAreAGapAndTheRestIsInOrder) {
+TEST(Threads, RowsLostByAFullRingAreAGapAndTheRestIsInOrder) {
   recorder::FlightRecorder recorder(folder.path(), 2, rate_Hz, files);
   std::int64_t lost = 0;
   // The recorder stalls for 3 s: the ring holds 2 s, and the loop goes on.

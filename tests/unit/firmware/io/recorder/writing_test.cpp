@@ -27,7 +27,7 @@ void a_fault() {
 }
 ;
 
-TEST(Writing, NumbersGoUpFromTheGreatestThatIsThere) {
+TEST(Writing, NumbersCountUpFromTheHighestPresent) {
   put("flight-7.scfr");
   put("flight-12.scfr");
   a_fault();
@@ -35,7 +35,7 @@ TEST(Writing, NumbersGoUpFromTheGreatestThatIsThere) {
   CHECK(there("flight-13.scfr") && there("flight-14.scfr") && there("flight-7.scfr"));
 }
 
-TEST(Writing, NumbersAreNotUsedAgainWhenTheNewestIsTakenAway) {
+TEST(Writing, NumbersAreNotReusedWhenTheNewestIsRemoved) {
   a_fault();
   disk.names.erase("/d/flight-1.scfr");
   a_fault();
@@ -57,7 +57,7 @@ TEST(Writing, OnlyTheNewestTwentyAreKeptAndNothingElseIsTouched) {
     CHECK_TEXT(there(name), name.c_str());
 }
 
-TEST(Writing, ANameThatIsNoneOfOursDoesNotCount) {
+TEST(Writing, FilesWithOtherNamesDoNotCount) {
   put("flight-01.scfr");
   for (int i = 1; i <= 19; ++i)
     put("flight-" + std::to_string(i) + ".scfr");
@@ -65,7 +65,7 @@ TEST(Writing, ANameThatIsNoneOfOursDoesNotCount) {
   CHECK(there("flight-1.scfr") && there("flight-20.scfr"));
 }
 
-TEST(Writing, TheOldestGoesBeforeTheNewOneIsMade) {
+TEST(Writing, TheOldestIsRemovedBeforeTheNewOneIsCreated) {
   for (int i = 1; i <= 20; ++i)
     put("flight-" + std::to_string(i) + ".scfr");
   SimulatedFiles full(disk, {1, ENOSPC, false, false});  // call 0 removes, call 1 makes the file
@@ -77,7 +77,7 @@ TEST(Writing, TheOldestGoesBeforeTheNewOneIsMade) {
   CHECK(there("flight-21.scfr"));
 }
 
-TEST(Writing, OneThatCannotBeRemovedDoesNotStopTheOthers) {
+TEST(Writing, AFailedRemovalDoesNotPreventOthers) {
   for (int i = 1; i <= 20; ++i)
     put("flight-" + std::to_string(i) + ".scfr");
   SimulatedFiles stuck(disk, {0, EISDIR, false, false});
@@ -90,7 +90,7 @@ TEST(Writing, OneThatCannotBeRemovedDoesNotStopTheOthers) {
   STRCMP_CONTAINS("/d/flight-1.scfr: simulated: Is a directory", said[1].text.c_str());
 }
 
-TEST(Writing, WhatAnInterruptedWriteLeftIsRemoved) {
+TEST(Writing, RemnantsOfAnInterruptedWriteAreRemoved) {
   put("flight-3.scfr.new");
   put("flight-1.scfr.new");
   a_fault();
@@ -98,7 +98,7 @@ TEST(Writing, WhatAnInterruptedWriteLeftIsRemoved) {
   CHECK(there("flight-1.scfr"));
 }
 
-TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsTriedOnceMoreAsComplete) {
+TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsRetriedOnce) {
   SimulatedFiles full(disk, {1, ENOSPC, false, true});  // half of the header is written
   recorder::FlightRecorder failing("/d", 2, rate_Hz, full, settings_on(disk));
   Ticks t{failing};
@@ -122,7 +122,7 @@ TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsTriedOnceMoreAsComplete) {
   CHECK(!said[0].problem);
 }
 
-TEST(Writing, TheSecondTryIsTheLastAndLaterFaultsAreRecorded) {
+TEST(Writing, TheSecondAttemptIsTheLastAndLaterFaultsAreRecorded) {
   SimulatedFiles full(disk, {1, EROFS, true, false});
   recorder::FlightRecorder failing("/d", 2, rate_Hz, full, settings_on(disk));
   Ticks t{failing, 0, {Fault::over_travel, Fault::none}};
@@ -135,7 +135,7 @@ TEST(Writing, TheSecondTryIsTheLastAndLaterFaultsAreRecorded) {
   LONGS_EQUAL(calls, full.calls());
 }
 
-TEST(Writing, AWaitingTryDoesNotKeepAnotherFaultFromBeingRecorded) {
+TEST(Writing, APendingRetryDoesNotBlockAnotherFault) {
   SimulatedFiles once(disk, {1, ENOSPC, false, false});
   recorder::FlightRecorder failing("/d", 2, rate_Hz, once, settings_on(disk));
   Ticks t{failing};
@@ -150,7 +150,7 @@ TEST(Writing, AWaitingTryDoesNotKeepAnotherFaultFromBeingRecorded) {
   check_rows(recording(2).rows, 10.0, 21.0);  // the one that failed at first
 }
 
-TEST(Writing, FaultsThatFollowEachOtherOnADiskThatFailsAreEachTriedTwice) {
+TEST(Writing, SuccessiveFaultsOnAFailingDiskAreEachTriedTwice) {
   SimulatedFiles broken(disk, {0, EIO, true, false});
   recorder::FlightRecorder failing("/d", 2, rate_Hz, broken, settings_on(disk));
   Ticks t{failing};
@@ -164,7 +164,7 @@ TEST(Writing, FaultsThatFollowEachOtherOnADiskThatFailsAreEachTriedTwice) {
   LONGS_EQUAL(20, failing.take_notes().size());
 }
 
-TEST(Writing, FinishTriesWhatWaitsAtOnce) {
+TEST(Writing, FinishRetriesPendingRecordingsAtOnce) {
   SimulatedFiles once(disk, {1, ENOSPC, false, false});
   recorder::FlightRecorder failing("/d", 2, rate_Hz, once, settings_on(disk));
   Ticks t{failing, 0, {Fault::over_travel, Fault::none}};
@@ -174,7 +174,7 @@ TEST(Writing, FinishTriesWhatWaitsAtOnce) {
   check_rows(recording(1).rows, 0.0, 1.0);
 }
 
-TEST(Writing, AListThatFailsIsAProblemLikeAnyOther) {
+TEST(Writing, AFailedListingIsReportedLikeAnyProblem) {
   recorder::RecorderSettings settings;  // the real list of a folder that does not exist
   recorder::FlightRecorder failing("/none/there", 2, rate_Hz, files, settings);
   Ticks{failing, 0, {Fault::over_travel, Fault::none}}.until(2.0);
@@ -184,7 +184,7 @@ TEST(Writing, AListThatFailsIsAProblemLikeAnyOther) {
   LONGS_EQUAL(0, files.calls());
 }
 
-TEST(Writing, UnreadNotesDoNotGrowWithoutEnd) {
+TEST(Writing, UnreadNotesAreBounded) {
   for (int i = 0; i < 40; ++i)
     a_fault();
   const auto said = recorder.take_notes();

@@ -47,7 +47,7 @@ std::string sealed_with(const std::string& what, const std::string& instead) {
 
 TEST_GROUP(Codec){};
 
-TEST(Codec, TuningIsReadBack) {
+TEST(Codec, TuningRoundTrips) {
   for (const bool has_muscle : {true, false}) {
     board::Learned set = full_set();
     set.has_muscle = has_muscle;
@@ -66,7 +66,7 @@ TEST(Codec, TuningIsReadBack) {
   }
 }
 
-TEST(Codec, WrongTuningIsNamed) {
+TEST(Codec, InvalidTuningIsNamed) {
   const auto with = [](const std::string& lines) {
     const std::string text = encode(full_set());
     return seal(text.substr(text.find('\n') + 1) + lines);
@@ -91,7 +91,7 @@ TEST(Codec, WrongTuningIsNamed) {
 }
 
 // The checksum is that of Python's zlib.crc32 for these lines.
-TEST(Codec, WritesWhatAPersonCanRead) {
+TEST(Codec, WritesReadableText) {
   board::Learned set;
   set.calibration.position_offset_m = -0.00125;
   set.version = 3;
@@ -115,7 +115,7 @@ TEST(Codec, WritesWhatAPersonCanRead) {
       encode(set).c_str());
 }
 
-TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
+TEST(Codec, AFileFromBeforeComparisonsHasNone) {
   // As the previous firmware wrote it.
   const std::string before =
       "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
@@ -131,7 +131,7 @@ TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
   CHECK(read->senses == board::SenseComparison{});
 }
 
-TEST(Codec, AFileOf0_1_0IsReadUnderItsOwnKeys) {
+TEST(Codec, AFileOf0_1_0IsReadByItsOwnKeys) {
   // From docs/storage.md of 0.1.0.
   const std::string body =
       "# Written by supercoild. An edited file counts as damaged and is not used.\n"
@@ -162,7 +162,7 @@ TEST(Codec, AComparisonHasATableOfItsOwn) {
       encode(full_set()).c_str());
 }
 
-TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
+TEST(Codec, HeatHasATableOfItsOwn) {
   STRCMP_CONTAINS(
       "\n[heat]\ntime_constant_s = 1.75\ntime_constant_at_W = 2.25\nsteady_rise_K = 21.5\n"
       "steady_error_K = 1.25\nsteady_min_W = 1.5\nsteady_max_W = 1.625\n",
@@ -174,7 +174,7 @@ TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
   CHECK(decode(encode(set)) == set);
 }
 
-TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
+TEST(Codec, SmallMotionsHaveATableOfTheirOwnWhenMeasured) {
   board::Learned set = full_set();
   STRCMP_CONTAINS("\n[small_motions]\nresponse_ratio = 0.375\n", encode(set).c_str());
   set.response_ratio = 0.0;
@@ -182,7 +182,7 @@ TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
   CHECK(decode(encode(set)) == set);
 }
 
-TEST(Codec, WhatTheLinearModelLeavesHasATableOfItsOwnWhereIdentifyToldIt) {
+TEST(Codec, TheUnexplainedRatioHasATableOfItsOwnWhenIdentified) {
   board::Learned set = full_set();
   STRCMP_CONTAINS("\n[linear_model]\nunexplained_ratio = 0.03125\n", encode(set).c_str());
   set.unexplained_ratio = 0.0;
@@ -190,7 +190,7 @@ TEST(Codec, WhatTheLinearModelLeavesHasATableOfItsOwnWhereIdentifyToldIt) {
   CHECK(decode(encode(set)) == set);
 }
 
-TEST(Codec, HowSureIdentifyWasHasATableOfItsOwn) {
+TEST(Codec, DeviationsOfIdentifyHaveATableOfTheirOwn) {
   board::Learned set = full_set();
   STRCMP_CONTAINS(
       "\n[identification]\ntheta1_deviation_ratio = 0.0\ntheta2_deviation_ratio = 0.25\n"
@@ -203,7 +203,7 @@ TEST(Codec, HowSureIdentifyWasHasATableOfItsOwn) {
   CHECK(decode(encode(set)) == set);
 }
 
-TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
+TEST(Codec, ASenseComparisonIsStoredWithoutAMuscle) {
   board::Learned set = full_set();
   set.has_muscle = false;
   set.response_ratio = set.unexplained_ratio = 0.0;
@@ -218,7 +218,7 @@ TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   CHECK(decode(encode(set)) == set);
 }
 
-TEST(Codec, EveryValidSetComesBackBitForBit) {
+TEST(Codec, EveryValidSetRoundTripsBitForBit) {
   CHECK(rc::check("round trip", [] {
     board::Learned set = *learned_sets();
     RC_ASSERT_FALSE(check(set).has_value());
@@ -242,7 +242,7 @@ TEST(Codec, NoInvalidSetIsAccepted) {
   }
 }
 
-TEST(Codec, SaysWhichNumberIsOutOfWhichRange) {
+TEST(Codec, NamesTheNumberAndItsRange) {
   check_answer("stiffness_N_per_m = -16 is out of range: must be 0.01 to 1e+06",
                sealed_with("= 16.0", "= -16.0"));
   check_answer("position_scale = 0 is out of range: must be 0.1 to 10",
@@ -292,7 +292,7 @@ TEST(Codec, RefusesInvalidToml) {
   STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("[calibration]", "[muscle]")).c_str());
 }
 
-TEST(Codec, SmallMotionsAreThoseOfAMuscleAndNotStoredWithoutOne) {
+TEST(Codec, SmallMotionsAreNotStoredWithoutAMuscle) {
   board::Learned set = full_set();
   set.has_muscle = false;
   CHECK(encode(set).find("small_motions") == std::string::npos);

@@ -80,7 +80,7 @@ bool all_noticed(const char* name, const std::function<std::string(const std::st
 
 TEST_GROUP(Damage){};
 
-TEST(Damage, OfRandomKindsIsNoticed) {
+TEST(Damage, OfRandomKindsIsDetected) {
   CHECK(all_noticed("flipped bits", with_flipped_bits));
   CHECK(
       all_noticed("cut off", [](const std::string& text) { return text.substr(0, place(text)); }));
@@ -90,7 +90,7 @@ TEST(Damage, OfRandomKindsIsNoticed) {
   CHECK(all_noticed("mixed", mixed));
 }
 
-TEST(Damage, OfEverySingleBitAndAtEveryLengthIsNoticed) {
+TEST(Damage, OfEveryBitAndAtEveryLengthIsDetected) {
   const std::string text = encode(nth_set(5));
   for (std::size_t bit = 0; bit < 8 * text.size(); ++bit) {
     std::string damaged = text;
@@ -102,7 +102,7 @@ TEST(Damage, OfEverySingleBitAndAtEveryLengthIsNoticed) {
   }
 }
 
-TEST(Damage, IsSaidInWords) {
+TEST(Damage, IsDescribedInWords) {
   const std::string text = encode(board::Learned{});
   STRCMP_EQUAL("is empty", answer("").c_str());
   STRCMP_EQUAL("is cut off in its first line", answer(text.substr(0, 10)).c_str());
@@ -128,7 +128,7 @@ TEST(Damage, AFileOfANewerFirmwareIsNotCalledDamaged) {
       answer("# supercoil learned, format 3, sealed in another way\nversion = 1\n").c_str());
 }
 
-TEST(Damage, AFileOfMoreThan64KiBIsRefusedWhateverItHolds) {
+TEST(Damage, AFileOfMoreThan64KiBIsRefusedWhateverItsContent) {
   const std::string comment = "#" + std::string(max_file_bytes, ' ') + "\n";
   STRCMP_EQUAL("is larger than the limit of 64 KiB",
                answer(seal("version = 1\n" + comment)).c_str());

@@ -12,7 +12,7 @@ using namespace supercoil::test;
 
 TEST_GROUP_BASE(DamagedFile, StoreOnADisk){};
 
-TEST(DamagedFile, UsesThePreviousVersionWhenTheCurrentOneIsDamagedAndSaysWhy) {
+TEST(DamagedFile, FallsBackToThePreviousVersionWithTheReason) {
   save(1);
   save(2);
   text_of(path).resize(100);
@@ -24,14 +24,14 @@ TEST(DamagedFile, UsesThePreviousVersionWhenTheCurrentOneIsDamagedAndSaysWhy) {
   check_loaded(Source::previous, 1, "/d/learned-3.toml: is not there");
 }
 
-TEST(DamagedFile, OneByteTooManyIsSeen) {
+TEST(DamagedFile, OneExtraByteIsDetected) {
   save(1);
   save(2);
   text_of(path).append(max_file_bytes - text_of(path).size() + 1, '#');
   check_loaded(Source::previous, 1, "/d/learned-3.toml: is larger than the limit of 64 KiB");
 }
 
-TEST(DamagedFile, SaysThatThePreviousVersionIsDamagedWhileTheCurrentOneIsGood) {
+TEST(DamagedFile, ReportsADamagedPreviousVersionWhileTheCurrentOneIsGood) {
   save(1);
   save(2);
   text_of(path + ".previous") = "x";
@@ -40,7 +40,7 @@ TEST(DamagedFile, SaysThatThePreviousVersionIsDamagedWhileTheCurrentOneIsGood) {
                "'# supercoil learned, format '");
 }
 
-TEST(DamagedFile, HasAnErrorWhenBothAreDamagedAndGoesOnFromThere) {
+TEST(DamagedFile, ReportsAnErrorWhenBothAreDamagedAndCanSaveAgain) {
   save(1);
   save(2);
   text_of(path).clear();
@@ -56,7 +56,7 @@ TEST(DamagedFile, HasAnErrorWhenBothAreDamagedAndGoesOnFromThere) {
   check_loaded(Source::previous, 3, "/d/learned-3.toml: is empty");
 }
 
-TEST(DamagedFile, ADamagedFileNeverReplacesAGoodPreviousOneAndIsKept) {
+TEST(DamagedFile, ADamagedFileNeverReplacesAGoodPreviousVersionAndIsKept) {
   save(1);
   save(2);
   text_of(path) = "damaged";
@@ -78,7 +78,7 @@ TEST(DamagedFile, KeepsTheFirstEightDamagedFilesAndTheLatest) {
   CHECK_FALSE(disk.names.contains(path + ".damaged-10"));
 }
 
-TEST(DamagedFile, ThatIsTheOnlyOneIsAnErrorAndNotNothing) {
+TEST(DamagedFile, WithoutAPreviousVersionIsAnErrorAndNotEmpty) {
   save(1);
   text_of(path).clear();
   const auto loaded = store.load();

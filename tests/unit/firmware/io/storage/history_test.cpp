@@ -67,7 +67,7 @@ class Board {
 
 TEST_GROUP(History){};
 
-TEST(History, OfAnyKindEndsWithASetThatWasSaved) {
+TEST(History, OfAnyKindEndsWithASavedSet) {
   CHECK(rc::check("histories", [] {
     Board board;
     const int lives = *rc::gen::inRange(1, 12);

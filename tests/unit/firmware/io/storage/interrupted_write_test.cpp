@@ -56,7 +56,7 @@ std::thread undisturbed(Work work) {
 
 TEST_GROUP(InterruptedWrite){};
 
-TEST(InterruptedWrite, GoesOnUntilAllIsWritten) {
+TEST(InterruptedWrite, ContinuesUntilAllIsWritten) {
   PosixFiles files;
   std::array<int, 2> ends{};
   LONGS_EQUAL(0, pipe(ends.data()));

@@ -54,7 +54,7 @@ TEST(Kill, BeforeAndAfterEveryCallLeavesTheOldSetOrTheNewOne) {
   LONGS_EQUAL(22, kills);  // ten calls, and the write in two parts
 }
 
-TEST(Kill, AtRandomMomentsLosesNothingThatWasReportedAsSaved) {
+TEST(Kill, AtRandomMomentsLosesNothingReportedAsSaved) {
   std::mt19937 random(20261120);
   CHECK(LearnedStore(folder.path(), 1, files).save(nth_set(0)).has_value());
   std::uint32_t last = stored().version;

@@ -20,7 +20,7 @@ TEST(Learned, DefaultsAreValid) {
   CHECK_FALSE(check(board::Learned{}).has_value());
 }
 
-TEST(Learned, CheckNamesTheQuantityThatIsWrong) {
+TEST(Learned, CheckNamesTheInvalidQuantity) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Field& field : fields) {
     for (const double bad :
@@ -34,7 +34,7 @@ TEST(Learned, CheckNamesTheQuantityThatIsWrong) {
   }
 }
 
-TEST(Learned, TheEndsOfARangeAreAllowedAndWhatLiesJustBeyondIsNot) {
+TEST(Learned, RangeLimitsAreAllowedAndValuesJustBeyondAreNot) {
   for (const Field& field : fields) {
     board::Learned set;
     field.of(set) = -1e9;
@@ -52,7 +52,7 @@ TEST(Learned, TheEndsOfARangeAreAllowedAndWhatLiesJustBeyondIsNot) {
 
 // A gain beyond half or twice is a mistyped meter reading, 300 K a burnt muscle, -1 W a lost sign:
 // whatever wrote such a file, it must not set any bound.
-TEST(Learned, NothingBeyondWhatAMuscleAndItsSensesCanBeIsAllowed) {
+TEST(Learned, ValuesImpossibleForAMuscleAndItsSensesAreRefused) {
   struct Credible {
     std::string_view key;
     double low;
@@ -85,7 +85,7 @@ TEST(Learned, NothingBeyondWhatAMuscleAndItsSensesCanBeIsAllowed) {
   }
 }
 
-TEST(Learned, ContentIsTheSameWhateverTheVersion) {
+TEST(Learned, SameContentIgnoresTheVersion) {
   board::Learned a;
   board::Learned b;
   b.version = 7;

@@ -32,7 +32,7 @@ TEST_GROUP(PosixFiles) {
   }
 };
 
-TEST(PosixFiles, ReadWhatTheyWrote) {
+TEST(PosixFiles, ReadBackWhatTheyWrote) {
   const std::string content("a\0b\n", 4);
   put("x", content);
   CHECK(*files.read(path("x"), 100) == content);
@@ -40,14 +40,14 @@ TEST(PosixFiles, ReadWhatTheyWrote) {
 }
 
 // errno keeps the value that an earlier call left.
-TEST(PosixFiles, DoNotTakeAnEarlierInterruptionForTheirOwn) {
+TEST(PosixFiles, IgnoreAStaleErrno) {
   errno = EINTR;
   put("x", "1");
   errno = EINTR;
   CHECK(*files.read(path("x"), 100) == "1");
 }
 
-TEST(PosixFiles, NeverWriteOverAFile) {
+TEST(PosixFiles, NeverOverwriteAFile) {
   put("x", "1");
   const auto again = files.create(path("x"));
   CHECK_FALSE(again.has_value());
@@ -56,7 +56,7 @@ TEST(PosixFiles, NeverWriteOverAFile) {
                again.error().text().c_str());
 }
 
-TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {
+TEST(PosixFiles, LinkRenameAndUnlinkFollowTheContract) {
   put("x", "1");
   CHECK(files.link(path("x"), path("y")).has_value());
   LONGS_EQUAL(EEXIST, files.link(path("x"), path("y")).error().code);
@@ -68,7 +68,7 @@ TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {
   STRCMP_EQUAL("1", files.read(path("y"), 9)->c_str());
 }
 
-TEST(PosixFiles, SayWhichPathIsNotThere) {
+TEST(PosixFiles, NameTheMissingPath) {
   const std::string gone = path("gone/x");
   const auto read = files.read(gone, 9);
   LONGS_EQUAL(ENOENT, read.error().code);
@@ -80,13 +80,13 @@ TEST(PosixFiles, SayWhichPathIsNotThere) {
   LONGS_EQUAL(ENOENT, files.rename(gone, path("y")).error().code);
 }
 
-TEST(PosixFiles, FilesAndFoldersAreNotConfused) {
+TEST(PosixFiles, DistinguishFilesAndFolders) {
   put("x", "1");
   LONGS_EQUAL(ENOTDIR, files.check_folder(path("x")).error().code);
   LONGS_EQUAL(EISDIR, files.read(folder.path(), 9).error().code);
 }
 
-TEST(PosixFiles, DoNotWaitForAPipeThatStandsInAFilesPlace) {
+TEST(PosixFiles, DoNotBlockOnAPipeInAFilesPlace) {
   LONGS_EQUAL(0, mkfifo(path("pipe").c_str(), 0600));
   STRCMP_EQUAL("", files.read(path("pipe"), 9)->c_str());
 }
@@ -101,7 +101,7 @@ TEST(PosixFiles, ReportAFullDisk) {
   LONGS_EQUAL(EBADF, files.close(full).error().code);
 }
 
-TEST(PosixFiles, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
+TEST(PosixFiles, WorkWithDescriptorZero) {
   put("x", "content");
   // A service may be started without standard input; the first file that it opens is then number 0.
   const int input = ::dup(0);
@@ -117,7 +117,7 @@ TEST(PosixFiles, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
   CHECK_FALSE(left_open);
 }
 
-TEST(PosixFiles, GoOnWithWhatASignalInterrupts) {
+TEST(PosixFiles, ResumeAfterASignal) {
   // A full pipe makes a write wait, as a slow disk does.
   int ends[2] = {};
   LONGS_EQUAL(0, ::pipe2(ends, O_CLOEXEC));

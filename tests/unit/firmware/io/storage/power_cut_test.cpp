@@ -119,7 +119,7 @@ TEST(PowerCut, AtEveryCallOfASaveLeavesTheOldSetOrTheNewOneWhole) {
   CHECK_TEXT(disks > 5000, "every disk that a cut may leave was looked at");
 }
 
-TEST(PowerCut, AfterASaveKeepsTheVersionBeforeAsWell) {
+TEST(PowerCut, AfterASaveKeepsThePreviousVersionToo) {
   for (const Start& start : starts()) {
     const int before = loaded(start.content);
     Disk disk(start.content);

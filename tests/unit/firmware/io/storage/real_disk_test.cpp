@@ -67,7 +67,7 @@ TEST(RealDisk, KeepsTheOldSetWhenNoFileCanBeOpened) {
   LONGS_EQUAL(1, loaded());
 }
 
-TEST(RealDisk, SaysThatAFolderIsReadOnlyAndStillLoads) {
+TEST(RealDisk, ReportsAReadOnlyFolderAndStillLoads) {
   CHECK(store.save(nth_set(1)).has_value());
   chmod(folder.path().c_str(), 0555);
   const std::string answer = saved_after([] {
@@ -80,7 +80,7 @@ TEST(RealDisk, SaysThatAFolderIsReadOnlyAndStillLoads) {
   chmod(folder.path().c_str(), 0755);
 }
 
-TEST(RealDisk, SaysThatTheFolderIsNotThere) {
+TEST(RealDisk, ReportsAMissingFolder) {
   const std::string gone = folder.path() + "/gone";
   LearnedStore lost(gone, 2, files);
   const auto loaded_there = lost.load();
@@ -108,7 +108,7 @@ TEST(RealDisk, DamagedTruncatedAndEmptyFilesGiveThePreviousSet) {
   }
 }
 
-TEST(RealDisk, AFolderInTheFilesPlaceIsDamageThatIsNotLost) {
+TEST(RealDisk, AFolderInTheFilesPlaceIsDamageAndIsKept) {
   CHECK(store.save(nth_set(1)).has_value());
   CHECK(store.save(nth_set(2)).has_value());
   fs::remove(file());
@@ -119,7 +119,7 @@ TEST(RealDisk, AFolderInTheFilesPlaceIsDamageThatIsNotLost) {
   LONGS_EQUAL(1, loaded());
 }
 
-TEST(RealDisk, HoldsItsFilesReadableByAll) {
+TEST(RealDisk, KeepsItsFilesReadableByAll) {
   CHECK(store.save(nth_set(1)).has_value());
   CHECK(store.save(nth_set(2)).has_value());
   for (const std::string& name : {file(), file(".previous")}) {

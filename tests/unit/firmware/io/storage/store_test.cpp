@@ -15,7 +15,7 @@ using namespace supercoil::test;
 
 TEST_GROUP_BASE(LearnedStore, StoreOnADisk){};
 
-TEST(LearnedStore, HasNothingAtFirst) {
+TEST(LearnedStore, IsEmptyAtFirst) {
   const auto loaded = store.load();
   CHECK(loaded.has_value());
   CHECK(loaded->source == Source::nothing);
@@ -23,13 +23,13 @@ TEST(LearnedStore, HasNothingAtFirst) {
   CHECK(loaded->problems.empty());
 }
 
-TEST(LearnedStore, GivesBackWhatWasSavedLast) {
+TEST(LearnedStore, ReturnsTheLastSavedSet) {
   for (const int n : {1, 2, 3})
     save(n);
   check_loaded(Source::current, 3);
 }
 
-TEST(LearnedStore, CountsTheVersionsWhateverItIsGiven) {
+TEST(LearnedStore, CountsVersionsItself) {
   board::Learned set = nth_set(1);
   set.version = 77;
   LONGS_EQUAL(1, *store.save(set));
@@ -37,7 +37,7 @@ TEST(LearnedStore, CountsTheVersionsWhateverItIsGiven) {
   LONGS_EQUAL(2, store.load()->learned->version);
 }
 
-TEST(LearnedStore, DatesWhatIdentifyFoundByItsFirstSave) {
+TEST(LearnedStore, DatesAnIdentificationByItsFirstSave) {
   double now_s = 1.7e9;
   LearnedStore dated("/d", 3, files, [&] { return now_s; });
   const auto identified_s = [&](const board::Learned& set) {
@@ -60,7 +60,7 @@ TEST(LearnedStore, DatesWhatIdentifyFoundByItsFirstSave) {
   DOUBLES_EQUAL(1.6e9, identified_s(set), 0.0);
 }
 
-TEST(LearnedStore, ForgetsAllAndBeginsAnew) {
+TEST(LearnedStore, ForgetsEverythingAndStartsAgain) {
   save(1);
   save(2);
   CHECK(store.forget().has_value());
@@ -102,7 +102,7 @@ TEST(LearnedStore, KeepsTheTuningWhenTheMuscleIsForgotten) {
   CHECK(kept->tuning == set.tuning);
 }
 
-TEST(LearnedStore, ForgetsWithTheMuscleWhatIsKnownOfItsHeat) {
+TEST(LearnedStore, ForgetsTheHeatTogetherWithTheMuscle) {
   for (const bool has_muscle : {true, false}) {
     board::Learned set = nth_set(1);
     set.senses = {1.25, 0.875, 0.0625, 1.7e9};
@@ -124,7 +124,7 @@ TEST(LearnedStore, StillSavesWhenTheVersionsHaveRunOut) {
   check_loaded(Source::current, 3);
 }
 
-TEST(LearnedStore, WritesNothingWhenTheContentIsTheSame) {
+TEST(LearnedStore, WritesNothingWhenTheContentIsUnchanged) {
   save(1);
   save(2);
   const int changes = files.changes();
@@ -132,7 +132,7 @@ TEST(LearnedStore, WritesNothingWhenTheContentIsTheSame) {
   LONGS_EQUAL(changes, files.changes());
 }
 
-TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
+TEST(LearnedStore, SyncsTheFolderWhenAnEarlierSaveDidNot) {
   const int calls = [] {
     Disk trial;
     SimulatedFiles counted(trial);
@@ -152,7 +152,7 @@ TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
   LONGS_EQUAL(before + 2 * with_sync - 1, failing.calls());
 }
 
-TEST(LearnedStore, IsNotSureOfTheFolderAnyMoreAfterALaterSaveThatFailed) {
+TEST(LearnedStore, SyncsTheFolderAgainAfterAFailedSave) {
   const int calls = [] {
     Disk trial;
     SimulatedFiles counted(trial);
@@ -170,7 +170,7 @@ TEST(LearnedStore, IsNotSureOfTheFolderAnyMoreAfterALaterSaveThatFailed) {
   LONGS_EQUAL(1, disk.survivors().size());
 }
 
-TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
+TEST(LearnedStore, RefusesAnInvalidSetAndTouchesNothing) {
   save(1);
   const Content before = disk.seen();
   const int changes = files.changes();
@@ -186,7 +186,7 @@ TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
   LONGS_EQUAL(changes, files.changes());
 }
 
-TEST(LearnedStore, SaysWhyWhatWasLeftOverCannotBeRemoved) {
+TEST(LearnedStore, ReportsWhyRemnantsCannotBeRemoved) {
   save(1);
   disk.change({path + ".new", std::make_shared<Inode>(), ""});
   SimulatedFiles failing(disk, {2, EROFS, false, false});  // after both files were read
@@ -215,7 +215,7 @@ TEST(LearnedStore, LeavesNothingButItsFilesBehind) {
 
 /// A power cut between the two renames of a save may leave this state: a third name could not be
 /// renamed over the second name of the same file.
-TEST(LearnedStore, LeavesNothingBehindWhereBothNamesAreOneFile) {
+TEST(LearnedStore, LeavesNothingBehindWhenBothNamesAreOneFile) {
   save(1);
   save(2);
   disk.names.at(path + ".previous") = disk.names.at(path);
@@ -225,7 +225,7 @@ TEST(LearnedStore, LeavesNothingBehindWhereBothNamesAreOneFile) {
   LONGS_EQUAL(2, which(*decode(text_of(path + ".previous"))));
 }
 
-TEST(LearnedStore, ChannelsDoNotMeet) {
+TEST(LearnedStore, ChannelsAreIndependent) {
   LearnedStore other("/d", 4, files);
   save(1);
   CHECK(other.load()->source == Source::nothing);
@@ -233,7 +233,7 @@ TEST(LearnedStore, ChannelsDoNotMeet) {
   check_loaded(Source::current, 1);
 }
 
-TEST(LearnedStore, MakesSureOfTheFolderWhenItCouldNotForget) {
+TEST(LearnedStore, SyncsTheFolderWhenItCouldNotForget) {
   const int calls = [] {
     Disk trial;
     SimulatedFiles counted(trial);

@@ -47,7 +47,7 @@ TEST_GROUP(CanCommands) {
   }
 };
 
-TEST(CanCommands, AreHeardForEachChannelAndTheSyncOfAllBoards) {
+TEST(CanCommands, AreReceivedForEachChannelWithTheSyncOfAllBoards) {
   settings.first_node = 3;
   const auto ids = telemetry::received_ids(settings, 2);
   const std::set<std::uint16_t> heard(ids.begin(), ids.end());
@@ -84,7 +84,7 @@ TEST(CanCommands, WithoutALeaseAreRefused) {
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::no_lease);
 }
 
-TEST(CanCommands, OfAnotherMasterAreRefusedAndItsClaimToo) {
+TEST(CanCommands, OfAnotherMasterAreRefusedLikeItsClaim) {
   claim(master);
   Master other;
   other.name = 0x4321;
@@ -94,7 +94,7 @@ TEST(CanCommands, OfAnotherMasterAreRefusedAndItsClaimToo) {
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
 }
 
-TEST(CanCommands, StopAndDisarmAreObeyedFromAnybody) {
+TEST(CanCommands, StopAndDisarmAreObeyedFromAnyMaster) {
   Master other;
   CHECK(take(other.frame(Verb::disarm)).command->verb == Verb::disarm);
   claim(master);
@@ -107,7 +107,7 @@ TEST(CanCommands, StopAndDisarmAreObeyedFromAnybody) {
   CHECK_FALSE(repeated.damaged.has_value());
 }
 
-TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
+TEST(CanCommands, ALeaseEndsWhenUnusedOrReleased) {
   claim(master);
   const Master gone = master;
   now += 999ms;
@@ -125,7 +125,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   CHECK_FALSE(leases.held(0, now));
 }
 
-TEST(CanCommands, ItsHolderKeepsALeaseByClaimingItAgain) {
+TEST(CanCommands, AHolderRenewsALeaseByClaimingItAgain) {
   const std::uint16_t session = claim(master);
   for (int i = 0; i < 30; ++i) {
     now += 900ms;
@@ -160,7 +160,7 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
   CHECK(sessions.size() > 95);
 }
 
-TEST(CanCommands, TheNextNonceAndSessionDifferWhateverTheRandomNumbersAre) {
+TEST(CanCommands, TheNextNonceAndSessionDifferForAnyRandomNumbers) {
   // 0 means nobody; only the low 16 bits count.
   const std::vector<std::uint32_t> numbers{0, 7, 0x10000, 9, 7, 0x20007, 8, 9, 0, 10};
   std::size_t taken = 0;
@@ -175,7 +175,7 @@ TEST(CanCommands, TheNextNonceAndSessionDifferWhateverTheRandomNumbersAre) {
   LONGS_EQUAL(numbers.size(), taken);
 }
 
-TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
+TEST(CanCommands, AreRefusedAtOnceWhenTheQueueIsFull) {
   claim(master);
   for (int i = 0; i < 256; ++i)
     CHECK(take(master.frame(Verb::renew)).command.has_value());
@@ -184,7 +184,7 @@ TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
   CHECK(static_cast<Refusal>(read_answer(*taken.answer).refusal) == Refusal::queue_full);
 }
 
-TEST(CanCommands, AnAnswerThatIsLostMovesNoOther) {
+TEST(CanCommands, ALostAnswerDoesNotShiftOthers) {
   claim(master);
   const auto lost = take(master.frame(Verb::arm));
   const auto heard = take(master.frame(Verb::rest));
@@ -193,7 +193,7 @@ TEST(CanCommands, AnAnswerThatIsLostMovesNoOther) {
   CHECK_FALSE(commands.answered({*lost.command, Refusal::none}).has_value());
 }
 
-TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
+TEST(CanCommands, AClaimWithALostAnswerIsGrantedAgainOnlyToTheSameMaster) {
   claim(master);
   CHECK(claim(master) != 0);
   Master other;
@@ -205,7 +205,7 @@ TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
   LONGS_EQUAL(0, claim(other));
 }
 
-TEST(CanCommands, ANonceIsGoodForOneClaimAndForAsLongAsALease) {
+TEST(CanCommands, ANonceIsValidForOneClaimAndTheDurationOfALease) {
   master.session = master.name;
   const std::uint16_t nonce = nonce_for(master);
   now += 1001ms;
@@ -221,7 +221,7 @@ TEST(CanCommands, ANonceIsGoodForOneClaimAndForAsLongAsALease) {
   CHECK_FALSE(leases.held(0, now));
 }
 
-TEST(CanCommands, OfTwoWhoClaimTheFirstToRepeatTheNonceIsGranted) {
+TEST(CanCommands, OfTwoClaimsTheFirstToRepeatTheNonceIsGranted) {
   Master other;
   other.name = other.session = 0x4321;
   master.session = master.name;
@@ -233,7 +233,7 @@ TEST(CanCommands, OfTwoWhoClaimTheFirstToRepeatTheNonceIsGranted) {
 
 /// As docs/can.md says about recordings: during its lease a full circle of a session's frames is
 /// accepted.
-TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) {
+TEST(CanCommands, ReplayOfSixteenRecordedFramesIsObeyedOnlyWithinTheLease) {
   claim(master);
   std::vector<hal::CanFrame> circle;
   for (int i = 0; i < 16; ++i) {
@@ -262,7 +262,7 @@ TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) 
     CHECK(refusal_of(frame) == Refusal::no_lease);
 }
 
-TEST(CanCommands, AClaimOfVersion3IsRefusedAsAnotherVersion) {
+TEST(CanCommands, AClaimOfVersion3IsRefusedAsAWrongVersion) {
   const auto answer = *take(master.frame(Opcode::claim_of_version_3)).answer;
   LONGS_EQUAL(7, answer.length);
   LONGS_EQUAL(13, read_answer(answer).refusal);
@@ -271,7 +271,7 @@ TEST(CanCommands, AClaimOfVersion3IsRefusedAsAnotherVersion) {
   CHECK_FALSE(leases.held(0, now));
 }
 
-TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
+TEST(CanCommands, ARepeatedFrameIsRefusedAndCountsAsDamaged) {
   claim(master);
   const auto frame = master.frame(Verb::position, 0.01F);
   CHECK(take(frame).command.has_value());
@@ -281,7 +281,7 @@ TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
   LONGS_EQUAL(10, read_answer(*repeated.answer).refusal);
 }
 
-TEST(CanCommands, AClaimThatMeansNothingCountsInTheSequenceToo) {
+TEST(CanCommands, AnInvalidClaimCountsInTheSequenceToo) {
   claim(master);
   Master replayed = master;
   CHECK(refusal_of(master.frame(Opcode::lease, 1.0F)) == Refusal::out_of_range);
@@ -292,7 +292,7 @@ TEST(CanCommands, AClaimThatMeansNothingCountsInTheSequenceToo) {
   CHECK(refusal_of(stranger.frame(Opcode::lease, 1.0F)) == Refusal::not_lease_holder);
 }
 
-TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {
+TEST(CanCommands, UpToThreeFramesMayBeLost) {
   claim(master);
   for (int lost = 0; lost <= 6; ++lost) {
     for (int i = 0; i < lost; ++i)
@@ -303,7 +303,7 @@ TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {
   }
 }
 
-TEST(CanCommands, OfOneChannelSayNothingOfTheOther) {
+TEST(CanCommands, OfOneChannelDoNotAffectTheOther) {
   claim(master);
   Master second;
   second.node = 2;
@@ -317,14 +317,14 @@ TEST(CanCommands, OfOneChannelSayNothingOfTheOther) {
   CHECK(!taken.command && !taken.answer && !taken.damaged);
 }
 
-TEST(CanCommands, MeantForOneNodeAreDamagedAtAnother) {
+TEST(CanCommands, ForOneNodeAreDamagedAtAnother) {
   claim(master);
   auto frame = master.frame(Verb::disarm);
   frame.id = 0x202;
   LONGS_EQUAL(1, *take(frame).damaged);
 }
 
-TEST(CanCommands, EveryDamageOfUpToThreeBitsIsSeen) {
+TEST(CanCommands, EveryDamageOfUpToThreeBitsIsDetected) {
   claim(master);
   const hal::CanFrame good = master.frame(Verb::disarm);
   long damages = 0;
@@ -349,7 +349,7 @@ TEST(CanCommands, EveryDamageOfUpToThreeBitsIsSeen) {
   CHECK(take(good).command.has_value());
 }
 
-TEST(CanCommands, OfAMillionRandomFramesNoneIsObeyed) {
+TEST(CanCommands, NoneOfAMillionRandomFramesIsObeyed) {
   claim(master);
   std::mt19937 random(20261120);
   long obeyed = 0;
@@ -369,7 +369,7 @@ TEST(CanCommands, OfAMillionRandomFramesNoneIsObeyed) {
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
 }
 
-TEST(CanCommands, AWrongLengthIsADamage) {
+TEST(CanCommands, AWrongLengthCountsAsDamage) {
   hal::CanFrame frame = master.frame(Verb::disarm);
   for (const int length : {0, 1, 2, 7}) {
     frame.length = static_cast<std::uint8_t>(length);
@@ -384,7 +384,7 @@ TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
   LONGS_EQUAL(0xE7, master.frame(Verb::position, 0.012F).data[0]);
 }
 
-TEST(CanCommands, NoNonceIsGoodBeforeOneWasTold) {
+TEST(CanCommands, NoNonceIsValidBeforeOneIsIssued) {
   // Not even in the first second of the board's clock.
   Leases fresh{settings.lease_s, 1, [] { return 0x1234U; }};
   CHECK(fresh.claim(0, 1, 1.0, 0, hal::Time(0)) == Refusal::claim_again);

@@ -138,7 +138,7 @@ bool is_right(const Signal& signal, float value) {
 
 TEST_GROUP(Frames){};
 
-TEST(Frames, EverySignalGivesBackWhatItWasGivenToHalfAQuantum) {
+TEST(Frames, EverySignalRoundTripsWithinHalfAQuantum) {
   for (const Signal& signal : signals) {
     const bool holds = rc::check(signal.name, [&] {
       // Most are within the range, some far beyond it.
@@ -151,7 +151,7 @@ TEST(Frames, EverySignalGivesBackWhatItWasGivenToHalfAQuantum) {
   }
 }
 
-TEST(Frames, ExtremesBecomeTheRangesEndsAndNoNumberIsNotAvailable) {
+TEST(Frames, ExtremesSaturateAndNaNIsNotAvailable) {
   for (const Signal& signal : signals) {
     const auto low = static_cast<float>(signal.lowest);
     const auto high = static_cast<float>(signal.highest);
@@ -166,7 +166,7 @@ TEST(Frames, ExtremesBecomeTheRangesEndsAndNoNumberIsNotAvailable) {
   }
 }
 
-TEST(Frames, FloatsGoAsTheyAre) {
+TEST(Frames, FloatsAreSentUnchanged) {
   for (const float value : {infinite, -infinite, 1e-38F, -3.5e37F, 0.1F}) {
     Row row{};
     row.margin_measured = row.margin_limit = row.theta[2] = value;
@@ -179,7 +179,7 @@ TEST(Frames, FloatsGoAsTheyAre) {
   CHECK(std::isnan(unpacked(margin(1, row), supercoil_margin_unpack).measured));
 }
 
-TEST(Frames, BiasAndDeviationsAreTheNewestThatWereToldAndNoneIsNaN) {
+TEST(Frames, BiasAndDeviationsAreTheLatestOrNaN) {
   MultiplexedValues multiplexed;
   const auto carried = [&](std::size_t place) {
     const auto parameter = static_cast<std::uint8_t>(7 + place);
@@ -209,7 +209,7 @@ TEST(Frames, BiasAndDeviationsAreTheNewestThatWereToldAndNoneIsNaN) {
     CHECK(std::isnan(carried(place)));
 }
 
-TEST(Frames, AStatusSaysThatTheProofOfResponseIsOff) {
+TEST(Frames, AStatusReportsThatTheProofOfResponseIsOff) {
   Row row{};
   LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
   row.flags = row_proof_off;
@@ -219,7 +219,7 @@ TEST(Frames, AStatusSaysThatTheProofOfResponseIsOff) {
   LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).slack);
 }
 
-TEST(Frames, AStatusReportsFrictionAsAnEstimateHasNoBitLeft) {
+TEST(Frames, FrictionIsReportedInTheStatus) {
   Row row{};
   LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).friction);
   row.identify_notes = note_friction | note_theta1_kept;
@@ -229,7 +229,7 @@ TEST(Frames, AStatusReportsFrictionAsAnEstimateHasNoBitLeft) {
   LONGS_EQUAL(0, m.trusted);
 }
 
-TEST(Frames, EveryEstimateHasTheNotesOfIdentify) {
+TEST(Frames, EveryEstimateCarriesTheNotesOfIdentify) {
   Row row{};
   row.identify_notes = note_too_little_motion | note_theta1_kept;
   for (std::uint8_t parameter = 0; parameter < 14; ++parameter) {
@@ -248,7 +248,7 @@ TEST(Frames, TrackingIsAvailableInModePositionOnly) {
   CHECK(std::isnan(error(row)));
 }
 
-TEST(Frames, TheMuscleIsThatOfTheta) {
+TEST(Frames, TheMuscleIsConvertedFromTheta) {
   const control::PhysicalParameters muscle;
   const control::Theta theta = control::theta_from(muscle);
   Row row{};
@@ -264,7 +264,7 @@ TEST(Frames, TheMuscleIsThatOfTheta) {
       unpacked(estimate(1, row, 4, known), supercoil_estimate_unpack).thermal_mass_j_per_k));
 }
 
-TEST(Frames, AnIdentifierIsItsBaseAndItsNode) {
+TEST(Frames, AnIdentifierIsItsBasePlusItsNode) {
   LONGS_EQUAL(0x281, measurement(1, {}).id);
   LONGS_EQUAL(0x280 + 63, measurement(63, {}).id);
   LONGS_EQUAL(0x700 + 5, status(5, {}, false, 0).id);
@@ -282,7 +282,7 @@ TEST(Frames, AnEmergencyHasFaultStateAndTimeToAMicrosecond) {
   DOUBLES_EQUAL(86400.123457, supercoil_emergency_board_time_s_decode(m.board_time_s), 1e-9);
 }
 
-TEST(Frames, TimesOfTicksSaturateAndCountsGoRound) {
+TEST(Frames, TickTimesSaturateAndCountsWrapAround) {
   const auto m = unpacked(timing(1, {3.0, 12.34e-6, 4097, 8193}), supercoil_timing_unpack);
   DOUBLES_EQUAL(0.1048574, supercoil_timing_late_s_decode(m.late_s), 1e-12);
   DOUBLES_EQUAL(12.3e-6, supercoil_timing_execution_s_decode(m.execution_s), 0.06e-6);
@@ -291,7 +291,7 @@ TEST(Frames, TimesOfTicksSaturateAndCountsGoRound) {
   LONGS_EQUAL(0xFFFFF, unpacked(timing(1, {}), supercoil_timing_unpack).late_s);
 }
 
-TEST(Frames, BootHasTheVersionAndTheCommitOfAProgram) {
+TEST(Frames, BootHasTheProgramsVersionAndCommit) {
   struct Case {
     const char* version;
     int major, minor, patch;

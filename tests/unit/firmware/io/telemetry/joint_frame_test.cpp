@@ -64,7 +64,7 @@ TEST_GROUP(JointFrame) {
   Row antagonist = antagonist_row();
 };
 
-TEST(JointFrame, EveryPartHasTheAngleAndWhatLimitsEachMuscle) {
+TEST(JointFrame, EveryPartHasTheAngleAndTheLimitOfEachMuscle) {
   for (std::uint8_t part = 0; part < joint_parts(true); ++part) {
     const auto m = told(static_cast<JointPart>(part), agonist, &antagonist);
     LONGS_EQUAL(part, m.part);
@@ -85,7 +85,7 @@ TEST(JointFrame, MotionAndEffortAreOfTheJoint) {
   DOUBLES_EQUAL(0.9, supercoil_joint_co_contraction_w_decode(effort.co_contraction_w), 1e-9);
 }
 
-TEST(JointFrame, HeatAndPowerAreOfTheMuscleThatIsNamed) {
+TEST(JointFrame, HeatAndPowerAreOfTheNamedMuscle) {
   const auto heat = told(JointPart::agonist_heat, agonist, &antagonist);
   DOUBLES_EQUAL(31.25, supercoil_joint_agonist_coldest_c_decode(heat.agonist_coldest_c), 1e-9);
   DOUBLES_EQUAL(42.5, supercoil_joint_agonist_hottest_c_decode(heat.agonist_hottest_c), 1e-9);
@@ -107,7 +107,7 @@ TEST(JointFrame, HeatAndPowerAreOfTheMuscleThatIsNamed) {
 }
 
 /// From the lever's integral: 15 mm at 0, falling by 4 mm to 30°.
-TEST(JointFrame, TheAngleIsThatOfALeverWhichDependsOnIt) {
+TEST(JointFrame, TheAngleUsesAVariableLever) {
   constexpr std::array radii_m{0.012, 0.015, 0.011};
   constexpr double end_rad = 3.14159265358979 / 6.0;
   const control::Lever lever(-end_rad, end_rad, radii_m);
@@ -117,7 +117,7 @@ TEST(JointFrame, TheAngleIsThatOfALeverWhichDependsOnIt) {
   DOUBLES_EQUAL(10.0, supercoil_joint_angle_deg_decode(m.angle_deg), 0.0005);
 }
 
-TEST(JointFrame, WhatIsNotFollowedIsNotAvailable) {
+TEST(JointFrame, ReferenceAndErrorAreNotAvailableWithoutTracking) {
   agonist.mode = static_cast<std::uint8_t>(Mode::power);
   antagonist.mode = static_cast<std::uint8_t>(Mode::rest);
   const auto motion = told(JointPart::motion, agonist, &antagonist);
@@ -138,7 +138,7 @@ TEST(JointFrame, AMuscleAgainstASpringHasItsFourParts) {
   LONGS_EQUAL(0, effort.antagonist_slack);
 }
 
-TEST(JointFrame, NoNumberIsNotAvailableAndTooMuchIsTheLargest) {
+TEST(JointFrame, NaNIsNotAvailableAndExtremesSaturate) {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   constexpr float endless = std::numeric_limits<float>::infinity();
   const auto with = [&](float value) {

@@ -9,7 +9,7 @@ using namespace supercoil::telemetry;
 
 TEST_GROUP(Opcodes){};
 
-TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
+TEST(Opcodes, EveryCommandRoundTrips) {
   for (std::size_t i = 1; i < plain_verb_names.size(); ++i) {
     const auto verb = static_cast<Verb>(i);
     const EncodedCommand on_the_wire = encode_command(verb, 0.25);
@@ -27,7 +27,7 @@ TEST(Opcodes, HaveTheNamesOfTheProtocol) {
   CHECK(names[Opcode::lease] == "lease");
 }
 
-TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
+TEST(Opcodes, AReadingWithTheWrongSignIsInvalid) {
   for (const Verb verb : {Verb::compare_supply, Verb::compare_current, Verb::compare_rise})
     CHECK(std::isnan(encode_command(verb, -0.25).value));
   // A current of 0 A does not forget the comparison, but 0 V does.

@@ -53,7 +53,7 @@ TEST_GROUP(Publisher) {
   }
 };
 
-TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
+TEST(Publisher, SendsTheNewestRowAtItsRateFromItsNode) {
   Publisher publisher(only(Message::measurement, 100.0), {1, ChannelSettings()}, timing, bus);
   publish(publisher, 0, 1000);
   LONGS_EQUAL(100, bus.sent.size());
@@ -61,7 +61,7 @@ TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
   LONGS_EQUAL(10, micrometres(bus.sent[50]) - micrometres(bus.sent[49]));
 }
 
-TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
+TEST(Publisher, ParametersTakeTurnsAndUnknownOnesAreOmitted) {
   Publisher publisher(only(Message::estimate, 1000.0), {1, ChannelSettings()}, timing, bus);
   int expected = 0;
   const auto hear = [&](int from_ms, bool told, int all) {
@@ -88,7 +88,7 @@ TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
   hear(60, true, 14);
 }
 
-TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
+TEST(Publisher, OnABusyBusQueuesDropsTheOldestAndCounts) {
   test::TestBus free;
   Publisher twin(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, free);
   publish(twin, 0, 20);
@@ -109,7 +109,7 @@ TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
   LONGS_EQUAL(0, publisher.waiting());
 }
 
-TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
+TEST(Publisher, MessagesQueuedForALostBusAreDropped) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::gone;
   publish(publisher, 0, 20);
@@ -120,7 +120,7 @@ TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
   CHECK(publisher.dropped() >= 19);
 }
 
-TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
+TEST(Publisher, AFaultIsSentAtOnceAndBeforeQueuedMessages) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 20);
@@ -139,7 +139,7 @@ TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
   LONGS_EQUAL(0, bus.sent[0].data[0]);
 }
 
-TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
+TEST(Publisher, FallsSilentWhenTheLoopStalls) {
   Publisher publisher(only(Message::status, 10.0), {1, ChannelSettings()}, timing, bus);
   publish(publisher, 0, 1000);
   const std::size_t sent = bus.sent.size();
@@ -148,7 +148,7 @@ TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
   CHECK(bus.sent.size() <= sent + 1);
 }
 
-TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
+TEST(Publisher, SendsTheMaxTimesSinceTheLastMessage) {
   Publisher publisher(only(Message::timing, 10.0), {1, ChannelSettings()}, timing, bus);
   timing.add({30us, 5us}, 0);
   timing.add({20us, 8us}, 2);
@@ -164,7 +164,7 @@ TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
 }
 
 /// Three channels: a single muscle, and a joint whose agonist is the last channel.
-TEST(Publisher, TellsAJointByTheAgonistsNodeOnePartAfterTheOther) {
+TEST(Publisher, SendsTheJointsPartsInTurnFromTheAgonistsNode) {
   std::vector<ChannelSettings> channels(3);
   channels[2].joint = {.direction = 1, .lever = control::Lever(0.02), .other_channel_offset = -1};
   channels[1].joint = {.direction = -1, .lever = control::Lever(0.02), .other_channel_offset = 1};
@@ -202,7 +202,7 @@ TEST(Publisher, TellsAJointByTheAgonistsNodeOnePartAfterTheOther) {
   }
 }
 
-TEST(Publisher, TellsAMuscleAgainstASpringInFourParts) {
+TEST(Publisher, SendsFourPartsForAMuscleAgainstASpring) {
   std::vector<ChannelSettings> channels(1);
   channels[0].joint = {.direction = 1};
   Publisher publisher(only(Message::joint, 1000.0), channels, timing, bus);
@@ -212,7 +212,7 @@ TEST(Publisher, TellsAMuscleAgainstASpringInFourParts) {
     LONGS_EQUAL(i % 4, bus.sent[i].data[0] & 0xFU);
 }
 
-TEST(Publisher, SendsAnswersBeforeTheMessagesThatWaitAndEmergenciesBeforeThem) {
+TEST(Publisher, SendsEmergenciesThenAnswersThenQueuedMessages) {
   Publisher publisher(only(Message::measurement, 100.0), {1, ChannelSettings()}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 50);

@@ -45,7 +45,7 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
 }
 
 /// As docs/can.md says about supercoild's rounds of 5 ms and the simulated board's ticks of 1 ms.
-TEST(Schedule, SendsAMessageOnceForEachLookAtTheBus) {
+TEST(Schedule, SendsAMessageAtMostOncePerPoll) {
   Rates rates = default_rates();
   rates[static_cast<std::size_t>(Message::measurement)] = 1000.0;
   for (const auto& [every, expected] : {std::pair{5, 2000}, std::pair{1, 10'000}}) {
@@ -73,7 +73,7 @@ TEST(Schedule, HasNoBursts) {
   }
 }
 
-TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
+TEST(Schedule, DoesNotCatchUpMissedMessages) {
   Schedule schedule({default_rates()});
   frames_per_ms(schedule, 1000);
   int sent = 0;
@@ -85,14 +85,14 @@ TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
   LONGS_EQUAL(0, sent);
 }
 
-TEST(Schedule, CountsTheBitsOfAFrameAtItsWorst) {
+TEST(Schedule, CountsTheWorstCaseBitsOfAFrame) {
   // Davis et al. 2007: 55 to 135 bits of frames with 11-bit identifiers.
   LONGS_EQUAL(55, max_bits(0));
   LONGS_EQUAL(135, max_bits(8));
 }
 
 /// Nodes without a joint keep their load and the places of their messages.
-TEST(Schedule, OnlyTheNodeOfAJointTellsIt) {
+TEST(Schedule, OnlyTheJointsNodeSendsIt) {
   CanSettings can;
   can.rates_Hz = {};
   can.rates_Hz[static_cast<std::size_t>(Message::joint)] = 50.0;
@@ -117,7 +117,7 @@ TEST(Schedule, OnlyTheNodeOfAJointTellsIt) {
   LONGS_EQUAL(50, sent);
 }
 
-TEST(Schedule, TellsTheLoadOfTheBus) {
+TEST(Schedule, ReportsTheLoadOfTheBus) {
   Rates rates{};
   rates[static_cast<std::size_t>(Message::measurement)] = 100.0;
   rates[static_cast<std::size_t>(Message::timing)] = 10.0;

@@ -23,7 +23,7 @@ static void check_wrong(std::string_view text, const char* why) {
 }
 ;
 
-TEST(CommandText, ChannelVerbAndValue) {
+TEST(CommandText, HasChannelVerbAndValue) {
   const Command follow = read(" 2  position 0.0125\n");
   LONGS_EQUAL(1, follow.channel);
   CHECK(follow.verb == Verb::position);
@@ -42,7 +42,7 @@ TEST(CommandText, ChannelVerbAndValue) {
   DOUBLES_EQUAL(0.0, read("1 clear").value, 0.0);
 }
 
-TEST(CommandText, WhatIsWrongIsSaid) {
+TEST(CommandText, ErrorsNameTheProblem) {
   check_wrong("", "channel '': must be 1 to 4");
   check_wrong("0 arm", "channel '0': must be 1 to 4");
   check_wrong("5 arm", "channel '5': must be 1 to 4");
@@ -72,7 +72,7 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("1 store 1", "store takes no value: leave out '1'");
 }
 
-TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
+TEST(CommandText, KnotsAndStartsOfATrajectoryAreOnlyForTheSocket) {
   const auto knot = parse_trajectory_command("2 knot 0.02 0.0051 -0.001", channels);
   CHECK(knot && *knot);
   CHECK((*knot)->verb == Verb::knot);
@@ -117,7 +117,7 @@ TEST(CommandText, EveryRefusalHasAName) {
                answer_text(Refusal::out_of_range, 0.025).c_str());
 }
 
-TEST(CommandText, AnAnswerIsReadAsItWasGiven) {
+TEST(CommandText, AnAnswerRoundTrips) {
   for (std::size_t i = 0; i < refusal_names.size(); ++i) {
     const auto refusal = static_cast<Refusal>(i);
     const auto read = parse_answer(answer_text(refusal, NAN));

@@ -12,7 +12,7 @@ TEST(Nearest, ForgottenUnitComesFirst) {
   CHECK(nearest.lacks_unit);
 }
 
-TEST(Nearest, OfSeveralThatLackMoreThanAUnitIsTheShortest) {
+TEST(Nearest, AmongSeveralMissingSuffixesTheShortestWins) {
   for (const auto& known : {std::vector<std::string>{"lever_range_deg", "lever_m", "leverr"},
                             std::vector<std::string>{"leverr", "lever_m", "lever_range_deg"}}) {
     const Nearest nearest = nearest_name("lever", known);
@@ -21,7 +21,7 @@ TEST(Nearest, OfSeveralThatLackMoreThanAUnitIsTheShortest) {
   }
 }
 
-TEST(Nearest, ExchangedLettersAreOneEdit) {
+TEST(Nearest, SwappedLettersAreOneEdit) {
   STRCMP_EQUAL("arm", nearest_name("amr", {"disarm", "arm", "rest"}).name.c_str());
   STRCMP_EQUAL("arm", nearest_name("ram", {"arm"}).name.c_str());
   STRCMP_EQUAL("", nearest_name("mra", {"arm"}).name.c_str());
@@ -33,7 +33,7 @@ TEST(Nearest, OtherwiseTheFewestEdits) {
   CHECK_FALSE(nearest.lacks_unit);
 }
 
-TEST(Nearest, OfANameThatLacksItsUnitAndIsMisspeltTheBeginningCounts) {
+TEST(Nearest, AMisspeltNameWithoutItsUnitMatchesByItsStart) {
   const Nearest nearest = nearest_name("bandwith", {"max_W", "bandwidth_rad_per_s", "band"});
   STRCMP_EQUAL("bandwidth_rad_per_s", nearest.name.c_str());
   CHECK(nearest.lacks_unit);
@@ -41,7 +41,7 @@ TEST(Nearest, OfANameThatLacksItsUnitAndIsMisspeltTheBeginningCounts) {
                nearest_name("volume", {"gain_1", "max_W", "model_pole_1_rad_per_s"}).name.c_str());
 }
 
-TEST(Nearest, NothingWhenAllAreFar) {
+TEST(Nearest, NoneIsFoundWhenAllAreFar) {
   STRCMP_EQUAL("", nearest_name("banana", {"seed", "rate_Hz"}).name.c_str());
   STRCMP_EQUAL("", nearest_name("banana", {}).name.c_str());
 }

@@ -6,7 +6,7 @@ using namespace supercoil;
 
 TEST_GROUP(NumberText){};
 
-TEST(NumberText, NumbersOfEverydayHaveNoExponentAndNoMoreDigitsThanAskedFor) {
+TEST(NumberText, CommonNumbersHaveNoExponentAndOnlyTheRequestedDigits) {
   STRCMP_EQUAL("1480", number_text(1477.3, 3).c_str());
   STRCMP_EQUAL("-1480", number_text(-1477.3, 3).c_str());
   STRCMP_EQUAL("148", number_text(147.73, 3).c_str());

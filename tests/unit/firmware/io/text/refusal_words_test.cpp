@@ -8,13 +8,13 @@ using namespace supercoil;
 
 TEST_GROUP(RefusalWords){};
 
-TEST(RefusalWords, EveryRefusalHasSome) {
+TEST(RefusalWords, EveryRefusalHasAnExplanation) {
   STRCMP_EQUAL("", std::string(refusal_words(Refusal::none)).c_str());
   for (std::size_t i = 1; i < refusal_names.size(); ++i)
     CHECK_FALSE(refusal_words(static_cast<Refusal>(i)).empty());
 }
 
-TEST(RefusalWords, TheyComeBehindTheName) {
+TEST(RefusalWords, FollowTheName) {
   STRCMP_EQUAL("ok", answer_with_reason(Reply(Refusal::none)).c_str());
   STRCMP_EQUAL(
       "refused: wrong_state: arm it first, or reset its fault; or command the channel that leads "
@@ -34,7 +34,7 @@ TEST(RefusalWords, TheyComeBehindTheName) {
                answer_with_reason(Reply(Refusal::not_lease_holder)).c_str());
 }
 
-TEST(RefusalWords, WhatSaysWhyAlreadyStays) {
+TEST(RefusalWords, AnswersWithAReasonAreUnchanged) {
   for (const char* answer :
        {"ok", "refused: unsuitable: kind is unstable on this muscle",
         "refused: out_of_range; 0.025 would be obeyed", "refused: too many clients", "wrong: x"})

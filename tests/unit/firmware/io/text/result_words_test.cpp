@@ -33,7 +33,7 @@ std::map<std::string, std::string> documented() {
 
 TEST_GROUP(ResultWords){};
 
-TEST(ResultWords, ThePageOfRunningABoardHasThem) {
+TEST(ResultWords, MatchTheDocumentation) {
   const auto rows = documented();
   UNSIGNED_LONGS_EQUAL(mode_result_names.size(), rows.size());
   for (std::size_t i = 0; i < mode_result_names.size(); ++i) {
@@ -43,12 +43,12 @@ TEST(ResultWords, ThePageOfRunningABoardHasThem) {
   }
 }
 
-TEST(ResultWords, EveryNoteHasSome) {
+TEST(ResultWords, EveryNoteHasAnExplanation) {
   for (const std::string_view words : note_words)
     CHECK_FALSE(words.empty());
 }
 
-TEST(ResultWords, TheyComeBehindTheNameAndNothingTwice) {
+TEST(ResultWords, FollowTheNameWithoutRepetition) {
   const std::string still =
       "too_little_motion: the muscle moved by less than 1 % of its travel at the maximum power";
   STRCMP_EQUAL(still.c_str(), result_text("too_little_motion", "too_little_motion").c_str());
@@ -59,12 +59,12 @@ TEST(ResultWords, TheyComeBehindTheNameAndNothingTwice) {
   STRCMP_EQUAL("found; theta1_kept", result_text(ModeResult::found, note_theta1_kept).c_str());
 }
 
-TEST(ResultWords, ACauseThatIsKnownIsToldInTheirPlace) {
+TEST(ResultWords, AKnownCauseReplacesThem) {
   STRCMP_EQUAL("interrupted, by Ctrl-C", result_text("interrupted", "", "by Ctrl-C").c_str());
   STRCMP_EQUAL("interrupted: ended by a command or a fault",
                result_text("interrupted", "").c_str());
 }
 
-TEST(ResultWords, AResultOfANewerBoardIsToldByItsName) {
+TEST(ResultWords, AnUnknownResultIsShownByName) {
   STRCMP_EQUAL("12; theta1_kept", result_text("12", "theta1_kept").c_str());
 }

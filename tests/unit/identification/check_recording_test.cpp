@@ -41,7 +41,7 @@ void check_refused(Recording r, std::size_t line, const std::string& part,
 
 TEST_GROUP(CheckRecording){};
 
-TEST(CheckRecording, AcceptsAGoodOneWithoutAWord) {
+TEST(CheckRecording, AcceptsAGoodRecordingWithoutWarnings) {
   Recording r = good_recording();
   CHECK(check(r, Gaps::refuse).has_value());
   CHECK(r.warnings.empty());
@@ -94,7 +94,7 @@ TEST(CheckRecording, RefusesWrongUnits) {
   check_refused(r, 102, "power reaches 2000 W here: is it in another unit (--power-unit)?");
 }
 
-TEST(CheckRecording, RefusesWhatTellsNothing) {
+TEST(CheckRecording, RefusesUninformativeRecordings) {
   Recording r = good_recording();
   r.power_W.assign(r.size(), 2.0);
   check_refused(r, 2, "power never changes from 2 W");
@@ -115,7 +115,7 @@ TEST(CheckRecording, RefusesImpossibleValues) {
   check_refused(r, 72, "infinite");
 }
 
-TEST(CheckRecording, LeavesOutPositionsThatAreMissing) {
+TEST(CheckRecording, OmitsMissingPositions) {
   Recording r = good_recording();
   for (std::size_t i = 30; i < 60; ++i)
     r.position_m[i] = NAN;
@@ -141,7 +141,7 @@ TEST(Resample, AveragesPositionAroundASampleAndPowerAfterIt) {
   DOUBLES_EQUAL(2.0, samples.power_W[50], 1e-12);
 }
 
-TEST(Resample, KeepsEnergyAtAnOddRate) {
+TEST(Resample, PreservesEnergyAtAnOddRate) {
   Recording r = good_recording();
   for (std::size_t i = 0; i < r.size(); ++i)
     r.time_s[i] = 0.013 * static_cast<double>(i) + (i % 2 == 0 ? 0.0 : 0.004);

@@ -32,7 +32,7 @@ TEST(Comparison, ChoosesTheLinearModelForALinearMuscle) {
   CHECK(c.best().unseen_explained > 0.999);
 }
 
-TEST(Comparison, ChoosesTheEffectThatTheMuscleHas) {
+TEST(Comparison, ChoosesTheEffectOfTheMuscle) {
   Muscle both = other_muscle();
   both.drift_m_per_s = 5e-5;
   both.transfer_ratio = 2.0;
@@ -42,7 +42,7 @@ TEST(Comparison, ChoosesTheEffectThatTheMuscleHas) {
   check_chosen({Effect::force}, compared(force));
 }
 
-TEST(Comparison, TellsAMaterialThatTransforms) {
+TEST(Comparison, RecognisesAMaterialWithAPhaseTransformation) {
   Muscle wire = other_muscle();
   wire.transformation_W = 1.0;
   wire.transformed_W = 0.08;
@@ -51,7 +51,7 @@ TEST(Comparison, TellsAMaterialThatTransforms) {
   CHECK(c.transformation.unseen_rms_m < 0.01 * c.sizes.stroke_m);
 }
 
-TEST(Comparison, TellsMotionThatPowerDoesNotExplain) {
+TEST(Comparison, ReportsMotionThatPowerDoesNotExplain) {
   Samples samples = random_steps(120.0, full_W, 23);
   record(other_muscle(), noise_m, 24, samples);
   // A disturbance that grows and grows pulls at the muscle.
@@ -61,7 +61,7 @@ TEST(Comparison, TellsMotionThatPowerDoesNotExplain) {
   STRCMP_CONTAINS("no model predicts", c.rejection_reason.c_str());
 }
 
-TEST(Comparison, TellsAChangeAndNoChange) {
+TEST(Comparison, ReportsAChangeOnlyWhenThereIsOne) {
   Samples samples = random_steps(120.0, full_W, 25);
   record(other_muscle(), noise_m, 26, samples);
   const Fit part = fit_model({}, samples, {0.0, 60.0});
@@ -75,7 +75,7 @@ TEST(Comparison, TellsAChangeAndNoChange) {
 
 TEST_GROUP(Parts){};
 
-TEST(Parts, JudgesByTheLastHeatingFromRest) {
+TEST(Parts, ValidatesOnTheLastHeatingFromRest) {
   Samples samples;
   samples.step_s = 0.02;
   samples.power_W.assign(5000, 0.0);
@@ -91,7 +91,7 @@ TEST(Parts, JudgesByTheLastHeatingFromRest) {
   DOUBLES_EQUAL(99.98, parts.unseen.to_s, 1e-9);
 }
 
-TEST(Parts, JudgesByTheLastThirdWithoutRests) {
+TEST(Parts, ValidatesOnTheLastThirdWithoutRests) {
   const Parts parts = default_parts([] {
     Samples samples;
     samples.step_s = 0.02;

@@ -67,7 +67,7 @@ TEST(Deviations, CoverTheFitOfTheNextMinute) {
   CHECK(within_half <= 55);
 }
 
-TEST(Deviations, CountSamplesThatAreAlikeOnce) {
+TEST(Deviations, CountCorrelatedSamplesOnce) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0.0, 1.0);
   Eigen::VectorXd white(20000);
@@ -82,7 +82,7 @@ TEST(Deviations, CountSamplesThatAreAlikeOnce) {
   DOUBLES_EQUAL(18.0, correlated_samples(filtered), 2.0);
 }
 
-TEST(Deviations, OfWhiteNoiseAreLeastSquares) {
+TEST(Deviations, ForWhiteNoiseAreThoseOfLeastSquares) {
   // A mean of 5,000 values of variance 4: 2/√5000, plus twice the jackknife's variance of it.
   std::mt19937 random(2);
   std::normal_distribution<double> normal(0.0, 2.0);
@@ -100,7 +100,7 @@ TEST(Deviations, OfWhiteNoiseAreLeastSquares) {
   DOUBLES_EQUAL(2.0, accuracy.cross_validated, 0.05);
 }
 
-TEST(Deviations, OfWhatIsNotToldAreThePriors) {
+TEST(Deviations, OfUndeterminedParametersAreThePriors) {
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(500, 2);
   jacobian.col(0).setOnes();
   const Eigen::VectorXd residual = Eigen::VectorXd::LinSpaced(500, -1.0, 1.0);

@@ -59,7 +59,7 @@ TEST(FitModel, FindsAMuscleThatStartsWarm) {
   check_found(found, truth, &Muscle::time_constant_s, 0.01);
 }
 
-TEST(FitModel, FindsAMuscleWherePositionsAreMissing) {
+TEST(FitModel, FindsAMuscleWithMissingPositions) {
   Samples samples = random_steps(60.0, full_W, 5);
   record(other_muscle(), noise_m, 6, samples);
   for (std::size_t k = 700; k < 1400; ++k)
@@ -92,7 +92,7 @@ TEST(FitModel, FindsEachEffect) {
   }
 }
 
-TEST(FitModel, FindsPlays) {
+TEST(FitModel, FindsHysteresis) {
   Samples samples = random_steps(120.0, full_W, 9);
   Muscle truth = other_muscle();
   truth.play_ratio = 0.3;
@@ -103,7 +103,7 @@ TEST(FitModel, FindsPlays) {
   check_found(found, truth, &Muscle::play_range_W, 0.1);
 }
 
-TEST(FitModel, SeesNothingAfterItsSpan) {
+TEST(FitModel, IgnoresSamplesAfterItsSpan) {
   Samples samples = random_steps(60.0, full_W, 11);
   record(other_muscle(), noise_m, 12, samples);
   const Fit before = fit_model({}, samples, {0.0, 30.0});
@@ -114,7 +114,7 @@ TEST(FitModel, SeesNothingAfterItsSpan) {
   DOUBLES_EQUAL(before.muscle.time_constant_s, after.muscle.time_constant_s, 2e-3);
 }
 
-TEST(FitModel, SaysThatMechanicsAreNotToldBySlowHeat) {
+TEST(FitModel, ReportsThatSlowHeatDoesNotDetermineMechanics) {
   Samples samples = random_steps(60.0, full_W, 13);
   for (std::size_t k = 0; k < samples.size(); ++k)
     samples.power_W[k] = 1.5 - 1.5 * std::cos(0.1 * samples.time_s(k));
@@ -128,7 +128,7 @@ TEST(FitModel, SaysThatMechanicsAreNotToldBySlowHeat) {
 
 TEST_GROUP(Physical){};
 
-TEST(Physical, ThetaIsThatOfThePhysicalParameters) {
+TEST(Physical, ThetaMatchesThePhysicalParameters) {
   const supercoil::control::PhysicalParameters paper;
   Muscle muscle;
   muscle.gain_m_per_W = paper.dc_gain_m_per_W();
@@ -147,7 +147,7 @@ TEST(Physical, ThetaIsThatOfThePhysicalParameters) {
   DOUBLES_EQUAL(16.0, physical_from(muscle, assumed).stiffness_N_per_m, 1e-9);
 }
 
-TEST(Physical, ThetaAndItsDeviationsDoNotHangOnWhatIsAssumedOfHeat) {
+TEST(Physical, ThetaAndItsDeviationsDoNotDependOnTheAssumedHeat) {
   Samples samples = random_steps(60.0, full_W, 15);
   record(other_muscle(), noise_m, 16, samples);
   const Fit found = fit_model({}, samples, all);

@@ -88,11 +88,11 @@ double difference(const Muscle& muscle) {
 
 TEST_GROUP(Motion){};
 
-TEST(Motion, OfALinearMuscleIsTheEquations) {
+TEST(Motion, OfALinearMuscleFollowsTheEquations) {
   DOUBLES_EQUAL(0.0, difference(other_muscle()), 1e-3);
 }
 
-TEST(Motion, StartsWarmAndMovingWhereItIsTold) {
+TEST(Motion, StartsWarmAndMovingAtTheGivenState) {
   Muscle muscle = other_muscle();
   muscle.start_W = 1.0;
   muscle.start_offset_m = 0.002;
@@ -100,7 +100,7 @@ TEST(Motion, StartsWarmAndMovingWhereItIsTold) {
   DOUBLES_EQUAL(0.0, difference(muscle), 1e-3);
 }
 
-TEST(Motion, OfEachEffectIsTheEquations) {
+TEST(Motion, OfEachEffectFollowsTheEquations) {
   struct Effect {
     void (*set)(Muscle&);
     double allowed;  ///< relative to the stroke

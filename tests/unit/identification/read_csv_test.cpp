@@ -55,7 +55,7 @@ TEST(ReadCsv, TakesUnitsFromNamesAndOptions) {
   DOUBLES_EQUAL(2.5, told.power_W[0], 1e-15);
 }
 
-TEST(ReadCsv, PrefersWhatABoardMeasuredAndApplied) {
+TEST(ReadCsv, PrefersMeasuredPositionAndAppliedPower) {
   const Recording r =
       read_well("time_s,position_m,measured_m,power_W,applied_power_W\n0,0.001,0.002,3,4\n");
   DOUBLES_EQUAL(0.002, r.position_m[0], 0.0);
@@ -91,7 +91,7 @@ TEST(ReadCsv, NamesTheLineOfABadRow) {
   check_problem(refused(head + "0.1,0.2,1 W\n"), 3, "\"1 W\" is not a number");
 }
 
-TEST(ReadCsv, SaysWhichColumnIsMissingAndWhatThereIs) {
+TEST(ReadCsv, NamesTheMissingColumnAndTheAvailableOnes) {
   check_problem(
       refused("time_s,position_m,heated\n0,1,1\n"), 1,
       "recognised as power; name it with --power-column; the columns are time_s, position_m, "
@@ -106,7 +106,7 @@ TEST(ReadCsv, SaysWhichColumnIsMissingAndWhatThereIs) {
   check_problem(refused(""), 0, "is empty");
 }
 
-TEST(ReadCsv, WantsOneChannelOfSeveral) {
+TEST(ReadCsv, RequiresAChoiceBetweenSeveralChannels) {
   const std::string text =
       "time_s,channel,position_m,applied_W\n0,1,0.1,1\n0,2,0.5,2\n1,1,0.2,1\n1,2,0.6,2\n";
   check_problem(refused(text), 3, "another channel: choose one with --channel");

@@ -23,7 +23,7 @@ TEST_GROUP(InfeasibleTime) {
   }
 };
 
-TEST(InfeasibleTime, CountsWhatLastsFromItsBeginningOn) {
+TEST(InfeasibleTime, CountsLimitsThatLastFromTheirStart) {
   follow(LimitedBy::nothing, 1.0);
   follow(LimitedBy::minimum, 0.19);
   follow(LimitedBy::slew, 0.01);
@@ -39,7 +39,7 @@ TEST(InfeasibleTime, CountsWhatLastsFromItsBeginningOn) {
   CHECK(found.main_limit() == LimitedBy::temperature);
 }
 
-TEST(InfeasibleTime, EndsWhereNoPositionIsFollowed) {
+TEST(InfeasibleTime, EndsWhenNoPositionIsTracked) {
   for (int i = 0; i < 10; ++i) {
     follow(LimitedBy::cooling, 0.15);
     found.interrupt();
@@ -47,7 +47,7 @@ TEST(InfeasibleTime, EndsWhereNoPositionIsFollowed) {
   DOUBLES_EQUAL(0.0, found.ratio(), 0.0);
 }
 
-TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
+TEST(InfeasibleTime, NamesThePrecedingEventWithAllItsChanges) {
   const Scenario scenario = test::read(
       "[[event]]\nat_s = 0.5\nplant.load_N = 0.01\n[[event]]\nat_s = 1.0\n"
       "plant.load_N = 0.05\npower.gain = 0.9\n[[event]]\nat_s = 1.0\nreset = true\n"
@@ -62,7 +62,7 @@ TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
       describe_infeasible(found, scenario).c_str());
 }
 
-TEST(InfeasibleTime, BeginsAndEndsWithTheReference) {
+TEST(InfeasibleTime, StartsAndEndsWithTheReference) {
   const auto follow_asked = [&](LimitedBy limit, bool asked, double end_s) {
     for (; time_s < end_s - 0.5 * step_s; time_s += step_s)
       found.add(limit, asked, time_s);

@@ -40,7 +40,7 @@ TEST_GROUP(LimitCycle) {
   }
 };
 
-TEST(LimitCycle, OneIsFoundByCyclesThatLastAlike) {
+TEST(LimitCycle, IsDetectedByCyclesOfEqualDuration) {
   for (int i = 0; i < 12; ++i)
     turn(0.5);
   CHECK_TRUE(std::isnan(cycle.period_s(25.0)));
@@ -56,7 +56,7 @@ TEST(LimitCycle, OneIsFoundByCyclesThatLastAlike) {
   DOUBLES_EQUAL(0.6, cycle.period_s(25.0), 0.1 + 1e-9);
 }
 
-TEST(LimitCycle, NoiseThatReachesBothLimitsIsNone) {
+TEST(LimitCycle, IgnoresNoiseThatReachesBothLimits) {
   std::mt19937 random(1);
   std::exponential_distribution<double> lasts_s(10.0);
   for (int i = 0; i < 1000; ++i)
@@ -64,7 +64,7 @@ TEST(LimitCycle, NoiseThatReachesBothLimitsIsNone) {
   CHECK_TRUE(std::isnan(cycle.period_s(25.0)));
 }
 
-TEST(LimitCycle, ALoopOfTooMuchGainIsToldUnderAMovingReference) {
+TEST(LimitCycle, TooHighAGainIsReportedUnderAMovingReference) {
   const double period_s = period_of_run_s(
       "simulation.duration_s = 60.0\ncontroller = {kind = 'pi', proportional_W_per_m = 8000.0, "
       "integral_W_per_m_s = 9000.0}\n");
@@ -72,7 +72,7 @@ TEST(LimitCycle, ALoopOfTooMuchGainIsToldUnderAMovingReference) {
 }
 
 /// Noise, steps of a reference, friction, a fast sine and a non-linear muscle are none either.
-TEST(LimitCycle, NothingElseIsTold) {
+TEST(LimitCycle, NothingElseIsReported) {
   for (const char* law : {"pi", "learned_ff"}) {
     for (const char* rest :
          {"reference = {kind = 'steps', levels_m = [0.004, 0.016], hold_s = 5.0}\n",

@@ -56,6 +56,6 @@ TEST(AvailablePower, FollowsTheHotEndOfTheBoardsInterval) {
   check_follows_the_boards_interval(derated(INFINITY));
 }
 
-TEST(AvailablePower, KnowsTheSlowestTimeConstantAsTheBoardDoes) {
+TEST(PowerLeft, UsesTheBoardsSlowestTimeConstant) {
   check_follows_the_boards_interval(derated(2.0));
 }

@@ -51,7 +51,7 @@ TEST(ReferenceFeasibility, TheDefaultsAreFeasible) {
   STRCMP_CONTAINS("no more than", describe_reference(read("")).c_str());
 }
 
-TEST(ReferenceFeasibility, ASlowMusclesSineIsFeasibleAsItSays) {
+TEST(ReferenceFeasibility, ASlowMusclesSineIsAsFeasibleAsReported) {
   Scenario scenario = read(slow);
   const auto f = reference_feasibility(scenario);
   CHECK_COMPARE(f->infeasible_ratio, >, 0.5);
@@ -95,7 +95,7 @@ TEST(ReferenceFeasibility, AgreesWithWhatARunFinds) {
 }
 
 /// Badly cooled according to its board's bounds: at rest it may be too hot for 18 mm.
-TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
+TEST(ReferenceFeasibility, ReportsASetPointThatMayBecomeTooHotToHold) {
   const std::string hot =
       "simulation.duration_s = 100.0\n[thermal]\ntransfer_ratio = [0.25, 2.2]\n"
       "power_ratio = [1.0, 1.3]\n[controller]\nkind = 'learned_ff'\nlearn = false\n";
@@ -134,7 +134,7 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
 }
 
 /// The run ends in the predicted fault at about the predicted time; a shaped reference causes none.
-TEST(ReferenceFeasibility, ASetPointBeyondWhatIsHeldIsToldWithItsEnd) {
+TEST(ReferenceFeasibility, ReportsTheFaultOfASetPointBeyondTheHeldTravel) {
   const auto step_to = [](const std::string& to_m, const std::string& shape) {
     return read("simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = " + to_m +
                 ", at_s = 5.0}\ncontroller = {kind = 'learned_ff', shape_reference = " + shape +
@@ -161,7 +161,7 @@ TEST(ReferenceFeasibility, ASetPointBeyondWhatIsHeldIsToldWithItsEnd) {
   CHECK_TRUE(std::isnan(reference_feasibility(step_to("0.024", "false"))->invalid_s));
 }
 
-TEST(ReferenceFeasibility, ALoadTakesItsPartOfWhatIsHeld) {
+TEST(ReferenceFeasibility, ALoadReducesTheHeldTravel) {
   const auto loaded = [](const std::string& to_m, const std::string& load_N) {
     return read("simulation.duration_s = 60.0\nplant.load_N = " + load_N +
                 "\nsensor.position.min_m = -0.02\nreference = {kind = 'step', to_m = " + to_m +
@@ -179,7 +179,7 @@ TEST(ReferenceFeasibility, ALoadTakesItsPartOfWhatIsHeld) {
 }
 
 /// The error of senses that were never compared depends on the supply voltage that they read.
-TEST(ReferenceFeasibility, GoesByTheSupplyThatThereIs) {
+TEST(ReferenceFeasibility, UsesTheActualSupply) {
   const Scenario scenario = read(
       "simulation.duration_s = 60.0\nsenses.error_ratio = 0.0\n"
       "[reference]\nkind = 'steps'\nlevels_m = [0.010]\nhold_s = 60.0\n");
@@ -189,7 +189,7 @@ TEST(ReferenceFeasibility, GoesByTheSupplyThatThereIs) {
   DOUBLES_EQUAL(0.0, f->infeasible_ratio, 0.01);
 }
 
-TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {
+TEST(ReferenceFeasibility, ReportsWhatAnIdentifiedMuscleCannotProve) {
   Scenario scenario = read(
       "thermal.power_ratio = [0.75, 1.0]\nsensor.position.noise_rms_m = 100e-6\n[reference]\nkind "
       "= 'steps'\nlevels_m = [0.011]\n");
@@ -207,7 +207,7 @@ TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {
   STRCMP_CONTAINS("; the muscle holds ", told.c_str());
 }
 
-TEST(ReferenceFeasibility, AMuscleThatIsTooWeakCannotEvenHoldTheMiddle) {
+TEST(ReferenceFeasibility, TooWeakAMuscleCannotEvenHoldTheMiddle) {
   const std::string weak = "force_per_kelvin_N_per_K = 0.0002\n";
   const std::string told = describe_reference(read("[plant]\n" + weak + "[muscle]\n" + weak));
   STRCMP_CONTAINS(
@@ -217,7 +217,7 @@ TEST(ReferenceFeasibility, AMuscleThatIsTooWeakCannotEvenHoldTheMiddle) {
 }
 
 /// A step of 15 mm through a fast model, held for long.
-TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
+TEST(ReferenceFeasibility, AnInfeasibleStepStaysInfeasibleInALongRun) {
   const auto step_for = [](const std::string& duration_s, const std::string& shape) {
     return read("simulation.duration_s = " + duration_s + "\ncontroller.kind = 'learned_ff'\n" +
                 "controller.shape_reference = " + shape +
@@ -245,7 +245,7 @@ TEST(ReferenceFeasibility, AStepThatCannotBeMadeIsNoneInALongRunEither) {
   DOUBLES_EQUAL(shaped->first_duration_s, shaped_ran.first_duration_s(), 0.1);
 }
 
-TEST(ReferenceFeasibility, OfStepsItTellsHowOften) {
+TEST(ReferenceFeasibility, ReportsHowOftenStepsAreInfeasible) {
   const Scenario steps = read(slow +
                               "[reference]\nkind = 'steps'\nlevels_m = [0.004, 0.016]\n"
                               "hold_s = 30.0\n");
@@ -258,7 +258,7 @@ TEST(ReferenceFeasibility, OfStepsItTellsHowOften) {
 }
 
 /// It answers at once for anything that may be written; a run of every tick would take hours.
-TEST(ReferenceFeasibility, OfSinesThatAreFarApartItTellsAsSoon) {
+TEST(ReferenceFeasibility, IsFastForSinesFarApartInFrequency) {
   const auto f = reference_feasibility(
       read("simulation.duration_s = 1e6\n[reference]\nkind = 'multisine'\noffset_m = 0.011\n"
            "amplitudes_m = [0.003, 0.003, 0.003]\n"
@@ -267,7 +267,7 @@ TEST(ReferenceFeasibility, OfSinesThatAreFarApartItTellsAsSoon) {
   CHECK_COMPARE(f->feasible_motion_ratio, >, 0.0);
 }
 
-TEST(ReferenceFeasibility, WithoutAPositionToFollowThereIsNone) {
+TEST(ReferenceFeasibility, IsAbsentWithoutAPositionReference) {
   CHECK_FALSE(reference_feasibility(read("operator.action = 'identify'")).has_value());
   CHECK_FALSE(reference_feasibility(read("[joint]")).has_value());
   const std::string open_loop = "controller.kind = 'power'\nreference.kind = 'power'";
@@ -275,7 +275,7 @@ TEST(ReferenceFeasibility, WithoutAPositionToFollowThereIsNone) {
   STRCMP_EQUAL("", describe_reference(read("[joint]")).c_str());
 }
 
-TEST(ReferenceFeasibility, ALoadBelowTheSensorsRangeIsTold) {
+TEST(ReferenceFeasibility, ReportsALoadBelowTheSensorsRange) {
   STRCMP_EQUAL("", describe_unseen_rest(read("")).c_str());
   const Scenario loaded = read("plant.load_N = 0.1\n");
   STRCMP_CONTAINS(

@@ -15,7 +15,7 @@ using supercoil::test::read;
 
 TEST_GROUP(Sensors){};
 
-TEST(Sensors, ThermometerFollowsLateAndWithItsOffset) {
+TEST(Sensors, ThermometerHasItsLagAndOffset) {
   Thermometer thermometer(ThermometerReading{2.0, 1.5, 0.0, 0.1}, 20.0, 1);
   CHECK(std::isnan(thermometer.reading_C()));
   for (int tick = 0; tick < 2000; ++tick)
@@ -46,14 +46,14 @@ TEST(Sensors, ThermometersNoiseIsAsConfigured) {
   DOUBLES_EQUAL(0.5, std::sqrt(squares / 20000.0), 0.02);
 }
 
-TEST(Sensors, ThermometerIsInTheRecordOnlyWhereThereIsOne) {
+TEST(Sensors, ThermometerIsInTheRecordOnlyIfPresent) {
   const Scenario without = read("simulation.duration_s = 0.01");
   CHECK(std::isnan(Simulation(without).step().thermometer_C));
   const Scenario with = read("simulation.duration_s = 0.01\nsensor.temperature.offset_K = 3.0");
   DOUBLES_EQUAL(28.0, Simulation(with).step().thermometer_C, 0.5);
 }
 
-TEST(Sensors, ALonelyStrokeIsSeen) {
+TEST(Sensors, ASingleStrokeIsMeasured) {
   const Scenario s = read(
       "simulation.duration_s = 40.0\nplant.lonely_stroke_m = 0.005\n"
       "[[event]]\nat_s = 20.0\noperator.action = 'rest'\n");
@@ -66,7 +66,7 @@ TEST(Sensors, ALonelyStrokeIsSeen) {
   DOUBLES_EQUAL(record.position_m, record.measured_m, 1e-4);
 }
 
-TEST(Sensors, CoarseCountsComeAtTheirRate) {
+TEST(Sensors, CoarseCountsAreUpdatedAtTheirRate) {
   const Scenario s =
       read("simulation.duration_s = 20.0\n[sensor.position]\ncount_m = 20e-6\nrate_Hz = 100.0\n");
   Simulation simulation(s);

@@ -46,7 +46,7 @@ double position_read_m(const board::ChannelDevices& channel, const ConverterSett
 
 TEST_GROUP(SimulatedJoint){};
 
-TEST(SimulatedJoint, EachMuscleTurnsItItsWay) {
+TEST(SimulatedJoint, EachMuscleTurnsItInItsDirection) {
   Driven driven(three_muscles());
   driven.duty(0, 0.2);
   driven.run(5.0);
@@ -73,7 +73,7 @@ TEST(SimulatedJoint, BothChannelsReadTheAgonistsSensor) {
                 position_read_m(devices.channels[1], settings.channels[0].position), 1e-9);
 }
 
-TEST(SimulatedJoint, AMuscleBesideItIsAsOnABoardOfItsOwn) {
+TEST(SimulatedJoint, AnIndependentMuscleBehavesAsOnItsOwnBoard) {
   const SimulatedBoardSettings settings = three_muscles();
   SimulatedBoardSettings own = settings;
   own.channels.resize(1);
@@ -105,7 +105,7 @@ TEST(SimulatedJoint, ABrokenHeaterWireLeavesItsMuscleCold) {
   CHECK_COMPARE(driven.angle_rad(), >, 0.1);
 }
 
-TEST(SimulatedJoint, AShortASwitchThatSticksAndOneThatLeaksHeatAsTheyDoAlone) {
+TEST(SimulatedJoint, AShortAStuckSwitchAndALeakingOneHeatAsTheyDoAlone) {
   const auto both = [](double MuscleFaults::*number, bool MuscleFaults::*flag, double value) {
     Driven driven(three_muscles());
     driven.duty(0, 0.1);
@@ -150,7 +150,7 @@ TEST(SimulatedJoint, ASlackCableLetsTheOtherMuscleTurnItByItsShare) {
   DOUBLES_EQUAL(0.0, driven.angle_rad(), 1e-6);
 }
 
-TEST(SimulatedJoint, WhatIsSlackNoLongerMovesTheSensorsEnd) {
+TEST(SimulatedJoint, ASlackMuscleNoLongerMovesTheSensor) {
   const SimulatedBoardSettings settings = three_muscles();
   Driven driven(settings);
   const board::Devices devices = driven.board.devices();
@@ -161,7 +161,7 @@ TEST(SimulatedJoint, WhatIsSlackNoLongerMovesTheSensorsEnd) {
   DOUBLES_EQUAL(0.0, position_read_m(devices.channels[1], settings.channels[0].position), 1e-9);
 }
 
-TEST(SimulatedJoint, WhatChangesUnderWayIsTakenFromTheChannels) {
+TEST(SimulatedJoint, ChangesDuringARunComeFromTheChannels) {
   const SimulatedBoardSettings settings = three_muscles();
   Driven driven(settings);
   MuscleChannelSettings stiff = settings.channels[1];

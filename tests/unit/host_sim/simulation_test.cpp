@@ -37,7 +37,7 @@ double rms_um(const Scenario& scenario, double from_s, double to_s) {
 
 TEST_GROUP(Simulation){};
 
-TEST(Simulation, RepeatsItselfToTheBit) {
+TEST(Simulation, IsRepeatableToTheBit) {
   const Scenario scenario = read("simulation.duration_s = 20.0");
   const auto first = records_of(scenario);
   const auto second = records_of(scenario);
@@ -56,7 +56,7 @@ TEST(Simulation, DependsOnItsSeed) {
 
 /// The muscle counts as identified: it may be asked to answer. The draught holds it still with more
 /// power than any muscle with constant cooling would need.
-TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
+TEST(Simulation, ADraughtIsNotReportedAsNotResponding) {
   const std::string text =
       "simulation.duration_s = 46.0\nsensor.position.noise_rms_m = 1e-5\n"
       "[reference]\nkind = 'step'\nto_m = 0.010\n[controller]\nkind = 'pi'\n"
@@ -105,7 +105,7 @@ TEST(Simulation, ChangesTheTrueMuscleUnderTheController) {
   DOUBLES_EQUAL(12.0, simulation.plant().parameters().stiffness_N_per_m, 0.0);
 }
 
-TEST(Simulation, EstimatorFindsTheMuscleThatTheBoardBelievesOtherwise) {
+TEST(Simulation, EstimatorFindsTheMuscleDespiteAWrongModel) {
   const Scenario scenario = read(R"(
 simulation.duration_s = 200.0
 power.max_W = 5.0
@@ -125,7 +125,7 @@ sensor.position = {noise_rms_m = 0.0, resolution_bits = 0}
   DOUBLES_EQUAL(165.58, estimate->theta[3], 1.7);
 }
 
-TEST(Simulation, PiTracksAsTheTrialDid) {
+TEST(Simulation, PiTracksAsInTheTrial) {
   // docs/paper.md: 225 µm before the change, from another implementation.
   const Scenario scenario = read("simulation.duration_s = 100.0\ncontroller.kind = 'pi'");
   DOUBLES_EQUAL(225.0, rms_um(scenario, 60.0, 100.0), 5.0);
@@ -137,7 +137,7 @@ TEST(Simulation, MracPresetATracksTenTimesBetterThanPi) {
   CHECK_COMPARE(10.0 * rms_um(mrac, 60.0, 100.0), <, rms_um(pi, 60.0, 100.0));
 }
 
-TEST(Simulation, EstimateThatMovesWithItsErrorIsNotTrusted) {
+TEST(Simulation, AWrongEstimateWithASmallRunningErrorIsNotTrusted) {
   // Two sines that leave θ1 30 % off for good: the running error alone is always small.
   const Scenario scenario = read(R"(
 simulation.duration_s = 200.0
@@ -200,7 +200,7 @@ operator.action = "first_motion"
   CHECK(last.state == State::armed);
 }
 
-TEST(Simulation, AFirstMotionThatIsCutShortHasNoError) {
+TEST(Simulation, AnInterruptedFirstMotionHasNoError) {
   const Scenario scenario = read(
       "simulation.duration_s = 8.0\noperator.action = 'first_motion'\n"
       "controller.kind = 'pd_ff'");

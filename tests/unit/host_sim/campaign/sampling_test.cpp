@@ -35,7 +35,7 @@ TEST(Distribution, GivesItsQuantiles) {
   DOUBLES_EQUAL(13.919927969080108, (Distribution{Kind::normal, 10.0, 2.0}.at(0.975)), 1e-12);
 }
 
-TEST(Distribution, CutNormalStaysWithinItsEndsAndKeepsItsShape) {
+TEST(Distribution, TruncatedNormalStaysWithinItsLimitsAndKeepsItsShape) {
   const Distribution cut{Kind::normal, 0.0, 1.0, -1.0, 2.0};
   // scipy.stats.truncnorm.ppf([0.1, 0.5, 0.9], -1, 2)
   DOUBLES_EQUAL(-0.70464782, cut.at(0.1), 1e-8);
@@ -52,12 +52,12 @@ TEST(Distribution, CutNormalStaysWithinItsEndsAndKeepsItsShape) {
   CHECK(far_out.at(0.5) >= 50.0 && far_out.at(0.5) <= 51.0);
 }
 
-TEST(Distribution, LogUniformMayRangeOverAllDecades) {
+TEST(Distribution, LogUniformMaySpanAllDecades) {
   DOUBLES_EQUAL(1.0, (Distribution{Kind::log_uniform, 1e-300, 1e300}.at(0.5)), 1e-9);
   CHECK(std::isfinite(Distribution{Kind::log_uniform, 1e-300, 1e300}.at(1.0)));
 }
 
-TEST(Distribution, EachOfAListIsAsLikely) {
+TEST(Distribution, ListValuesAreEquallyLikely) {
   Distribution list{Kind::list};
   list.values = 3;
   DOUBLES_EQUAL(0.0, list.at(0.333), 0.0);
@@ -78,13 +78,13 @@ TEST(Sampler, PointsAreInsideTheCube) {
   }
 }
 
-TEST(Sampler, LatinHypercubeReachesEachPartOfEachDimensionOnce) {
+TEST(Sampler, LatinHypercubeHitsEachIntervalOfEachDimensionOnce) {
   const Sampler sampler(Sampling::latin_hypercube, 1, 4, 100);
   for (std::size_t dimension = 0; dimension < 4; ++dimension)
     LONGS_EQUAL(100, parts_reached(sampler, dimension, 100).size());
 }
 
-TEST(Sampler, SobolReachesEachPartOfEachDimensionOnceInPowersOfTwo) {
+TEST(Sampler, SobolHitsEachIntervalOfEachDimensionOnceInPowersOfTwo) {
   const Sampler sampler(Sampling::sobol, 1, 6, 1);
   for (std::size_t dimension = 0; dimension < 6; ++dimension)
     LONGS_EQUAL(64, parts_reached(sampler, dimension, 64).size());
@@ -100,7 +100,7 @@ TEST(Sampler, SobolFillsThePlaneOfTheFirstTwoDimensions) {
   LONGS_EQUAL(64, squares.size());
 }
 
-TEST(Sampler, SeedsGiveOtherPointsAndOneSeedTheSame) {
+TEST(Sampler, OneSeedRepeatsItsPointsAndAnotherDiffers) {
   for (const auto& [name, sampling] : sampling_names) {
     const Sampler one(sampling, 1, 3, 50);
     const Sampler again(sampling, 1, 3, 50);

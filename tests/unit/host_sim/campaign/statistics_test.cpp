@@ -10,7 +10,7 @@ using namespace supercoil::host_sim::campaign;
 TEST_GROUP(CampaignStatistics){};
 
 // R: binom.test(5, 100)$conf.int, and so on.
-TEST(CampaignStatistics, IntervalIsTheExactOne) {
+TEST(CampaignStatistics, IntervalIsExact) {
   const Rate some = rate_of(5, 100);
   DOUBLES_EQUAL(0.05, some.rate(), 1e-15);
   DOUBLES_EQUAL(0.01643188, some.low, 1e-8);
@@ -26,7 +26,7 @@ TEST(CampaignStatistics, IntervalIsTheExactOne) {
   DOUBLES_EQUAL(1.0, nothing.high, 0.0);
 }
 
-TEST(CampaignStatistics, QuantileIsAValueThatWasThere) {
+TEST(CampaignStatistics, QuantileIsOneOfTheValues) {
   DOUBLES_EQUAL(3.0, quantile({5.0, 1.0, 3.0, 2.0, 4.0}, 0.5), 0.0);
   DOUBLES_EQUAL(5.0, quantile({5.0, 1.0, 3.0, 2.0, 4.0}, 0.95), 0.0);
   DOUBLES_EQUAL(1.0, quantile({1.0}, 0.01), 0.0);
@@ -34,7 +34,7 @@ TEST(CampaignStatistics, QuantileIsAValueThatWasThere) {
   CHECK(std::isnan(quantile({}, 0.5)));
 }
 
-TEST(CampaignStatistics, RankCorrelationKnowsOrderAndNothingElse) {
+TEST(CampaignStatistics, RankCorrelationDependsOnlyOnOrder) {
   DOUBLES_EQUAL(1.0, rank_correlation({1.0, 2.0, 3.0, 4.0}, {1.0, 10.0, 1e3, INFINITY}), 1e-15);
   DOUBLES_EQUAL(-1.0, rank_correlation({1.0, 2.0, 3.0}, {9.0, 4.0, 1.0}), 1e-15);
   // scipy.stats.spearmanr([1, 2, 2, 4, 5], [3, 1, 2, 2, 5])

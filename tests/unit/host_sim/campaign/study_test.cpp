@@ -65,7 +65,7 @@ double number(const Study& study, std::size_t run, const char* key) {
 
 TEST_GROUP(Study){};
 
-TEST(Study, SaysWhatIsWrongWithItAndWhere) {
+TEST(Study, ErrorsNameTheProblemAndItsLine) {
   check_problem("study.toml:2: study.run = 5: is not a key of [study]; did you mean runs?",
                 "[study]\nrun = 5");
   check_problem("study.runs = 0: must be 1 to 1000000", "[study]\nruns = 0");
@@ -85,7 +85,7 @@ TEST(Study, SaysWhatIsWrongWithItAndWhere) {
                 "[study]\nsampling = 'latin_hypercube'\nknown_to = 0.01");
 }
 
-TEST(Study, SaysWhatIsWrongWithADraw) {
+TEST(Study, ErrorsNameTheProblemOfADraw) {
   check_problem("draw[1].constant: is missing", draw(""));
   check_problem("log_uniform = [1, 2]: conflicts with uniform: give exactly one distribution",
                 draw("uniform = [1.0, 2.0]\nlog_uniform = [1.0, 2.0]"));
@@ -106,13 +106,13 @@ TEST(Study, SaysWhatIsWrongWithADraw) {
                 draw("uniform = [1.0, 2.0]") + draw("uniform = [1.0, 2.0]"));
 }
 
-TEST(Study, WithoutAFileNamesWhatThereIs) {
+TEST(Study, AnUnknownNameSuggestsTheNearestStudy) {
   const auto study = read_study("folows");
   CHECK(!study);
   STRCMP_CONTAINS("did you mean follows?", supercoil::config::to_text(study.error()).c_str());
 }
 
-TEST(Study, AFaultIsAFailureUnlessItSaysOtherwise) {
+TEST(Study, AFaultIsAFailureByDefault) {
   const std::size_t faults = *find_quantity("faults");
   const auto goal = [&](const Study& study) {
     return std::ranges::find(study.goals, faults, &Goal::quantity)->max;
@@ -121,7 +121,7 @@ TEST(Study, AFaultIsAFailureUnlessItSaysOtherwise) {
   DOUBLES_EQUAL(3.0, goal(study_of("[goals]\nfaults = 3")), 0.0);
 }
 
-TEST(Study, HowFarToGoIsNoPartOfWhatARunIs) {
+TEST(Study, StoppingCriteriaAreNotPartOfARunsDefinition) {
   const Study one = study_of("[study]\nruns = 10");
   CHECK(one.definition ==
         study_of("[study]\nruns = 20\nknown_to = 0.1\n[goals]\nhottest_C = 90.0").definition);
@@ -134,7 +134,7 @@ TEST(Study, HowFarToGoIsNoPartOfWhatARunIs) {
   CHECK(latin("10") != latin("20"));
 }
 
-TEST(Study, DrawsAreMultipliedAndDividedByOthersAndByTheScenariosNumbers) {
+TEST(Study, DrawsAreMultipliedAndDividedByDrawsAndScenarioValues) {
   const Study study = study_of(
       "[study]\nruns = 3\n[scenario.plant]\nmoving_mass_kg = 0.5\n"
       "[[draw]]\nname = 'factor'\nuniform = [2.0, 3.0]\n" +
@@ -154,7 +154,7 @@ TEST(Study, ANumberOfAListMayBeAFactor) {
   DOUBLES_EQUAL(20.0, number(study, 1, "plant.stiffness_N_per_m"), 0.0);
 }
 
-TEST(Study, ADrawOfWhatIsNotThereIsRefused) {
+TEST(Study, ADrawThatNamesAnUnknownFactorIsRefused) {
   const Study study = study_of("[study]\n" + draw("constant = 1.0\ntimes = 'plant.colour'"));
   const auto scenario = Draws(study).scenario(Draws(study).medians(), 0, 0);
   CHECK(!scenario);
@@ -162,7 +162,7 @@ TEST(Study, ADrawOfWhatIsNotThereIsRefused) {
                   supercoil::config::to_text(scenario.error()).c_str());
 }
 
-TEST(Study, SetsPlacesOfListsAndOfEvents) {
+TEST(Study, SetsElementsOfListsAndEvents) {
   const Study study = study_of(
       "[study]\n[scenario.reference]\nkind = 'steps'\nlevels_m = [0.001, 0.002]\nhold_s = 5.0\n"
       "[[scenario.event]]\nat_s = 1.0\nplant.load_N = 0.0\n"
@@ -183,7 +183,7 @@ TEST(Study, SetsPlacesOfListsAndOfEvents) {
   }
 }
 
-TEST(Study, AListIsTakenAsItIs) {
+TEST(Study, ListValuesKeepTheirType) {
   const Study study = study_of(
       "[study]\nruns = 40\n[[draw]]\nkeys = 'plant.preset'\nlist = ['real', 'b']\n"
       "[[draw]]\nkeys = 'power.pwm_bits'\nlist = [10, 12]\n");
@@ -199,7 +199,7 @@ TEST(Study, AListIsTakenAsItIs) {
   STRCMP_EQUAL("12", text_of(study.draws[1], 1.0).c_str());
 }
 
-TEST(Study, DrawsOfAGroupGoTogether) {
+TEST(Study, DrawsOfAGroupAreTakenTogether) {
   const auto correlation = [](const char* of_one) {
     const Study study = study_of(
         "[study]\nruns = 2000\nsampling = 'random'\n"
@@ -223,7 +223,7 @@ TEST(Study, DrawsOfAGroupGoTogether) {
   DOUBLES_EQUAL(0.0, correlation("0.0"), 0.06);
 }
 
-TEST(Study, SeverityIsTheGoalMissedByMost) {
+TEST(Study, SeverityIsThatOfTheWorstMissedGoal) {
   const Study study = study_of("[goals]\ntracking_rms_m = 10e-6\nhottest_C = 100.0");
   Outcome outcome;
   outcome.values.fill(0.0);
@@ -242,7 +242,7 @@ TEST(Study, SeverityIsTheGoalMissedByMost) {
   CHECK(std::isinf(severity(study, outcome)));
 }
 
-TEST(Study, EveryBuiltInStudyIsAScenarioInTheMiddleOfItsDraws) {
+TEST(Study, EveryBuiltInStudyIsAValidScenarioAtItsMedians) {
   CHECK(builtin_studies().size() >= 3);
   for (const BuiltinScenario& builtin : builtin_studies()) {
     const auto study = read_study(std::string(builtin.name));

@@ -45,7 +45,7 @@ double value(const Values& values, std::string_view name) {
 
 TEST_GROUP(Measures){};
 
-TEST(Measures, WithoutAnEventAreOfTheStartAndTheLast40Seconds) {
+TEST(Measures, WithoutAnEventCoverTheStartAndTheLast40Seconds) {
   const auto values = measured(scenario_of(100.0), [](double t) {
     return t < 3.0 ? 4e-3 : t < 10.0 ? -3e-3 : t < 20.0 ? 2e-3 : t < 60.0 ? 1.0 : 1e-6;
   });
@@ -57,7 +57,7 @@ TEST(Measures, WithoutAnEventAreOfTheStartAndTheLast40Seconds) {
     CHECK(std::isnan(value(values, name)));
 }
 
-TEST(Measures, WithAnEventAreOfWhatWasBeforeAndAfter) {
+TEST(Measures, WithAnEventCoverTheTimeBeforeAndAfter) {
   const auto values = measured(scenario_of(200.0, 100.0), [](double t) {
     if (t < 60.0) return 1.0;
     if (t < 100.0) return 1e-6;
@@ -78,7 +78,7 @@ TEST(Measures, AnErrorThatStaysNeverSettles) {
   DOUBLES_EQUAL(0.0, value(measured(scenario, [](double) { return 1e-4; }), "settling_s"), 0.0);
 }
 
-TEST(Measures, WhatIsNoLongerFollowedIsInfinitelyOff) {
+TEST(Measures, ErrorsAreInfiniteOnceTrackingEnds) {
   const auto values = measured(
       scenario_of(200.0, 100.0), [](double) { return 0.0; }, 105.0);
   DOUBLES_EQUAL(0.0, value(values, "steady_rms_m"), 0.0);
@@ -88,7 +88,7 @@ TEST(Measures, WhatIsNoLongerFollowedIsInfinitelyOff) {
 
 TEST_GROUP(Statistics){};
 
-TEST(Statistics, TheIntervalIsStudents) {
+TEST(Statistics, IntervalIsStudents) {
   const auto s = statistics_of({1.0, 2.0, 3.0, 4.0, 5.0});
   CHECK_EQUAL(5, s.runs);
   DOUBLES_EQUAL(3.0, s.mean, 1e-12);
@@ -97,7 +97,7 @@ TEST(Statistics, TheIntervalIsStudents) {
   DOUBLES_EQUAL(2.7764451 * std::sqrt(0.5), s.half_width, 1e-6);
 }
 
-TEST(Statistics, OneRunAndAnInfiniteOneHaveNoInterval) {
+TEST(Statistics, ASingleRunAndAnInfiniteOneHaveNoInterval) {
   CHECK(std::isnan(statistics_of({2.0}).half_width));
   const auto s = statistics_of({2.0, INFINITY});
   CHECK(std::isinf(s.mean));

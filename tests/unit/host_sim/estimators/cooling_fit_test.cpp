@@ -83,7 +83,7 @@ TEST(CoolingFit, FindsTheTimeConstantWhereHeatTransferDoesNotDependOnTheRise) {
   }
 }
 
-TEST(CoolingFit, OfARealMuscleErrsByNoMoreThanItsModelErrorOrFindsNothing) {
+TEST(CoolingFit, OnARealMuscleErrsByAtMostItsModelErrorOrFindsNothing) {
   int found = 0;
   for (const MusclePreset preset : {MusclePreset::real, MusclePreset::real_hard}) {
     for (const double cooling : {0.5, 1.0, 2.0}) {
@@ -99,7 +99,7 @@ TEST(CoolingFit, OfARealMuscleErrsByNoMoreThanItsModelErrorOrFindsNothing) {
   CHECK_COMPARE(found, >=, 8);
 }
 
-TEST(CoolingFit, FindsNothingWhereNothingFollowsThePower) {
+TEST(CoolingFit, FindsNothingWhenMotionDoesNotFollowThePower) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise_m(0.0, 10e-6);
   for (const double drift_m : {0.0, 1e-5}) {
@@ -114,7 +114,7 @@ TEST(CoolingFit, FindsNothingWhereNothingFollowsThePower) {
   }
 }
 
-TEST(CoolingFit, FindsNothingInTooShortATimeAndStartsAnew) {
+TEST(CoolingFit, FindsNothingInTooShortATimeAndRestarts) {
   const control::PhysicalParameters muscle;
   Plant plant(muscle, {}, fit_step_s);
   control::CoolingFit fit({0.5, 6.0, 4.5}, fit_step_s);

@@ -30,19 +30,19 @@ void check_percent(const control::Theta& expected, const control::Theta& bound, 
 TEST_GROUP(CramerRao){};
 
 // These figures are from an independent computation with scipy.
-TEST(CramerRao, TwoSecondsFromRestAreAsComputedElsewhere) {
+TEST(CramerRao, TwoSecondsFromRestAgreeWithScipy) {
   CramerRaoBound bound(experiment_from(0.0), {.motion = false, .bias = false});
   check_percent({0.53, 0.10, 0.03, 0.06}, bound.until(2.0), 0.06);
 }
 
-TEST(CramerRao, ASteadyWindowIsAsComputedElsewhere) {
+TEST(CramerRao, ASteadyWindowAgreesWithScipy) {
   CramerRaoBound bound(experiment_from(40.0), {.motion = true, .bias = false});
   const control::Theta ten = bound.until(50.0);
   CHECK(ten[0] > 0.027 && ten[0] < 0.068);
   check_percent({0.865, 0.022, 0.003, 0.0004}, bound.until(70.0), 0.1);
 }
 
-TEST(CramerRao, AnUnknownMoreCostsExactness) {
+TEST(CramerRao, AnAdditionalUnknownRaisesTheBound) {
   const Experiment experiment = experiment_from(40.0);
   const auto deviation = [&](bool motion, bool bias) {
     return CramerRaoBound(experiment, {motion, bias}).until(50.0)[3];
@@ -60,7 +60,7 @@ TEST(CramerRao, HalfTheNoiseIsHalfTheBound) {
     DOUBLES_EQUAL(0.5 * whole[i], half[i], 1e-6 * whole[i]);
 }
 
-TEST(CramerRao, NothingSeenIsNothingKnown) {
+TEST(CramerRao, WithoutDataTheBoundIsInfinite) {
   CramerRaoBound bound(experiment_from(0.0), {});
   CHECK(std::isinf(bound.until(0.01)[0]));
 }

@@ -40,7 +40,7 @@ std::int64_t changes_in(FollowedMuscle muscle, Course motion, double duration_s)
 
 TEST_GROUP(Changes){};
 
-TEST(Changes, AreNotTakenFromAModelThatIsNotRight) {
+TEST(Changes, AreNotReportedForAModelError) {
   for (const MusclePreset preset :
        {MusclePreset::paper, MusclePreset::real, MusclePreset::real_hard, MusclePreset::b}) {
     for (const Course motion : {Course::sine, Course::steps, Course::random_steps})
@@ -48,7 +48,7 @@ TEST(Changes, AreNotTakenFromAModelThatIsNotRight) {
   }
 }
 
-TEST(Changes, ASofterMuscleIsFoundWithinHalfASecondOrOneOnRealMuscles) {
+TEST(Changes, ASofterMuscleIsDetectedWithinHalfASecondOrOneOnRealMuscles) {
   FollowedMuscle muscle = followed(MusclePreset::paper);
   muscle.stiffness_ratio = 0.75;
   CHECK(slowest_s(muscle, 4) <= 0.5);
@@ -59,13 +59,13 @@ TEST(Changes, ASofterMuscleIsFoundWithinHalfASecondOrOneOnRealMuscles) {
   }
 }
 
-TEST(Changes, ALoadIsFoundWithinASecond) {
+TEST(Changes, ALoadIsDetectedWithinASecond) {
   FollowedMuscle muscle = followed(MusclePreset::paper);
   muscle.load_N = 0.1;
   CHECK(slowest_s(muscle, 4) <= 1.0);
 }
 
-TEST(Changes, ALoadLeavesTheta2AndTheta3) {
+TEST(Changes, ALoadDoesNotChangeTheta2AndTheta3) {
   FollowedMuscle muscle = followed(MusclePreset::paper);
   muscle.load_N = 0.1;
   for (const Course motion : {Course::sine, Course::steps, Course::random_steps}) {
@@ -105,7 +105,7 @@ TEST(Changes, ASofterMusclesThetaIsKnownTwoSecondsLater) {
   }
 }
 
-TEST(Changes, TimesAndPowersFollowTheMuscle) {
+TEST(Changes, DetectionTimesScaleWithTheMuscle) {
   FollowedMuscle small;
   small.parameters.thermal_mass_J_per_K = 0.015;
   small.parameters.heat_transfer_W_per_K *= 0.015 / 0.162;
@@ -120,7 +120,7 @@ TEST(Changes, TimesAndPowersFollowTheMuscle) {
   CHECK(slowest_s(stiff, 2) <= 0.5);
 }
 
-TEST(Changes, AnUnexcitedDirectionNeitherDriftsNorStopsTheOthers) {
+TEST(Changes, AnUnexcitedDirectionDoesNotDriftOrStopTheOthers) {
   // The sine of 0.25 rad/s hardly shows θ1; unmodelled effects would be attributed to it.
   FollowedMuscle muscle = followed(MusclePreset::real);
   muscle.run(900.0, [&](const FollowedMuscle::Tick& tick) {

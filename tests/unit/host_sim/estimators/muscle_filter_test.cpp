@@ -59,7 +59,7 @@ TEST_GROUP(MuscleFilter) {
   const std::array<Predict, 2> both{predict_extended, predict_unscented};
 };
 
-TEST(MuscleFilter, ComesNearTheTruthWithoutNoise) {
+TEST(MuscleFilter, ApproachesTheTruthWithoutNoise) {
   for (const Predict predict : both) {
     Bench bench(steady_muscle(0.0), 1);
     MuscleFilter filter(predict, near_by(), tick_s);
@@ -69,7 +69,7 @@ TEST(MuscleFilter, ComesNearTheTruthWithoutNoise) {
   }
 }
 
-TEST(MuscleFilter, BothAgreeNearTheTruth) {
+TEST(MuscleFilter, BothPredictionsAgreeNearTheTruth) {
   std::array<Theta, 2> found;
   for (std::size_t i = 0; i < both.size(); ++i) {
     Bench bench(steady_muscle(10e-6), 1);
@@ -85,7 +85,7 @@ TEST(MuscleFilter, BothAgreeNearTheTruth) {
   CHECK(apart.cwiseAbs().maxCoeff() < 1e-5);
 }
 
-TEST(MuscleFilter, ItsErrorsAreAsLargeAsItSays) {
+TEST(MuscleFilter, ErrorsMatchItsDeviations) {
   constexpr int seeds = 12;
   for (const Predict predict : both) {
     double mean = 0.0;
@@ -133,7 +133,7 @@ TEST(MuscleFilter, FollowsAChangedStiffness) {
   }
 }
 
-TEST(MuscleFilter, StaysSoundWithoutMeasurementsAndWithoutMotion) {
+TEST(MuscleFilter, StaysValidWithoutMeasurementsAndWithoutMotion) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const Predict predict : both) {
     Bench bench(steady_muscle(10e-6), 1);

@@ -14,7 +14,7 @@ const double mass_kg = supercoil::control::PhysicalParameters{}.moving_mass_kg;
 
 TEST_GROUP(MuscleState){};
 
-TEST(MuscleState, MovesAsThePlantDoes) {
+TEST(MuscleState, MovesLikeThePlant) {
   Bench bench(trials[0], 1);
   State state = bench.state();
   for (int i = 0; i < 5000; ++i) {
@@ -28,7 +28,7 @@ TEST(MuscleState, MovesAsThePlantDoes) {
   DOUBLES_EQUAL(plant[at_acceleration], state[at_acceleration], 1e-9);
 }
 
-TEST(MuscleState, ABiasIsPowerThatDoesNotHeat) {
+TEST(MuscleState, BiasIsPowerThatDoesNotHeat) {
   State biased = state_of(trials[0].initial());
   biased[at_bias] = 0.5;
   State unbiased = biased;
@@ -38,7 +38,7 @@ TEST(MuscleState, ABiasIsPowerThatDoesNotHeat) {
   DOUBLES_EQUAL(b[at_acceleration], a[at_acceleration], 1e-15);
 }
 
-TEST(MuscleState, ItsDerivativeIsThatOfDifferences) {
+TEST(MuscleState, DerivativeMatchesFiniteDifferences) {
   Bench bench(trials[0], 1);
   for (int i = 0; i < 3000; ++i)
     bench.next();

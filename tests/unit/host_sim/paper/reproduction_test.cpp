@@ -62,7 +62,7 @@ TEST(Reproduction, GradientEstimatorConvergesAsPrinted) {
   }
 }
 
-TEST(Reproduction, PiAndPdffComeOutWithin3Percent) {
+TEST(Reproduction, PiAndPdffAgreeWithin3Percent) {
   check_within(0.01905, "fig3.sine.pi unsaturated", 0.03);
   check_within(0.01067, "fig3.sine.pdff unsaturated", 0.03);
   check_within(0.0113, "fig4.sine.pdff unsaturated", 0.03);
@@ -76,7 +76,7 @@ TEST(Reproduction, PiDivergesWhenTheMuscleSoftens) {
   STRCMP_EQUAL("diverges", measured("fig4.step.pi unsaturated").c_str());
 }
 
-TEST(Reproduction, MracComesOutWithin10PercentInEveryReading) {
+TEST(Reproduction, MracAgreesWithin10PercentInEveryReading) {
   struct Reading {
     const char* name;
     double sine_before, sine_after, step_before, step_after;

@@ -31,7 +31,7 @@ void run_bundle(BundlePlant& plant, const std::vector<double>& power_W, double t
 
 TEST_GROUP(BundlePlant){};
 
-TEST(BundlePlant, OfOneMuscleIsThatMuscle) {
+TEST(BundlePlant, OfOneMuscleMatchesThatMuscle) {
   const BundledMuscle one = real_in_bundle();
   BundlePlant bundle({one}, bundle_tick_s);
   NonlinearPlant alone(one.parameters, one.effects, bundle_tick_s);
@@ -47,7 +47,7 @@ TEST(BundlePlant, OfOneMuscleIsThatMuscle) {
 }
 
 /// Three muscles side by side lift three times the load as one muscle lifts it.
-TEST(BundlePlant, EqualMusclesMoveThreeTimesTheLoadAsOneMovesIt) {
+TEST(BundlePlant, ThreeEqualMusclesMoveThreeTimesTheLoadAsOneDoes) {
   const BundledMuscle one = real_in_bundle();
   BundledMuscle shared = one;
   shared.parameters.moving_mass_kg *= 3.0;

@@ -32,7 +32,7 @@ TEST(PlantEffects, AreRefusedOutOfRange) {
   }
 }
 
-TEST(PlantEffects, SharesOfHeatTransferAreAtMostTheWhole) {
+TEST(PlantEffects, FractionsOfHeatTransferAddUpToAtMostOne) {
   PlantEffects effects;
   effects.convection_ratio = 0.7;
   effects.radiation_ratio = 0.31;
@@ -61,7 +61,7 @@ TEST_GROUP(PlayHysteresis) {
   }
 };
 
-TEST(PlayHysteresis, ItsFullLoopIsAsWideAsConfigured) {
+TEST(PlayHysteresis, FullLoopIsAsWideAsConfigured) {
   go(0.0, 100.0);
   go(100.0, 0.0);
   const double up_K = go(0.0, 50.0);
@@ -70,7 +70,7 @@ TEST(PlayHysteresis, ItsFullLoopIsAsWideAsConfigured) {
   DOUBLES_EQUAL(0.15 * 70.0, down_K - up_K, 1e-9);
 }
 
-TEST(PlayHysteresis, ALoopsAreaIsThatOfItsPlays) {
+TEST(PlayHysteresis, LoopAreaIsThatOfItsPlayOperators) {
   go(0.0, 70.0);
   go(70.0, 0.0);
   double area_K2 = 0.0;
@@ -133,7 +133,7 @@ TEST_GROUP(GuideFriction) {
   }
 };
 
-TEST(GuideFriction, HoldsWithoutDriftWhatIsLessThanStaticFriction) {
+TEST(GuideFriction, HoldsWithoutDriftBelowStaticFriction) {
   push(0.9 * coulomb_N, 60.0);
   push(0.9 * coulomb_N, 5.0);
   const double rested_m = motion.position_m;
@@ -145,7 +145,7 @@ TEST(GuideFriction, HoldsWithoutDriftWhatIsLessThanStaticFriction) {
   DOUBLES_EQUAL(0.0, motion.velocity_m_per_s, 1e-9);
 }
 
-TEST(GuideFriction, LetsGoAboveStaticFriction) {
+TEST(GuideFriction, BreaksAwayAboveStaticFriction) {
   push(1.15 * coulomb_N, 60.0);
   CHECK_COMPARE(motion.position_m, <, 1e-4);
   push(1.25 * coulomb_N, 60.0);

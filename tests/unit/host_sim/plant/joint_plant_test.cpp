@@ -96,7 +96,7 @@ TEST(JointPlant, AgreesWithAnIndependentSolver) {
   }
 }
 
-TEST(JointPlant, EqualMusclesUnderEqualPowersHoldEachOther) {
+TEST(JointPlant, EqualMusclesAtEqualPowersBalance) {
   JointPlantSettings settings = equal_muscles();
   settings.weight_Nm = 0.01;
   settings.friction_ratio = 0.02;
@@ -110,7 +110,7 @@ TEST(JointPlant, EqualMusclesUnderEqualPowersHoldEachOther) {
   DOUBLES_EQUAL(plant.tension_N(0), plant.tension_N(1), 1e-15);
 }
 
-TEST(JointPlant, MusclesThatChangePlacesMirrorTheAngle) {
+TEST(JointPlant, SwappingTheMusclesMirrorsTheAngle) {
   JointPlantSettings settings = equal_muscles();
   settings.weight_Nm = 0.005;
   settings.friction_ratio = 0.02;
@@ -134,7 +134,7 @@ TEST(JointPlant, MusclesThatChangePlacesMirrorTheAngle) {
 }
 
 /// T0 + F1 - k1 (x + s) = T0 + F2 - k2 (-x), while both are taut.
-TEST(JointPlant, SlackOfOneCableIsSharedByBothSpringsWhileBothAreTaut) {
+TEST(JointPlant, CableSlackIsSharedByBothSpringsWhileBothAreTaut) {
   JointPlantSettings settings = equal_muscles();
   settings.agonist.parameters.stiffness_N_per_m = 16.0;
   settings.antagonist->parameters.stiffness_N_per_m = 24.0;
@@ -148,7 +148,7 @@ TEST(JointPlant, SlackOfOneCableIsSharedByBothSpringsWhileBothAreTaut) {
   DOUBLES_EQUAL(plant.tension_N(0), plant.tension_N(1), 1e-9);
 }
 
-TEST(JointPlant, ASlackMuscleMovesNothingUntilItHasTakenTheSlackUp) {
+TEST(JointPlant, ASlackMuscleMovesNothingUntilTheSlackIsTakenUp) {
   JointPlantSettings settings = equal_muscles();
   settings.pretension_N = 0.0;
   settings.spring_Nm_per_rad = 0.01;  // holds the joint when no muscle pulls
@@ -170,7 +170,7 @@ TEST(JointPlant, ASlackMuscleMovesNothingUntilItHasTakenTheSlackUp) {
   DOUBLES_EQUAL(k * 0.004 / (2.0 * k + spring), plant.position_m(), 1e-6);
 }
 
-TEST(JointPlant, ATornMusclePullsNoMoreAndStillGetsHot) {
+TEST(JointPlant, ATornMuscleDoesNotPullAndStillHeats) {
   JointPlantSettings settings = equal_muscles();
   JointPlant plant(settings, joint_tick_s);
   DOUBLES_EQUAL(0.0, plant.angle_rad(), 0.0);
@@ -204,7 +204,7 @@ TEST(JointPlant, RestsOnItsEndStopsAndLeavesThem) {
   DOUBLES_EQUAL(0.0, plant.angle_rad(), 1e-3);
 }
 
-TEST(JointPlant, ItsMusclesHeatAsTheyDoAlone) {
+TEST(JointPlant, MusclesHeatAsTheyDoAlone) {
   JointPlantSettings settings = equal_muscles();
   settings.antagonist->effects = test::real_muscle();
   JointPlant plant(settings, joint_tick_s);
@@ -220,7 +220,7 @@ TEST(JointPlant, ItsMusclesHeatAsTheyDoAlone) {
   }
 }
 
-TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesSofter) {
+TEST(JointPlant, CoContractionDoesNotStiffenLinearMusclesAndSoftensRealOnes) {
   const auto turned_rad = [](const host_sim::PlantEffects& effects, double each_W) {
     JointPlantSettings settings = equal_muscles();
     settings.agonist.effects = settings.antagonist->effects = effects;
@@ -239,7 +239,7 @@ TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesS
 }
 
 /// At rest the springs take the muscles' moment less that of the arm of 40 g at 15 mm.
-TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
+TEST(JointPlant, AWeightPullsTheArmDownWithTheSineOfItsAngle) {
   JointPlantSettings settings = equal_muscles();
   const double arm_m = 0.015;
   settings.weight_Nm = 0.040 * host_sim::gravity_m_per_s2 * arm_m;
@@ -261,7 +261,7 @@ TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
 }
 
 /// The muscle's pull balances the arm's moment at every angle; at 0 the cold muscle's pull does.
-TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightAloneDrawsBack) {
+TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightPullsBack) {
   JointPlantSettings settings;
   const double lever_m = settings.lever.zero_radius_m();
   settings.weight_Nm = 0.005;
@@ -287,7 +287,7 @@ TEST(JointPlant, OneMuscleLiftsAnArmThatItsWeightAloneDrawsBack) {
 }
 
 /// At the angle 0 the cold muscles are in balance, each at its own lever.
-TEST(JointPlant, TurnsAsFarAsBothLeversLetTheForcesTurnIt) {
+TEST(JointPlant, AngleBalancesTheForcesAtBothLevers) {
   JointPlantSettings settings = equal_muscles();
   settings.antagonist_lever_ratio = 0.5;
   const control::PhysicalParameters& p = settings.agonist.parameters;

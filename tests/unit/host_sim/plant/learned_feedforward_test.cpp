@@ -122,20 +122,20 @@ TEST(LearnedFeedforwardOnMuscles, LearningDoesNoHarmOnALightlyDampedMuscle) {
   check_no_harm(loop);
 }
 
-TEST(LearnedFeedforwardOnMuscles, LearningDoesNoHarmAfterAFirstHeatingThatLengthensTheMuscle) {
+TEST(LearnedFeedforwardOnMuscles, LearningDoesNoHarmAfterAFirstHeatingLengthensTheMuscle) {
   LearningLoop loop;
   loop.effects.lonely_stroke_m = 0.005;
   check_no_harm(loop);
 }
 
-TEST(LearnedFeedforwardOnMuscles, FollowsARealMuscleAndAgainAfterItSoftened) {
+TEST(LearnedFeedforwardOnMuscles, TracksARealMuscleBeforeAndAfterItSoftens) {
   LearningLoop loop = believed_cold(host_sim::MusclePreset::real);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 7.0);
   loop.soft_from_s = 100.0;
   CHECK(loop.rms_um(100.0 + 6.0 * sine_period_s, 3.0 * sine_period_s) <= 5.5);
 }
 
-TEST(LearnedFeedforwardOnMuscles, FollowsAHardMuscleAndAgainAfterItSoftenedWhileWarmOrCold) {
+TEST(LearnedFeedforwardOnMuscles, TracksAHardMuscleBeforeAndAfterItSoftensWarmOrCold) {
   LearningLoop loop = believed_cold(host_sim::MusclePreset::real_hard);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 11.0);
   // At 116.8, 118.9 or 121 s the muscle is coldest, where a change shows no direction.
@@ -145,7 +145,7 @@ TEST(LearnedFeedforwardOnMuscles, FollowsAHardMuscleAndAgainAfterItSoftenedWhile
   }
 }
 
-TEST(LearnedFeedforwardOnMuscles, FindsThePeriodAndRepeatsWhatTheMuscleNeeded) {
+TEST(LearnedFeedforwardOnMuscles, FindsThePeriodAndRepeatsTheLearnedPower) {
   LearningLoop real = believed_cold(host_sim::MusclePreset::real);
   real.find_period = true;
   CHECK(real.rms_um(10.0 * sine_period_s, 1.6 * sine_period_s) <= 2.5);

@@ -70,7 +70,7 @@ TEST(LinearPlant, KeepsTemperatureAndMotionWhenItsParametersChange) {
   DOUBLES_EQUAL(3.0 * p.dc_gain_m_per_W(), plant.position_m(), 1e-9);
 }
 
-TEST(LinearPlant, IsPulledLongerByALoad) {
+TEST(LinearPlant, IsExtendedByALoad) {
   const control::PhysicalParameters p;
   LinearPlant plant(p, step_s);
   for (int tick = 0; tick < 60000; ++tick)

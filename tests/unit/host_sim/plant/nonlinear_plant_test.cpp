@@ -23,7 +23,7 @@ constexpr double tick_s = 1e-3;
 
 TEST_GROUP(NonlinearPlant){};
 
-TEST(NonlinearPlant, AgreesWithAnIndependentSolverEffectByEffectAndInAll) {
+TEST(NonlinearPlant, AgreesWithAnIndependentSolverForEachEffectAndAllTogether) {
   const nlohmann::json cases = test::reference("muscle_effects", "cases");
   CHECK(cases.size() >= 17);
   for (const auto& c : cases) {
@@ -37,7 +37,7 @@ TEST(NonlinearPlant, AgreesWithAnIndependentSolverEffectByEffectAndInAll) {
   }
 }
 
-TEST(NonlinearPlant, WithoutEffectsIsThePapersMuscle) {
+TEST(NonlinearPlant, WithoutEffectsMatchesThePapersMuscle) {
   host_sim::LinearPlant exact({}, tick_s);
   NonlinearPlant plant({}, {}, tick_s);
   for (int tick = 0; tick < 30000; ++tick) {
@@ -50,7 +50,7 @@ TEST(NonlinearPlant, WithoutEffectsIsThePapersMuscle) {
   }
 }
 
-TEST(NonlinearPlant, StoresOrLosesAllHeat) {
+TEST(NonlinearPlant, ConservesHeat) {
   for (const double draught : {1.0, 3.0}) {
     PlantEffects effects = test::real_muscle();
     effects.draught_ratio = draught;
@@ -80,7 +80,7 @@ TEST(NonlinearPlant, ComesToTheAirsTemperature) {
   CHECK_COMPARE(plant.position_m(), >, 1e-3);
 }
 
-TEST(NonlinearPlant, FirstHeatingMakesItLongerForGood) {
+TEST(NonlinearPlant, FirstHeatingLengthensItPermanently) {
   PlantEffects effects;
   effects.lonely_stroke_m = 0.005;
   NonlinearPlant plant({}, effects, tick_s);
@@ -127,7 +127,7 @@ TEST(NonlinearPlant, RestsOnItsEndStop) {
   CHECK_COMPARE(plant.position_m(), >, 0.005);
 }
 
-TEST(NonlinearPlant, RisesToItsCeilingAndSinksFromIt) {
+TEST(NonlinearPlant, ReachesItsUpperEndStopAndLeavesIt) {
   PlantEffects effects;
   effects.ceiling_m = 0.003;
   NonlinearPlant plant({}, effects, tick_s);

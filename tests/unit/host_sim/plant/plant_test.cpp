@@ -21,7 +21,7 @@ void heat(Plant& plant, double power_W, int ticks) {
 
 TEST_GROUP(Plant){};
 
-TEST(Plant, WithoutEffectsIsTheExactLinearOneToTheBit) {
+TEST(Plant, WithoutEffectsMatchesTheLinearPlantToTheBit) {
   host_sim::LinearPlant exact({}, millisecond_s);
   Plant plant({}, {}, millisecond_s);
   CHECK(plant.linear());
@@ -36,7 +36,7 @@ TEST(Plant, WithoutEffectsIsTheExactLinearOneToTheBit) {
   DOUBLES_EQUAL(exact.peak_temperature_rise_K(), plant.peak_temperature_rise_K(), 0.0);
 }
 
-TEST(Plant, KeepsItsStateWhenItGetsAnEffect) {
+TEST(Plant, KeepsItsStateWhenAnEffectIsAdded) {
   Plant plant({}, {}, millisecond_s);
   heat(plant, 4.0, 3000);
   heat(plant, 0.0, 500);
@@ -70,7 +70,7 @@ TEST(Plant, KeepsItsStateWhenAnEffectChanges) {
   CHECK_COMPARE(other.temperature_rise_K(), <, plant.temperature_rise_K() - 1.0);
 }
 
-TEST(Plant, ASofterMuscleIsOneWithOrWithoutEffects) {
+TEST(Plant, SofteningActsWithAndWithoutEffects) {
   Plant plant({}, test::real_muscle(), millisecond_s);
   heat(plant, 3.0, 30000);
   const double before_m = plant.position_m();

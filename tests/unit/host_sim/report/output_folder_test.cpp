@@ -56,7 +56,7 @@ TEST_GROUP(OutputFolder) {
   }
 };
 
-TEST(OutputFolder, NamesItsFilesOnlyWhenAllAreComplete) {
+TEST(OutputFolder, PublishesItsFilesOnlyWhenAllAreComplete) {
   auto folder = OutputFolder::open(parent / "a" / "b");
   CHECK(folder.has_value());
   CHECK(folder->write("one.txt", "1").has_value());
@@ -65,7 +65,7 @@ TEST(OutputFolder, NamesItsFilesOnlyWhenAllAreComplete) {
   STRCMP_EQUAL("1", content(parent / "a" / "b" / "one.txt").c_str());
 }
 
-TEST(OutputFolder, WhatARunSupersedesStaysUntilItIsComplete) {
+TEST(OutputFolder, SupersededFilesStayUntilTheRunIsComplete) {
   for (const bool completes : {false, true}) {
     std::ofstream(parent / "old.txt") << "0";
     auto folder = OutputFolder::open(parent);
@@ -77,7 +77,7 @@ TEST(OutputFolder, WhatARunSupersedesStaysUntilItIsComplete) {
   }
 }
 
-TEST(OutputFolder, LeavesNothingWhenItIsGivenUp) {
+TEST(OutputFolder, LeavesNothingWhenAbandoned) {
   {
     auto folder = OutputFolder::open(parent / "given-up");
     CHECK(folder->write("one.txt", "1").has_value());
@@ -85,7 +85,7 @@ TEST(OutputFolder, LeavesNothingWhenItIsGivenUp) {
   CHECK_FALSE(fs::exists(parent / "given-up"));
 }
 
-TEST(OutputFolder, LeavesAnEarlierRunsFilesWhenItIsGivenUp) {
+TEST(OutputFolder, KeepsAnEarlierRunsFilesWhenAbandoned) {
   std::ofstream(parent / "one.txt") << "earlier";
   {
     auto folder = OutputFolder::open(parent);
@@ -106,7 +106,7 @@ TEST(OutputFolder, ReportsAFullDiskAndLeavesNothing) {
   CHECK_FALSE(fs::exists(parent / "full"));
 }
 
-TEST(OutputFolder, CannotBeWhereAFileIs) {
+TEST(OutputFolder, CannotReplaceAFile) {
   std::ofstream(parent / "file") << "x";
   const auto folder = OutputFolder::open(parent / "file");
   CHECK_FALSE(folder.has_value());
@@ -114,7 +114,7 @@ TEST(OutputFolder, CannotBeWhereAFileIs) {
   STRCMP_EQUAL("x", content(parent / "file").c_str());
 }
 
-TEST(OutputFolder, CannotBeWhereNothingMayBeWritten) {
+TEST(OutputFolder, CannotBeInAReadOnlyFolder) {
   const auto folder = OutputFolder::open("/proc/supercoil");
   CHECK_FALSE(folder.has_value());
   STRCMP_CONTAINS("/proc/supercoil: cannot be created: ", folder.error().text().c_str());

@@ -43,7 +43,7 @@ TEST_GROUP(Report) {
   }
 };
 
-TEST(Report, AJointsTraceEndsWithItsAntagonist) {
+TEST(Report, AJointsTraceEndsWithTheAntagonistsColumns) {
   Conditions conditions;
   conditions.joint.emplace().antagonist.emplace();
   const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
@@ -59,7 +59,7 @@ TEST(Report, AJointsTraceEndsWithItsAntagonist) {
   CHECK(text.find(",0,0,0.5,12,10,14.5,maximum\n") != std::string::npos);
 }
 
-TEST(Report, ABundlesTraceEndsWithWhatItsMusclesHave) {
+TEST(Report, ABundlesTraceEndsWithItsMusclesColumns) {
   Conditions conditions;
   conditions.companions.resize(2);
   const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
@@ -73,7 +73,7 @@ TEST(Report, ABundlesTraceEndsWithWhatItsMusclesHave) {
   CHECK(text.find(",10,12,14.5\n") != std::string::npos);
 }
 
-TEST(Report, AJointsTraceHasItsAngleAndReferenceByItsLever) {
+TEST(Report, AJointsTraceHasAngleAndReferenceByItsLever) {
   Conditions conditions;
   JointConditions& joint = conditions.joint.emplace();  // a spring opposes the muscle
   const double rad_per_deg = std::numbers::pi / 180.0;
@@ -137,7 +137,7 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
       content(folder / "trace.csv").c_str());
 }
 
-TEST(Report, EveryFaultsNameFitsInATraceForNumpy) {
+TEST(Report, EveryFaultNameFitsInANumpyTrace) {
   const auto writer = write_trace(folder / "trace.npy", TraceFormat::npy, 1);
   TickRecord record;
   for (const FaultInfo& info : all_faults()) {
@@ -153,7 +153,7 @@ TEST(Report, EveryFaultsNameFitsInATraceForNumpy) {
   }
 }
 
-TEST(Report, TraceReportsADiskThatIsFull) {
+TEST(Report, TraceReportsAFullDisk) {
   for (const TraceFormat format : {TraceFormat::csv, TraceFormat::npy}) {
     const auto writer = write_trace("/dev/full", format, 1);
     writer->add({}, std::nullopt);
@@ -165,7 +165,7 @@ TEST(Report, TraceReportsADiskThatIsFull) {
   }
 }
 
-TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {
+TEST(Report, FigureIsDrawnByGnuplotForAnyTitle) {
   const auto drawn =
       draw(one_curve("a \"quoted\" 'title' with \\, $HOME and `touch ran`"), folder / "a b.svg");
   CHECK_TEXT(drawn.has_value(), drawn.has_value() ? "" : drawn.error().text().c_str());
@@ -188,7 +188,7 @@ TEST(Report, FigureMayHaveLogarithmicAxesInOnePanelOnly) {
   }
 }
 
-TEST(Report, PanelDoesNotKeepTheRangeOfTheOneBeforeIt) {
+TEST(Report, PanelDoesNotInheritTheRangeOfThePreviousOne) {
   Figure figure = one_curve("cut");
   figure.panels[0].x_high = 0.5;
   figure.panels.push_back(one_curve("whole").panels[0]);
@@ -207,7 +207,7 @@ TEST(Report, FigureThatCannotBeWrittenIsAnError) {
   CHECK_FALSE(draw(one_curve("nowhere"), folder / "no" / "where.svg").has_value());
 }
 
-TEST(Report, TableQuotesWhatCsvNeedsQuoted) {
+TEST(Report, TableQuotesFieldsAsCsvRequires) {
   const paper::Part part{"t", "i", {{"id", "a,b", "say \"x\"", "m", "1", "2", ""}}, {}};
   STRCMP_EQUAL("id,case,quantity,unit,paper,measured,remark\nid,\"a,b\",\"say \"\"x\"\"\",m,1,2,\n",
                to_csv({part}).c_str());

@@ -27,7 +27,7 @@ const std::string followed =
 
 TEST_GROUP(BundleScenario){};
 
-TEST(BundleScenario, IsOnlyThereWhereItsTableIs) {
+TEST(BundleScenario, IsPresentOnlyWithItsTable) {
   CHECK(read("").start.companions.empty());
   const Scenario two = read("[bundle]");
   UNSIGNED_LONGS_EQUAL(1, two.start.companions.size());
@@ -35,7 +35,7 @@ TEST(BundleScenario, IsOnlyThereWhereItsTableIs) {
   LONGS_EQUAL(8, read("[bundle]\nmuscles = 8").channels());
 }
 
-TEST(BundleScenario, EachMuscleIsAsPlantSaysButForItsOwnTable) {
+TEST(BundleScenario, EachMuscleFollowsPlantExceptForItsOwnTable) {
   const Scenario s = read(
       "[plant]\npreset = \"real\"\nresistance_Ohm = 8.0\n[bundle]\nmuscles = 3\n[bundle.3]\n"
       "heat_transfer_W_per_K = 0.05\n");
@@ -46,7 +46,7 @@ TEST(BundleScenario, EachMuscleIsAsPlantSaysButForItsOwnTable) {
   CHECK(s.start.plant.effects == s.start.companions[0].effects);
 }
 
-TEST(BundleScenario, TheBoardBelievesItToBeOneMuscleWithThePowerOfEach) {
+TEST(BundleScenario, TheBoardModelsItAsOneMuscleWithThePowerOfEach) {
   const Scenario s = read(
       "[bundle]\nmuscles = 3\n[bundle.2]\nforce_per_kelvin_N_per_K = 0.004\nstiffness_N_per_m = "
       "20.0\n");
@@ -71,7 +71,7 @@ TEST(BundleScenario, TheBoardBelievesItToBeOneMuscleWithThePowerOfEach) {
                 0.0);
 }
 
-TEST(BundleScenario, WrongOnesAreToldWhatIsAllowed) {
+TEST(BundleScenario, ErrorsNameWhatIsAllowed) {
   check_bundle_answer("2: bundle.muscles = 9: must be 2 to 8", "[bundle]\nmuscles = 9");
   check_bundle_answer("2: bundle.3: is not a key of [bundle]; its keys are: muscles, 2",
                       "[bundle]\n3.resistance_Ohm = 9.0");
@@ -99,7 +99,7 @@ TEST(BundleScenario, WrongOnesAreToldWhatIsAllowed) {
                       "[bundle]\n[[event]]\nat_s = 1.0\nbundle.muscles = 3");
 }
 
-TEST(BundleScenario, WhatWasLearnedOfEachMuscleIsUsed) {
+TEST(BundleScenario, LearnedValuesOfEachMuscleAreUsed) {
   LearnedMuscles learned;
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
     learned.at(i).emplace();

@@ -12,7 +12,7 @@ using supercoil::test::read;
 
 TEST_GROUP(Events){};
 
-TEST(Events, ChangeWhatTheyNameAndLeaveTheRest) {
+TEST(Events, ChangeOnlyTheirKeys) {
   const Scenario s = read(R"(
 [plant]
 damping_Ns_per_m = 3.0
@@ -30,7 +30,7 @@ sensor.position.noise_rms_m = 1e-4
   DOUBLES_EQUAL(16.0, s.start.plant.parameters.stiffness_N_per_m, 0.0);
 }
 
-TEST(Events, AddUpInTheOrderOfTheirTimes) {
+TEST(Events, AccumulateInTheOrderOfTheirTimes) {
   const Scenario s = read(R"(
 [[event]]
 at_s = 50.0
@@ -46,7 +46,7 @@ plant.damping_Ns_per_m = 1.0
   DOUBLES_EQUAL(1.0, s.events[1].conditions.plant.parameters.damping_Ns_per_m, 0.0);
 }
 
-TEST(Events, DoNotTellTheBoardThatTheMuscleChanged) {
+TEST(Events, DoNotChangeTheBoardsModelOfTheMuscle) {
   const Scenario s = read("[[event]]\nat_s = 1.0\nplant.stiffness_N_per_m = 8.0\n");
   DOUBLES_EQUAL(s.start.controller.dc_gain_m_per_W,
                 s.events[0].conditions.controller.dc_gain_m_per_W, 0.0);
@@ -97,7 +97,7 @@ TEST(Events, InsideAnEventAreRefused) {
                problems("[[event]]\nat_s = 1.0\n[[event.event]]\nat_s = 2.0\n").c_str());
 }
 
-TEST(Events, AtOneTimeAreOneChange) {
+TEST(Events, AtTheSameTimeAreOneChange) {
   const Scenario s = read(R"(
 [[event]]
 at_s = 1.0

@@ -11,7 +11,7 @@ using supercoil::test::read;
 
 TEST_GROUP(JointBoard){};
 
-TEST(JointBoard, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
+TEST(JointBoard, HasTwoChannelsThatMeasureItFromBothSides) {
   const Scenario s = read(
       "[joint]\nco_contraction_W = 0.7\nlever_m = 0.012\n[joint.antagonist]\n"
       "resistance_Ohm = 7.0\nthermal_mass_J_per_K = 0.2\n[sensor.position]\nmin_m = -0.006\n"
@@ -39,7 +39,7 @@ TEST(JointBoard, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
   DOUBLES_EQUAL(agonist.limiter.max_W, antagonist.limiter.max_W, 0.0);
 }
 
-TEST(JointBoard, TheOperatorAsksBothToPullHarder) {
+TEST(JointBoard, TheOperatorRaisesTheCoContraction) {
   const Scenario scenario = read(
       "simulation.duration_s = 12.0\n[joint]\nco_contraction_W = 0.5\n"
       "[joint.antagonist_muscle]\nheat_transfer_W_per_K = 0.0445\n"
@@ -57,7 +57,7 @@ TEST(JointBoard, TheOperatorAsksBothToPullHarder) {
 }
 
 /// The default limit would be half of what they can pull with; the scenario sets what is allowed.
-TEST(JointBoard, TheOperatorMayAskForAllThatTheMusclesCanPullWith) {
+TEST(JointBoard, TheOperatorMaySetTheMaxCoContraction) {
   const Scenario scenario = read(
       "simulation.duration_s = 1.0\n[joint]\n"
       "[[event]]\nat_s = 0.5\njoint.co_contraction_W = 4.0\n");

@@ -34,12 +34,12 @@ TickRecord last_of(Simulation& simulation, Summary& summary) {
 
 TEST_GROUP(JointScenario){};
 
-TEST(JointScenario, IsOnlyThereWhereItsTableIs) {
+TEST(JointScenario, IsPresentOnlyWithItsTable) {
   CHECK_FALSE(read("").start.joint.has_value());
   CHECK(read("[joint]").start.joint.has_value());
 }
 
-TEST(JointScenario, TheBoardBelievesBothMusclesAndTheLever) {
+TEST(JointScenario, TheBoardKnowsBothMusclesAndTheLever) {
   const Scenario s = read(
       "[joint]\nlever_m = 0.02\ninertia_kg_m2 = 4e-5\nspring_Nm_per_rad = 0.004\n"
       "damping_Nms_per_rad = 0.0002\n[joint.antagonist]\nstiffness_N_per_m = 20.0\n"
@@ -55,7 +55,7 @@ TEST(JointScenario, TheBoardBelievesBothMusclesAndTheLever) {
   DOUBLES_EQUAL(0.2, antagonist.thermal_mass_J_per_K, 0.0);
 }
 
-TEST(JointScenario, WhatTheBoardIsToldOfTheMusclesIsLaidOverThat) {
+TEST(JointScenario, AntagonistMuscleKeysOverrideTheMuscleTable) {
   const Scenario s = read(
       "[muscle]\nstiffness_N_per_m = 30.0\nheat_transfer_W_per_K = 0.1\n[joint]\n"
       "[joint.antagonist_muscle]\nstiffness_N_per_m = 40.0\n");
@@ -65,7 +65,7 @@ TEST(JointScenario, WhatTheBoardIsToldOfTheMusclesIsLaidOverThat) {
   DOUBLES_EQUAL(4.0, s.start.antagonist()->muscle.damping_Ns_per_m, 0.0);
 }
 
-TEST(JointScenario, TheAntagonistIsTheAgonistButForWhatIsSaid) {
+TEST(JointScenario, TheAntagonistEqualsTheAgonistExceptForItsKeys) {
   const Scenario s = read(
       "[plant]\npreset = 'real'\nresistance_Ohm = 8.0\n[joint]\n[joint.antagonist]\n"
       "creep_ratio = 0.2\n");
@@ -74,7 +74,7 @@ TEST(JointScenario, TheAntagonistIsTheAgonistButForWhatIsSaid) {
   CHECK(expected == s.start.antagonist()->plant);
 }
 
-TEST(JointScenario, ItsSensorAndReferenceGoToBothSides) {
+TEST(JointScenario, SensorAndReferenceExtendToBothSides) {
   const Conditions c = read("[joint]").start;
   DOUBLES_EQUAL(-0.008, c.position_sensor.min_m, 0.0);
   DOUBLES_EQUAL(0.008, c.position_sensor.range_m, 0.0);
@@ -96,7 +96,7 @@ TEST(JointScenario, AnEventMayChangeLoadsDampingAndTheAntagonist) {
   DOUBLES_EQUAL(32.0, s.events[0].conditions.muscle.stiffness_N_per_m, 0.0);
 }
 
-TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
+TEST(JointScenario, ErrorsNameWhatIsAllowed) {
   check_joint_answer("2: joint.lever_m = 2: must be 0.001 to 1", "[joint]\nlever_m = 2.0");
   check_joint_answer("2: joint.co_contraction_W = 5: must be 0 to 4.5",
                      "[joint]\nco_contraction_W = 5.0");
@@ -121,7 +121,7 @@ TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
       "[joint]\nlever_m = 0.1\ninertia_kg_m2 = 100.0");
 }
 
-TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
+TEST(JointScenario, LearnedValuesOfEitherMuscleAreUsed) {
   const std::string text = "[joint]\nantagonist.resistance_Ohm = 7.0\n";
   LearnedMuscles learned;
   learned[1].emplace();
@@ -160,7 +160,7 @@ TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
       "[joint]\nlever_m = [0.01, 0.02]");
 }
 
-TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
+TEST(JointScenario, AgainstASpringTheLeverMayDependOnTheAngleToo) {
   const Scenario s = read(
       "simulation.duration_s = 20.0\n[joint]\nopposed_by = 'spring'\nspring_Nm_per_rad = 0.006\n"
       "pretension_N = 0.3\nlever_m = [0.015, 0.015, 0.012]\nlever_range_deg = [-40.0, 40.0]\n"
@@ -182,19 +182,19 @@ TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
   DOUBLES_EQUAL(spring_Nm, pull_N * lever.radius_m(angle_rad), 0.02 * spring_Nm);
 }
 
-TEST(JointScenario, AMistakeInPlantIsToldOnce) {
+TEST(JointScenario, AMistakeInPlantIsReportedOnce) {
   check_joint_answer("2: plant.force_ratio = 50: must be 0.1 to 20",
                      "[plant]\nforce_ratio = 50.0\n[joint]\nantagonist.creep_ratio = 0.1\n");
 }
 
-TEST(JointScenario, WhatCannotBeReachedIsRefused) {
+TEST(JointScenario, AnUnreachableReferenceIsRefused) {
   check_joint_answer(
       "2: reference.kind (its default): the reference goes from 0 to 10 mm, but sensor.position "
       "and the joint's end stops allow -7.992 to 7.992 mm",
       "[joint]\n[reference]\noffset_m = 0.005\n");
 }
 
-TEST(JointScenario, WhatIsSolderedCannotChange) {
+TEST(JointScenario, FixedHardwareCannotChange) {
   check_joint_answer("4: event.joint.lever_m: cannot change during a run",
                      "[joint]\n[[event]]\nat_s = 1.0\njoint.lever_m = 0.02");
   check_joint_answer(
@@ -271,7 +271,7 @@ TEST(JointScenario, AWeightOpposesOneMuscle) {
   DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
 }
 
-TEST(JointScenario, WhatIsOfAnotherJointIsRefusedBesideAWeight) {
+TEST(JointScenario, KeysOfOtherJointsAreRefusedWithAWeight) {
   const std::string gravity = "[joint]\nopposed_by = 'gravity'\n";
   check_joint_answer(
       "3: joint.pretension_N = 0.3: follows from weight_Nm, hangs_at_deg and lever_m; remove it",
@@ -283,7 +283,7 @@ TEST(JointScenario, WhatIsOfAnotherJointIsRefusedBesideAWeight) {
                      gravity + "[[event]]\nat_s = 1.0\njoint.hangs_at_deg = -30.0");
 }
 
-TEST(JointScenario, ItsBoardTellsTheLeverOfAJointAgainstASpring) {
+TEST(JointScenario, ItsBoardPublishesTheLeverOfAJointAgainstASpring) {
   const Scenario scenario =
       read("simulation.duration_s = 0.1\n[joint]\nopposed_by = 'spring'\nlever_m = 0.012\n");
   Simulation simulation(scenario);
@@ -292,7 +292,7 @@ TEST(JointScenario, ItsBoardTellsTheLeverOfAJointAgainstASpring) {
   CHECK(std::isnan(channel.known(known_joint_other_node_offset)));
 }
 
-TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
+TEST(JointScenario, KeysOfTwoMusclesAreRefusedWithASpring) {
   const std::string spring = "[joint]\nopposed_by = 'spring'\n";
   const std::string needs = ": needs [joint] opposed_by = \"muscle\"";
   check_joint_answer(("3: joint.co_contraction_W = 1" + needs).c_str(),
@@ -311,7 +311,7 @@ TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
                      "[joint]\n[[event]]\nat_s = 1.0\njoint.opposed_by = 'spring'");
 }
 
-TEST(JointScenario, ASlackCableOfAnEventTurnsItByHalf) {
+TEST(JointScenario, ASlackCableByAnEventTurnsItByHalf) {
   const Scenario s = read(
       "simulation.duration_s = 10.0\noperator.action = 'disarm'\n[joint]\n[[event]]\nat_s = 1.0\n"
       "injected_fault.antagonist_slack_m = 0.003\n");
@@ -341,7 +341,7 @@ TEST(JointScenario, ItsRecordsHaveTheAntagonist) {
                 record.antagonist->temperature_rise_K);
 }
 
-TEST(JointScenario, ATornMuscleTurnsItToTheOthersSide) {
+TEST(JointScenario, ATornMuscleLetsTheOtherTurnIt) {
   for (const bool agonist : {true, false}) {
     const Scenario s = read(std::string("simulation.duration_s = 10.0\noperator.action = 'disarm'\n"
                                         "[joint]\n[[event]]\nat_s = 1.0\ninjected_fault.") +
@@ -354,7 +354,7 @@ TEST(JointScenario, ATornMuscleTurnsItToTheOthersSide) {
   }
 }
 
-TEST(JointScenario, ALoadOfAnEventTurnsIt) {
+TEST(JointScenario, ALoadByAnEventTurnsIt) {
   const Scenario s = read(
       "simulation.duration_s = 10.0\noperator.action = 'disarm'\n[joint]\n[[event]]\nat_s = 1.0\n"
       "joint.load_Nm = 0.001\njoint.antagonist.stiffness_N_per_m = 24.0\n");

@@ -67,7 +67,7 @@ TEST(PlantKeys, AnEventChangesAnyOfThemButNotTheSensor) {
   DOUBLES_EQUAL(-0.01, read("plant.preset = 'real'").start.position_sensor.min_m, 1e-12);
 }
 
-TEST(PlantKeys, WrongOnesAreToldWhatIsAllowed) {
+TEST(PlantKeys, ErrorsNameTheAllowedRange) {
   STRCMP_EQUAL("s.toml:1: plant.force_ratio = 50: must be 0.1 to 20\n",
                problems("plant.force_ratio = 50.0").c_str());
   STRCMP_EQUAL("s.toml:1: plant.preset = 'soft': must be one of: paper, real, real_hard, b, c\n",
@@ -80,7 +80,7 @@ TEST(PlantKeys, WrongOnesAreToldWhatIsAllowed) {
       problems("[sensor.position]\ncount_m = 20e-6\nresolution_bits = 12").c_str());
 }
 
-TEST(PlantKeys, TheAirActsOnlyWhereItIsToldTo) {
+TEST(PlantKeys, TheAirActsOnlyWhenEnabled) {
   const std::string event = "[[event]]\nat_s = 1.0\nambient.air_C = 35.0\n";
   const Scenario stays = read(event);
   CHECK_FALSE(muscle_channel_of(stays, stays.events[0].conditions).effects.any());

@@ -17,7 +17,7 @@ namespace {
 
 TEST_GROUP(ReadScenario){};
 
-TEST(ReadScenario, EmptyTextIsThePapersMuscleUnderTheDefaultController) {
+TEST(ReadScenario, EmptyTextIsThePapersMuscleWithTheDefaultController) {
   const Scenario s = read("");
   CHECK(s.start.plant.parameters == control::PhysicalParameters{});
   CHECK(s.start.controller.kind == control::ControllerKind::mrac);
@@ -26,7 +26,7 @@ TEST(ReadScenario, EmptyTextIsThePapersMuscleUnderTheDefaultController) {
   DOUBLES_EQUAL(0.0060393, s.start.controller.dc_gain_m_per_W, 1e-7);
 }
 
-TEST(ReadScenario, EveryKeyArrivesWhereItBelongs) {
+TEST(ReadScenario, EveryKeySetsItsSetting) {
   const Scenario s = read(R"(
 [simulation]
 duration_s = 12.5
@@ -131,7 +131,7 @@ trusted_error = 0.1
   DOUBLES_EQUAL(30.0, c.estimator.excitation.window_s, 0.0);
 }
 
-TEST(ReadScenario, TroublesThatAreNumbersArriveWhereTheyBelong) {
+TEST(ReadScenario, NumericInjectedFaultsSetTheirSettings) {
   const InjectedFaults injected_faults =
       read("injected_fault = {current_gain = 0.8, supply_gain = 1.1, switch_leak_ratio = 0.05}")
           .start.injected_faults;
@@ -139,7 +139,7 @@ TEST(ReadScenario, TroublesThatAreNumbersArriveWhereTheyBelong) {
         (InjectedFaults{.current_gain = 0.8, .supply_gain = 1.1, .switch_leak_ratio = 0.05}));
 }
 
-TEST(ReadScenario, MracTakesAPresetAndWhatIsWrittenBesideIt) {
+TEST(ReadScenario, MracTakesAPresetAndOverrides) {
   const Scenario s = read(R"(
 [controller]
 kind = "mrac"
@@ -159,12 +159,12 @@ dead_zone_W = 0.001
   DOUBLES_EQUAL(0.001, m.dead_zone_W, 0.0);
 }
 
-TEST(ReadScenario, DefaultReferenceModelIsTheOneThatTheControllerIsMeantFor) {
+TEST(ReadScenario, DefaultReferenceModelIsThatOfTheController) {
   DOUBLES_EQUAL(0.8, read("controller.kind = \"pi\"").start.controller.model.gain, 0.0);
   DOUBLES_EQUAL(16.0, read("controller.kind = \"mrac\"").start.controller.model.gain, 1e-12);
 }
 
-TEST(ReadScenario, EveryBuiltInScenarioIsInOrderAndSaysWhatItShows) {
+TEST(ReadScenario, EveryBuiltInScenarioIsValidAndHasADescription) {
   CHECK(builtin_scenarios().size() >= 5);
   for (const BuiltinScenario& builtin : builtin_scenarios()) {
     const auto scenario = read_scenario(std::string(builtin.name));

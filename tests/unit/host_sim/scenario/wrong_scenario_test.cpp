@@ -31,14 +31,14 @@ TEST(WrongScenario, UnknownTableNamesTheNearestOne) {
                "[plan]\nstiffness_N_per_m = 12.0");
 }
 
-TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
+TEST(WrongScenario, UnknownKeyWithoutANearOneListsTheKeys) {
   check_answer(
       "s.toml:2: sensor.position.colour = 'red': is not a key of [sensor.position]; its keys are: "
       "noise_rms_m, resolution_bits, range_m, count_m, rate_Hz, min_m",
       "[sensor.position]\ncolour = \"red\"");
 }
 
-TEST(WrongScenario, KeyThatWasRenamedNamesTheNewOne) {
+TEST(WrongScenario, RenamedKeyNamesTheNewOne) {
   check_answer("s.toml:1: trouble: was renamed in 0.2.0: write injected_fault",
                "[trouble]\nheater_open = true");
   check_answer("s.toml:3: trouble: was renamed in 0.2.0: write injected_fault",
@@ -57,7 +57,7 @@ TEST(WrongScenario, MissingUnitIsNamed) {
       "[simulation]\nduration = 10.0");
 }
 
-TEST(WrongScenario, NegativeMassIsToldTheRange) {
+TEST(WrongScenario, NegativeMassIsRefusedWithTheRange) {
   check_answer("s.toml:2: plant.moving_mass_kg = -0.09: must be 1e-05 to 1000",
                "[plant]\nmoving_mass_kg = -0.09");
 }
@@ -97,7 +97,7 @@ TEST(WrongScenario, MracByLeastSquaresInFixedPoint) {
       "controller = {kind = 'mrac_ls', arithmetic = 'q8.24'}");
 }
 
-TEST(WrongScenario, APeriodThatIsGivenAndToBeFound) {
+TEST(WrongScenario, PeriodBothGivenAndToBeFound) {
   check_answer("s.toml:1: controller.find_period = true: must be false where period_s is given",
                "controller = {kind = 'learned_ff', period_s = 25.0, find_period = true}");
 }
@@ -174,7 +174,7 @@ TEST(WrongScenario, MracSaysWhichPremiseFails) {
                                .c_str());
 }
 
-TEST(WrongScenario, WhatFixedPointCannotHold) {
+TEST(WrongScenario, ValuesTooLargeForFixedPoint) {
   // Before these were refused, they silently became other controllers than in double.
   for (const char* text : {
            "controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}",
@@ -200,14 +200,14 @@ TEST(WrongScenario, LeastSquaresIsRefusedInFixedPoint) {
       "estimator = {kind = 'least_squares', arithmetic = 'q8.24'}");
 }
 
-TEST(WrongScenario, DefaultThatDoesNotFitIsNamedAsOne) {
+TEST(WrongScenario, AnUnsuitableDefaultIsNamedAsADefault) {
   check_answer(
       "s.toml:1: power.max_W (its default): must not exceed what the supply gives at a duty of 1: "
       "supply_V²/resistance_Ohm = 0.9 W",
       "power = {supply_V = 3.0}");
 }
 
-TEST(WrongScenario, RunWithoutATick) {
+TEST(WrongScenario, RunShorterThanATick) {
   check_answer("s.toml:1: simulation.duration_s = 0.001: must be at least one tick: 1/rate_Hz",
                "simulation = {duration_s = 0.001, rate_Hz = 100.0}");
 }
@@ -219,19 +219,19 @@ TEST(WrongScenario, PwmWithoutAStepInsideTheLimits) {
       "power.pwm_bits = 1");
 }
 
-TEST(WrongScenario, KeyOfTensOfThousandsOfParts) {
+TEST(WrongScenario, KeyWithTensOfThousandsOfParts) {
   std::string text = "a";
   for (int i = 0; i < 40000; ++i)
     text += ".a";
   check_answer("s.toml:1: is longer than 4096 characters", text + " = 1");
 }
 
-TEST(WrongScenario, PolesThatAreNotGiven) {
+TEST(WrongScenario, MissingPoles) {
   check_answer("s.toml:1: reference_model.kind = 'poles': needs poles_rad_per_s = [a, b, c]",
                "reference_model.kind = 'poles'\ncontroller.kind = 'pi'");
 }
 
-TEST(WrongScenario, KeyOfAnotherKindNamesTheKindThatIsMeantByDefault) {
+TEST(WrongScenario, KeyOfAnotherKindNamesTheDefaultKind) {
   STRCMP_CONTAINS(
       "is not a key of [controller] of kind \"mrac\" (its default); its keys are: kind, ",
       problems("[controller]\nproportional_W_per_m = 3.0").c_str());
@@ -239,7 +239,7 @@ TEST(WrongScenario, KeyOfAnotherKindNamesTheKindThatIsMeantByDefault) {
                   problems("[controller]\nkind = 'pi'\ngain = [1.0]").c_str());
 }
 
-TEST(WrongScenario, FileThatIsNotThere) {
+TEST(WrongScenario, MissingFile) {
   const auto scenario = read_scenario("/nowhere/s.toml");
   STRCMP_EQUAL("/nowhere/s.toml: there is no such file\n",
                supercoil::config::to_text(scenario.error()).c_str());
@@ -250,7 +250,7 @@ TEST(WrongScenario, FolderInsteadOfAFile) {
   STRCMP_EQUAL("/tmp: is not a file\n", supercoil::config::to_text(scenario.error()).c_str());
 }
 
-TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
+TEST(WrongScenario, UnknownBuiltInScenario) {
   const auto scenario = read_scenario("sinus");
   STRCMP_EQUAL(
       "sinus: there is no such file, and no built-in scenario has that name; the built-in "

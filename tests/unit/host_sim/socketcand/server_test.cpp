@@ -36,7 +36,7 @@ TEST_GROUP(SocketcandServer) {
   }
 };
 
-TEST(SocketcandServer, APollTakesNoMoreThanABufferOfAClient) {
+TEST(SocketcandServer, APollReadsAtMostOneBufferPerClient) {
   connect();
   server->poll();
   std::string flood;
@@ -51,7 +51,7 @@ TEST(SocketcandServer, APollTakesNoMoreThanABufferOfAClient) {
   LONGS_EQUAL(flood.size() / 12, delivered);
 }
 
-TEST(SocketcandServer, AnOkComesAloneAndWhatIsHeardThenFollowsWithTheNextWord) {
+TEST(SocketcandServer, AnOkIsSentAloneAndFramesFollowWithTheNextWord) {
   connect();
   say("< open can0 >< rawmode >");
   STRCMP_EQUAL("< hi >< ok >< ok >", hear(4).c_str());
@@ -66,7 +66,7 @@ TEST(SocketcandServer, AnOkComesAloneAndWhatIsHeardThenFollowsWithTheNextWord) {
 }
 
 /// Independently of this machine's clock.
-TEST(SocketcandServer, AClientsFrameIsToldByTheBoardsClock) {
+TEST(SocketcandServer, AClientsFrameIsStampedByTheBoardsClock) {
   connect();
   tcp::socket other(io);
   other.connect({boost::asio::ip::address_v4::loopback(), server->port()});

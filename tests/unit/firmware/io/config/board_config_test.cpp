@@ -192,7 +192,7 @@ TEST(BoardConfig, ThresholdsOfASlowBoardLastAtLeastAFewTicks) {
   DOUBLES_EQUAL(0.03, c.settings.channels[0].position.max_age_s, 1e-12);
 }
 
-TEST(BoardConfig, AShortMustLastTwoTicksWhereItsCurrentMayBeStale) {
+TEST(BoardConfig, AShortMustLastTwoTicksWhereItsCurrentMayBeOfAnotherTick) {
   const auto short_s = [](const BoardConfig& c) {
     return c.settings.channels[0].supervision.short_s;
   };
@@ -317,7 +317,7 @@ TEST(BoardConfig, PromisesAnErrorForLearnedFeedforwardOnly) {
   check_says(describe_promises(board, 0)[0], "no error is promised");
 }
 
-TEST(BoardConfig, RecommendsAControllerOrNamesTheOneInUse) {
+TEST(BoardConfig, RecommendsAControllerOrNamesAConfiguredOne) {
   BoardConfig c = read(test::small_board);
   ChannelSettings& channel = c.settings.channels[0];
   const std::string law =

@@ -57,18 +57,18 @@ class Boards(ProgramCase):
         self.assertEqual({int(identifier, 16) & 0x3F for identifier in identifiers}, set(range(1, 4 + lifter_channels)))
         self.assertGreater(lifter_channels, 1)
 
-    def test_what_each_of_several_muscles_can_do_has_its_name(self):
+    def test_the_limits_of_each_of_several_muscles_have_its_name(self):
         for name, force in (("strong", 0.2), ("weak", 0.1)):
             (self.path / f"{name}.toml").write_text(SHORT + f"plant.force_per_kelvin_N_per_K = {force}\n")
         together = self.run_program("run", "strong.toml", "weak.toml", "--no-plot").stdout
-        told = re.split(r"^(\w+, node \d):\n", together, flags=re.M)[1:]
-        self.assertEqual(told[::2], ["strong, node 1", "weak, node 2"])
-        for name, block in zip(("strong", "weak"), told[1::2]):
+        blocks = re.split(r"^(\w+, node \d):\n", together, flags=re.M)[1:]
+        self.assertEqual(blocks[::2], ["strong, node 1", "weak, node 2"])
+        for name, block in zip(("strong", "weak"), blocks[1::2]):
             alone = self.run_program("run", f"{name}.toml", "--no-plot").stdout
             self.assertNotIn(", node", alone)
             self.assertTrue(block.startswith(alone[:alone.index(f"{name}: ")]))
 
-    def test_several_boards_files_have_the_nodes_that_they_say(self):
+    def test_several_board_files_have_their_configured_nodes(self):
         example = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
         joint = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
         (self.path / "a.toml").write_text(re.sub(r"first_node = \d+", "first_node = 5", example))
@@ -80,15 +80,15 @@ class Boards(ProgramCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual({path.name for path in (self.path / "out").iterdir()}, {"can.log", "node-5", "node-20"})
 
-    def test_check_of_several_scenarios_tells_each(self):
+    def test_check_of_several_scenarios_reports_each(self):
         for name in "ab":
             (self.path / f"{name}.toml").write_text(SHORT)
         done = self.run_program("run", "a.toml", "b.toml", "--check")
         self.assertEqual(re.findall("(.*): in order", done.stdout), ["a.toml", "b.toml"])
-        told = json.loads(self.run_program("run", "a.toml", "b.toml", "--check", "--json").stdout)
-        self.assertEqual([each["scenario"] for each in told], ["a", "b"])
+        reports = json.loads(self.run_program("run", "a.toml", "b.toml", "--check", "--json").stdout)
+        self.assertEqual([each["scenario"] for each in reports], ["a", "b"])
 
-    def test_one_node_is_a_run_as_ever(self):
+    def test_one_node_is_an_ordinary_run(self):
         for name, options in (("a", ()), ("b", ("--nodes", 1))):
             self.run_program("run", self.scenario(SHORT), "--out", name, *options)
         for name in ("trace.csv", "can.log", "plot.svg"):
@@ -174,8 +174,8 @@ class Boards(ProgramCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             traces.append((self.path / "out/trace.csv").read_bytes())
         self.assertEqual(*traces)
-        heard = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
-        self.assertEqual(heard & {4, 5, 6, 7, 8}, {6, 7})
+        sent = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+        self.assertEqual(sent & {4, 5, 6, 7, 8}, {6, 7})
 
     def test_a_bundle_under_the_firmware_of_a_boards_own_file(self):
         text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
@@ -189,8 +189,8 @@ class Boards(ProgramCase):
             summary = json.loads((self.path / "out/summary.json").read_text())
             self.assertEqual((summary["controller"], summary["faults"], summary["ticks_outside_temperature_interval"]), ("learned_ff", [], 0))
             self.assertLess(summary["tracking_rms_m"], 100e-6)
-            heard = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
-            self.assertEqual(heard & {1, 2, 3}, {1, 2})
+            sent = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+            self.assertEqual(sent & {1, 2, 3}, {1, 2})
 
     def test_joints_on_one_bus_have_two_nodes_each(self):
         text = "simulation.duration_s = 2.0\n[joint]\n"
@@ -200,8 +200,8 @@ class Boards(ProgramCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(*((self.path / name / "trace.csv").read_bytes() for name in ("alone", "out/node-3")))
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()), ["can.log", "node-1", "node-3"])
-        heard = {int(identifier, 16) for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
-        self.assertEqual({identifier & 0x3F for identifier in heard}, {1, 2, 3, 4})
+        sent = {int(identifier, 16) for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+        self.assertEqual({identifier & 0x3F for identifier in sent}, {1, 2, 3, 4})
 
 
 if __name__ == "__main__":

@@ -32,14 +32,14 @@ class Json(ProgramCase):
         (self.path / "brief.toml").write_text(BRIEF)
         (self.path / "study.toml").write_text(STUDY)
 
-    def told(self, *arguments, status=0):
+    def output_of(self, *arguments, status=0):
         """Standard output is one object, which begins with the keys that all of them have."""
         done = self.run_program(*arguments, "--json")
         self.assertEqual(done.returncode, status, done.stderr)
-        told = json.loads(done.stdout)
-        self.assertEqual(list(told)[:2], ["schema_version", "program_version"])
-        self.assertEqual(told["schema_version"], 1)
-        return told
+        output = json.loads(done.stdout)
+        self.assertEqual(list(output)[:2], ["schema_version", "program_version"])
+        self.assertEqual(output["schema_version"], 1)
+        return output
 
     def assert_rows_are_those_of(self, file, rows, text):
         """Numbers as numbers, flags as flags, and null where the file has nothing or a non-finite number."""
@@ -55,54 +55,54 @@ class Json(ProgramCase):
                 self.assertEqual(row[column], wanted, column)
 
     def test_compare(self):
-        told = self.told("compare", "--controllers", "pi,mrac-a", "--disturbances", "brief.toml,nominal", "--seeds", 1, "--no-plot",
-                         "--out", "c")
-        self.assertEqual((told["folder"], told["runs"]), ("c", 4))
-        self.assert_rows_are_those_of("c/compare.csv", told["rows"], ("controller", "disturbance", "arithmetic", "measure"))
-        self.assertIn(True, [row["met"] for row in told["rows"]])
-        merged = self.told("compare", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
-        self.assertEqual(merged["rows"], told["rows"])
+        output = self.output_of("compare", "--controllers", "pi,mrac-a", "--disturbances", "brief.toml,nominal", "--seeds", 1, "--no-plot",
+                                "--out", "c")
+        self.assertEqual((output["folder"], output["runs"]), ("c", 4))
+        self.assert_rows_are_those_of("c/compare.csv", output["rows"], ("controller", "disturbance", "arithmetic", "measure"))
+        self.assertIn(True, [row["met"] for row in output["rows"]])
+        merged = self.output_of("compare", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
+        self.assertEqual(merged["rows"], output["rows"])
 
     def test_campaign(self):
-        told = self.told("campaign", "study.toml", "--no-plot", "--out", "c")
-        self.assertEqual((told["folder"], told["runs"]), ("c", 8))
-        self.assert_rows_are_those_of("c/campaign.csv", told["rows"], ("controller", "quantity"))
-        merged = self.told("campaign", "study.toml", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
-        self.assertEqual(merged["rows"], told["rows"])
+        output = self.output_of("campaign", "study.toml", "--no-plot", "--out", "c")
+        self.assertEqual((output["folder"], output["runs"]), ("c", 8))
+        self.assert_rows_are_those_of("c/campaign.csv", output["rows"], ("controller", "quantity"))
+        merged = self.output_of("campaign", "study.toml", "--merge", "c/runs.csv", "--no-plot", "--out", "m")
+        self.assertEqual(merged["rows"], output["rows"])
 
     def test_search(self):
-        told = self.told("campaign", "study.toml", "--search", 12, "--no-plot", "--out", "s")
-        self.assertEqual([(row["controller"], row["quantity"], row["max"], row["fault"], row["file"]) for row in told["rows"]],
+        output = self.output_of("campaign", "study.toml", "--search", 12, "--no-plot", "--out", "s")
+        self.assertEqual([(row["controller"], row["quantity"], row["max"], row["fault"], row["file"]) for row in output["rows"]],
                          [(name, *goal, "", f"search-{name}.toml") for name in ("pi", "pd_ff")
                           for goal in (("tracking_rms_m", 1e-3), ("faults", 0))])
-        for row in told["rows"]:
+        for row in output["rows"]:
             self.assertGreaterEqual(row["worst"], 0.0)
             self.assertGreater(row["runs"], 0)
             self.assertTrue((self.path / "s" / row["file"]).exists())
 
     def test_estimators(self):
-        told = self.told("estimators", "--seeds", 1, "--no-plot", "--out", "e")
-        self.assertEqual(told["folder"], "e")
-        self.assert_rows_are_those_of("e/estimators.csv", told["rows"], ("trial", "estimator", "measure"))
+        output = self.output_of("estimators", "--seeds", 1, "--no-plot", "--out", "e")
+        self.assertEqual(output["folder"], "e")
+        self.assert_rows_are_those_of("e/estimators.csv", output["rows"], ("trial", "estimator", "measure"))
 
     def test_reproduce(self):
-        told = self.told("reproduce", "--no-plots", "--out", "r")
+        output = self.output_of("reproduce", "--no-plots", "--out", "r")
         with open(self.path / "r/reproduction.csv") as file:
-            self.assertEqual(told["rows"], list(csv.DictReader(file)))
+            self.assertEqual(output["rows"], list(csv.DictReader(file)))
 
     def test_lists(self):
         for command, lists in (("compare", ("controllers", "disturbances", "measures")), ("campaign", ("studies", "quantities"))):
-            told = self.told(command, "--list")
-            self.assertEqual(list(told)[2:], list(lists))
+            output = self.output_of(command, "--list")
+            self.assertEqual(list(output)[2:], list(lists))
             text = self.run_program(command, "--list").stdout
             for name in lists:
-                self.assertTrue(told[name])
-                for entry in told[name]:
+                self.assertTrue(output[name])
+                for entry in output[name]:
                     self.assertEqual(list(entry), ["name", "description"])
                     self.assertIn(entry["name"], text)
                     self.assertIn(entry["description"], text)
 
-    def test_what_is_wrong_is_told_as_problems(self):
+    def test_errors_are_listed_as_problems(self):
         (self.path / "wrong.toml").write_text(STUDY.replace("runs = 4", "runs = 0"))
         for key, message, arguments in (
                 ("", "pr is none", ("compare", "--controllers", "pr is none")),
@@ -121,13 +121,13 @@ class Json(ProgramCase):
                 self.assertEqual(problem["key"], key)
                 self.assertIn(message, problem["message"])
 
-    def test_a_run_in_real_time_tells_its_summary_at_its_end(self):
+    def test_a_run_in_real_time_prints_its_summary_at_its_end(self):
         with subprocess.Popen([PROGRAM, "run", "bench", "--real-time", "--can", "socketcand:0", "--json", "--out", "live"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.path) as run:
             self.assertRegex(run.stderr.readline(), r"^serving can0 on 127\.0\.0\.1:\d+ by the socketcand protocol\n$")
             run.send_signal(signal.SIGINT)
-            told, _ = run.communicate(timeout=120)
-        self.assertEqual(json.loads(told), json.loads((self.path / "live/summary.json").read_text()))
+            output, _ = run.communicate(timeout=120)
+        self.assertEqual(json.loads(output), json.loads((self.path / "live/summary.json").read_text()))
 
 
 if __name__ == "__main__":

@@ -17,36 +17,36 @@ class Outcome(ProgramCase):
         return done, json.loads((self.path / "out/summary.json").read_text())
 
     def check(self, text):
-        told = self.run_program("run", self.scenario(text), "--check")
-        self.assertEqual(told.returncode, 0, told.stderr)
-        return told.stdout, json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)
+        done = self.run_program("run", self.scenario(text), "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)
 
-    def test_run_tells_beforehand_what_check_does(self):
+    def test_run_starts_with_the_output_of_check(self):
         text = FOLLOWS + "power = {pwm_bits = 8, delay_s = 0.01}\nplant.load_N = 0.05\nsensor.position.min_m = -0.01\n"
         lines = self.check(text)[0].splitlines()[1:]
         for part in ("margin", "bandwidth", "may be armed", "PWM steps", "rests at -3.12 mm", "recommended: ", "reference: promised is at most"):
             self.assertIn(part, "\n".join(lines))
         self.assertEqual(self.run_of(text)[0].stdout.splitlines()[:len(lines)], lines)
 
-    def test_a_run_that_follows_is_compared_with_its_promise(self):
-        told, before = self.check(FOLLOWS)
+    def test_a_run_that_tracks_is_compared_with_its_promise(self):
+        output, before = self.check(FOLLOWS)
         done, summary = self.run_of(FOLLOWS)
         self.assertEqual((done.returncode, summary["did_not_follow_because"], summary["promised_by"]), (0, None, "own"), done.stderr)
         self.assertEqual(summary["promised_rms_m"], before["reference"]["promised_rms_m"])
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it", done.stdout)
 
-    def test_a_reference_that_the_board_refuses_is_told_beforehand(self):
+    def test_a_reference_that_the_board_refuses_is_reported_in_advance(self):
         beyond = SHORT + "reference = {kind = 'sine', offset_m = 0.02, amplitude_m = 0.015}\n"
         board = ("--board", EXAMPLES / "raspberry-pi-pwm-ads1115.toml")
-        told = self.run_program("run", self.scenario(beyond), *board, "--check").stdout
+        output = self.run_program("run", self.scenario(beyond), *board, "--check").stdout
         self.assertIn("\nreference: goes from 5 mm to 35 mm, but the board takes only 0 to 25 mm (limits.max_travel_m) and refuses all else, which ends in "
-                      "command_timeout\n", told)
-        self.assertNotIn("reference: the recommended controller promises", told)
+                      "command_timeout\n", output)
+        self.assertNotIn("reference: the recommended controller promises", output)
         self.assertIn("fault 60 command_timeout", self.run_program("run", "s.toml", *board, *QUIET, "--allow-fault").stdout)
         within = self.check(SHORT)
         self.assertEqual(("refuses" in within[0], within[1]["reference"]["out_of_range"]), (False, ""))
 
-    def test_a_motion_that_did_not_follow_is_a_failure_with_its_reason(self):
+    def test_a_motion_that_did_not_track_is_a_failure_with_its_reason(self):
         done, summary = self.run_of(WEAK)
         self.assertGreater(summary["tracking_rms_m"], 10 * summary["promised_rms_m"])
         self.assertEqual(done.returncode, 1)
@@ -56,12 +56,12 @@ class Outcome(ProgramCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("it did not follow: ", done.stdout)
 
-    def test_a_delay_is_in_what_is_recommended_and_promised(self):
-        told, before = self.check(FOLLOWS + "power.delay_s = 0.04\n")
+    def test_recommendation_and_promise_include_a_delay(self):
+        output, before = self.check(FOLLOWS + "power.delay_s = 0.04\n")
         suits = before["feasibility"]["recommended"]
         self.assertLess(suits["bandwidth_rad_per_s"], 7.9)
         self.assertIsNone(suits["problem"])
-        self.assertIn("with 41 ms of delay, more bandwidth would leave a margin below 0.4", told)
+        self.assertIn("with 41 ms of delay, more bandwidth would leave a margin below 0.4", output)
         late = self.check(FOLLOWS + "power.delay_s = 0.1\n")[0]
         self.assertIn("controller 0 promises no error (its margin is too small); the recommended one promises", late)
         self.assertIn("advice: its power acts 100 ms late, and a probe of the heater takes 50 ms: it ends in heater_open", late)
@@ -78,34 +78,34 @@ class Outcome(ProgramCase):
         self.assertEqual((done.returncode, summary["oscillated_at_s"]), (0, None))
         self.assertLess(summary["tracking_rms_m"], summary["promised_rms_m"])
 
-    def test_power_that_swings_by_noise_is_told_before_and_after(self):
+    def test_power_noise_is_reported_before_and_after_a_run(self):
         noisy = FOLLOWS + "sensor.position.noise_rms_m = 200e-6\n"
-        told, before = self.check(noisy)
+        output, before = self.check(noisy)
         swing_W = before["feasibility"]["controllers"][0]["noise_power_W"]
-        self.assertIn("makes the power swing by", told)
+        self.assertIn("makes the power swing by", output)
         done, summary = self.run_of(noisy)
         self.assertIn("the controller's power swung by", done.stdout)
         self.assertLess(abs(summary["power_noise_W"] / swing_W - 1.0), 0.3, (summary["power_noise_W"], swing_W))
         # The advice does not lead away from the recommended controller.
-        for text in (told, done.stdout):
+        for text in (output, done.stdout):
             self.assertIn("a sensor with less noise reduces it", text)
             self.assertNotIn("lower gains", text)
-        told, _ = self.check(noisy + "controller.bandwidth_rad_per_s = 12.0\n")
-        self.assertIn("lower gains", told)
-        told, before = self.check(FOLLOWS)
-        self.assertNotIn("swing", told)
+        output, _ = self.check(noisy + "controller.bandwidth_rad_per_s = 12.0\n")
+        self.assertIn("lower gains", output)
+        output, before = self.check(FOLLOWS)
+        self.assertNotIn("swing", output)
         self.assertNotIn("swung", self.run_of(FOLLOWS)[0].stdout)
 
-    def test_a_loop_that_oscillates_tells_nothing_of_the_reference(self):
+    def test_an_oscillating_loop_does_not_blame_the_reference(self):
         text = "simulation.duration_s = 40.0\nplant.force_per_kelvin_N_per_K = 0.02\nmuscle.force_per_kelvin_N_per_K = 0.0086\ncontroller = {kind = 'pi', proportional_W_per_m = 4000.0, integral_W_per_m_s = 8000.0}\n"
         done, summary = self.run_of(text, "--allow-fault")
         self.assertIsNotNone(summary["oscillated_at_s"], done.stdout)
         self.assertEqual([summary[key] for key in ("infeasible_ratio", "infeasible_from_s", "infeasible_lasts_s")], [None] * 3)
         self.assertNotIn("the reference asked for more", done.stdout)
 
-    def test_a_law_that_diverges_is_no_reference_that_asks_too_much_and_no_noise(self):
+    def test_a_diverging_law_is_not_reported_as_an_infeasible_reference_or_noise(self):
         text = "simulation.duration_s = 40.0\npower.delay_s = 0.03\ncontroller = {kind = 'mrac', adaptation_scale = 100}\n"
-        told, before = self.check(text)
+        output, before = self.check(text)
         self.assertTrue(before["reference"]["feasible"])
         done, summary = self.run_of(text)
         self.assertEqual((done.returncode, summary["infeasible_ratio"], summary["infeasible_from_s"]), (1, 0, None))
@@ -115,43 +115,43 @@ class Outcome(ProgramCase):
         for other in ("asked for more", "power swung"):
             self.assertNotIn(other, done.stdout + done.stderr)
 
-    def test_power_that_an_infeasible_reference_asks_for_is_no_noise(self):
+    def test_power_for_an_infeasible_reference_is_not_noise(self):
         done, summary = self.run_of("simulation.duration_s = 60.0\nplant.force_per_kelvin_N_per_K = 0.002\n", "--allow-fault")
         self.assertIn("the reference asked for more than the muscle can do", done.stdout)
         self.assertNotIn("power swung", done.stdout)
         # Only the power that was applied counts, not the kilowatts that a law demands.
         self.assertLess(summary["power_noise_W"] or 0.0, 2.25)
 
-    def test_the_promise_is_beside_what_the_sensor_shows(self):
+    def test_the_promise_is_shown_with_the_measured_error(self):
         done, summary = self.run_of(FOLLOWS)
         shown_m = summary["tracking_shown_rms_m"]
         # The sensor's own noise is 10 um.
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; the sensor showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
-    def test_an_identify_that_finds_nothing_is_a_failure_with_its_reason(self):
+    def test_a_failed_identify_is_a_failure_with_its_reason(self):
         weak = "simulation.duration_s = 300.0\noperator.action = 'identify'\nplant.force_per_kelvin_N_per_K = 2e-5\n"
         done, summary = self.run_of(weak)
-        told = summary["mode_result"]["told"]
+        result_text = summary["mode_result"]["told"]
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "too_little_motion"))
-        self.assertIn("too_little_motion: the muscle moved by less than 1 % of its travel", told)
-        self.assertEqual(told.count("too_little_motion"), 1)
-        self.assertTrue(told.endswith("(docs/running.md#commands)"))
-        self.assertIn("the last identify or calibrate: " + told, done.stdout)
-        self.assertIn("identify or calibrate found nothing: " + told, done.stderr)
+        self.assertIn("too_little_motion: the muscle moved by less than 1 % of its travel", result_text)
+        self.assertEqual(result_text.count("too_little_motion"), 1)
+        self.assertTrue(result_text.endswith("(docs/running.md#commands)"))
+        self.assertIn("the last identify or calibrate: " + result_text, done.stdout)
+        self.assertIn("identify or calibrate found nothing: " + result_text, done.stderr)
         self.assertEqual(self.run_of(weak, "--allow-fault")[0].returncode, 0)
         done, summary = self.run_of("simulation.duration_s = 5.0\noperator.action = 'identify'\n")
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "running"))
         self.assertIn("running: it has not ended yet; give it a longer simulation.duration_s", done.stderr)
 
-    def test_a_fault_is_told_with_what_was_measured(self):
+    def test_a_fault_is_reported_with_the_measured_value(self):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
         fault = summary["faults"][0]
         self.assertGreater(fault["limit"], fault["measured"])
         self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (docs/faults/heater_open.md)", fault["told"])
         self.assertIn(fault["told"] + "\n", done.stdout)
 
-    def test_json_is_all_that_programs_get(self):
+    def test_with_json_only_json_is_printed(self):
         done, summary = self.run_of(SHORT, "--json")
         self.assertEqual(json.loads(done.stdout), summary)
         nodes = self.run_program("run", "s.toml", *QUIET, "--nodes", "2", "--json")

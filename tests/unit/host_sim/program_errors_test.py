@@ -15,12 +15,12 @@ from sim_program import EXAMPLES, PROGRAM, SHORT, ProgramCase
 
 
 class Errors(ProgramCase):
-    def test_learned_in_a_folder_that_is_not_there_is_wrong_input(self):
+    def test_learned_in_a_missing_folder_is_wrong_input(self):
         done = self.run_program("run", self.scenario(SHORT), "--learned", "nowhere")
         self.assertEqual(done.returncode, 2)
         self.assertIn("nowhere", done.stderr)
 
-    def test_as_many_nodes_as_the_bus_has_room_for(self):
+    def test_the_number_of_nodes_is_limited_by_the_bus(self):
         scenario = self.scenario(SHORT)
         for nodes in (0, 9):
             self.check_refused(f"--nodes: Value {nodes} not in range 1 to 8", "run", scenario, "--out", "out", "--nodes",
@@ -52,7 +52,7 @@ class Errors(ProgramCase):
             with self.subTest(text):
                 self.check_refused(message, "run", self.scenario(text), "--out", "out")
 
-    def test_a_scenario_that_is_not_there(self):
+    def test_a_missing_scenario(self):
         self.check_refused("none.toml: there is no such file", "run", "none.toml", "--out", "out")
 
     def test_an_output_folder_that_cannot_be_written(self):
@@ -64,10 +64,10 @@ class Errors(ProgramCase):
 
     def test_scenarios_that_cannot_share_a_bus(self):
         (self.path / "a.toml").write_text(SHORT)
-        for text, told in (("simulation.duration_s = 3.0\n", "b.toml: simulation.duration_s = 3: must be 2, as in a: "),
-                           (SHORT + "simulation.rate_Hz = 500.0\n", "b.toml: simulation.rate_Hz = 500: must be 1000, as in a: ")):
+        for text, message in (("simulation.duration_s = 3.0\n", "b.toml: simulation.duration_s = 3: must be 2, as in a: "),
+                              (SHORT + "simulation.rate_Hz = 500.0\n", "b.toml: simulation.rate_Hz = 500: must be 1000, as in a: ")):
             (self.path / "b.toml").write_text(text)
-            self.check_refused(told, "run", "a.toml", "b.toml", "--out", "out")
+            self.check_refused(message, "run", "a.toml", "b.toml", "--out", "out")
         (self.path / "b.toml").write_text(SHORT)
         both = ("run", "a.toml", "b.toml", "--out", "out")
         self.check_refused("--nodes 2: applies to one scenario, but there are 2 scenarios", *both, "--nodes", 2)
@@ -79,24 +79,24 @@ class Errors(ProgramCase):
         self.check_refused("can.first_node = 1: is node 1, and ", *both, "--board", example, "--board", example)
         self.check_refused("would be node 64, but the highest node is 63", "run", *["a.toml"] * 64, "--out", "out")
 
-    def test_a_board_and_a_scenario_that_do_not_go_together(self):
+    def test_a_board_and_a_scenario_that_do_not_match(self):
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
-        for text, options, told in (
+        for text, options, message in (
                 (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside the board's supply.min_V to max_V, 10.8 to 13.2"),
                 (SHORT + "[[event]]\nat_s = 1.0\ncontroller.kind = 'pi'\n", [], "event at 1 s changes [controller]"),
                 (SHORT, ["--channel", 3], "--channel 3: must be 1 to 2, the channels of ")):
             done = self.run_program("run", self.scenario(text), "--board", example, *options, "--out", "out")
             self.assertEqual(done.returncode, 2)
-            self.assertIn(told, done.stderr)
+            self.assertIn(message, done.stderr)
             self.assertFalse((self.path / "out").exists())
         (self.path / "board.toml").write_text("[bord]\n")
         done = self.run_program("run", self.scenario(SHORT), "--board", "board.toml")
         self.assertEqual(done.returncode, 2)
         self.assertIn("board.toml:1: bord", done.stderr)
 
-    def test_a_joint_and_a_board_that_do_not_go_together(self):
+    def test_a_joint_and_a_board_that_do_not_match(self):
         pair, alone = (EXAMPLES / f"{name}.toml" for name in ("joint-as5600-ads1115", "raspberry-pi-pwm-ads1115"))
-        for text, board, told in (
+        for text, board, message in (
                 ("", pair, "channel 2 of the board's file turns a joint: the scenario needs a [joint] with opposed_by = \"muscle\""),
                 ("joint.opposed_by = 'spring'\n", pair, "channel 2 of the board's file turns a joint"),
                 ("[joint]\n[[event]]\nat_s = 1.0\njoint.co_contraction_W = 4.0\n", pair,
@@ -105,34 +105,34 @@ class Errors(ProgramCase):
                 ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015"),
                 ("[joint]\nlever_m = [0.012, 0.015]\nlever_range_deg = [-20.0, 20.0]\n", pair,
                  "joint.lever_m = [0.012, 0.015] over -20 to 20 deg is not the board's, 0.015")):
-            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")
+            self.check_refused(message, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")
         finger = self.path / "finger.toml"
         finger.write_text(alone.read_text() + '\n[[joint]]\nopposed_by = "spring"\nagonist = 1\nlever_m = 0.015\n')
-        for text, told in (
+        for text, message in (
                 ("", "channel 1 of the board's file turns a joint alone: the scenario needs a [joint] with opposed_by = \"spring\""),
                 ("[joint]\nopposed_by = 'spring'\nlever_m = 0.02\n", "joint.lever_m = 0.02 is not the board's, 0.015"),
                 ("[joint]\n", "the scenario has a [joint] of two muscles, but channel 1 of the board's file is in no [[joint]]")):
-            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
+            self.check_refused(message, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
         finger.write_text(finger.read_text().replace('"spring"', '"gravity"') + "weight_Nm = 0.001\nhangs_at_deg = -60\n")
         self.check_refused("the scenario needs a [joint] with opposed_by = \"gravity\"", "run", self.scenario(SHORT), "--board", finger, "--out", "out")
 
-    def test_a_bundle_and_a_board_that_do_not_go_together(self):
+    def test_a_bundle_and_a_board_that_do_not_match(self):
         alone = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
         pair = self.path / "bundle.toml"
         text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
         pair.write_text(text[:text.index("[[joint]]")] + "[[bundle]]\nchannels = [1, 2]\n")
-        for text, board, told in (
+        for text, board, message in (
                 ("", pair, "channel 1 of the board's file is in a [[bundle]] of 2 muscles, but the scenario has no [bundle]"),
                 ("bundle.muscles = 3\n", pair, "is in a [[bundle]] of 2 muscles, but the scenario has a [bundle] of 3"),
                 ("[bundle]\n", alone, "channel 1 of the board's file is in no [[bundle]], but the scenario has a [bundle] of 2")):
-            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--out", "out")
+            self.check_refused(message, "run", self.scenario(SHORT + text), "--board", board, "--out", "out")
 
     def test_a_window_outside_the_run(self):
         for window in ["1:99", "2:1", "x:y", "5"]:
             self.check_refused("must be FROM:TO", "run", self.scenario(SHORT), "--out", "out",
                                "--window", window)
 
-    def test_what_is_wrong_with_a_check_is_told_programs(self):
+    def test_errors_of_a_check_have_a_json_form(self):
         board = self.path / "board.toml"
         board.write_text("[bord]\n")
         right = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
@@ -160,7 +160,7 @@ class Errors(ProgramCase):
         self.assertEqual(self.run_program().returncode, 2)
         self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
 
-    def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
+    def test_a_misspelt_name_suggests_the_nearest_one(self):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is not a command; the commands are: run, page, reproduce, ", "fly")
         self.check_refused("sin: there is no such file, and no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
@@ -175,7 +175,7 @@ class Errors(ProgramCase):
         self.assertEqual(done.stderr, "supercoil-sim: out/trace.csv: cannot be written: File too large\n")
         self.assertFalse((self.path / "out").exists())
 
-    def test_a_plot_that_the_disk_does_not_hold_is_left_out(self):
+    def test_a_plot_too_large_for_the_disk_is_left_out(self):
         for bytes_left, why in ((50000, "plot.svg.part.gnuplot: cannot be written"), (350000, "gnuplot could not write all of it")):
             def small_disk():
                 resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_left, bytes_left))
@@ -185,7 +185,7 @@ class Errors(ProgramCase):
             self.assertIn(why, done.stderr)
             self.assertEqual([file.name for file in (self.path / "out").iterdir()], ["summary.json"])
 
-    def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):
+    def test_a_killed_run_keeps_an_earlier_result_and_the_next_run_cleans_up(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
         earlier = (self.path / "out/trace.csv").read_bytes()
         running = self.start_long_run()
@@ -196,7 +196,7 @@ class Errors(ProgramCase):
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
                          ["can.log", "summary.json", "trace.csv"])
 
-    def test_without_gnuplot_the_results_are_kept_and_the_picture_is_missed(self):
+    def test_without_gnuplot_the_results_are_kept_without_the_plot(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out",
                                 env={"PATH": "/nowhere"})
         self.assertEqual(done.returncode, 0)
@@ -232,7 +232,7 @@ class Errors(ProgramCase):
                                      "faults are kept\n$")
             self.assertFalse((self.path / "out").exists())
 
-    def test_on_a_terminal_a_run_in_real_time_shows_how_far_it_is(self):
+    def test_on_a_terminal_a_run_in_real_time_shows_its_progress(self):
         self.scenario("simulation.duration_s = 86400.0\n")
         screen, terminal = pty.openpty()
         running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--real-time"], cwd=self.path,
@@ -246,7 +246,7 @@ class Errors(ProgramCase):
         os.close(screen)
         self.assertRegex(seen, r"\r\x1b\[Ks: 0 %  \d+ s of 86400 s simulated, \d+ min left$")
 
-    def test_on_a_terminal_the_message_of_an_interruption_has_a_line_of_its_own(self):
+    def test_on_a_terminal_the_message_of_an_interruption_has_its_own_line(self):
         self.scenario("simulation.duration_s = 20000.0\n")
         screen, terminal = pty.openpty()
         running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot", "--no-trace", "--no-can"],

@@ -13,7 +13,7 @@ from sim_program import EXAMPLES, PROGRAM, SHORT, ProgramCase
 
 
 class Results(ProgramCase):
-    def test_a_fault_is_told_summarised_and_recorded(self):
+    def test_a_fault_is_printed_summarised_and_recorded(self):
         text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ninjected_fault.heater_open = true\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
         self.assertEqual((done.returncode, done.stderr),
@@ -29,11 +29,11 @@ class Results(ProgramCase):
         self.assertGreater(len(recording), 11000 * 112)
         self.assertLess(len(recording), 11002 * 112 + 4096)
 
-    def test_the_exit_status_tells_whether_anything_was_followed(self):
+    def test_the_exit_status_shows_whether_any_motion_was_tracked(self):
         options = ["--out", "out", "--no-plot", "--no-trace", "--no-can"]
         broken = "simulation.duration_s = 3.0\n[[event]]\nat_s = 1.0\ninjected_fault.heater_open = true\n"
         mended = broken + "[[event]]\nat_s = 2.0\nreset = true\ninjected_fault.heater_open = false\n"
-        for text, allowed, status, told in (
+        for text, allowed, status, message in (
                 (broken, False, 1, "ended in fault 20 heater_open"), (broken, True, 0, "ended in fault 20 heater_open"),
                 (mended, False, 0, ""), (SHORT + "injected_fault.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
                 (SHORT + "simulation.rate_Hz = 100.0\ncontroller.kind = 'pi'\nthermal.transfer_ratio = [0.01, 2.2]\n"
@@ -44,14 +44,14 @@ class Results(ProgramCase):
                  "never armed: [operator] action is none or disarm at the start, and the operator arms only there")):
             done = self.run_program("run", self.scenario(text), *options, *["--allow-fault"] * allowed)
             self.assertEqual(done.returncode, status, done.stderr)
-            self.assertIn(told, done.stderr if status else done.stdout)
+            self.assertIn(message, done.stderr if status else done.stdout)
             summary = json.loads((self.path / "out/summary.json").read_text())
             why = summary["never_armed_because"]
             self.assertEqual((summary["armed"], f"never armed: {why}" in done.stderr + done.stdout), (why is None, why is not None))
             for fault in summary["faults"]:
                 self.assertEqual(fault["page"], f"docs/faults/{fault['name']}.md")
 
-    def test_a_first_motion_tells_whether_it_came_to_its_end_and_kept_its_promise(self):
+    def test_a_first_motion_reports_whether_it_ended_and_kept_its_promise(self):
         def run(duration_s):
             text = f"simulation.duration_s = {duration_s}\noperator.action = 'first_motion'\ncontroller.kind = 'learned_ff'\n"
             return self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
@@ -61,7 +61,7 @@ class Results(ProgramCase):
         self.assertEqual((whole.returncode, whole.stderr), (0, ""))
         self.assertRegex(whole.stdout, r"\nfirst motion: followed within [\d.]+ um rms; the promise of [\d.]+ um is kept\n")
 
-    def test_the_share_of_ticks_at_each_limit_is_told(self):
+    def test_the_ratio_of_ticks_at_each_limit_is_printed(self):
         done = self.run_program("run", self.scenario(SHORT + "power.max_W = 0.5\n"), "--out", "out", "--no-plot")
         with open(self.path / "out/trace.csv") as file:
             limits = [row["limited_by"] for row in csv.DictReader(file)]
@@ -71,7 +71,7 @@ class Results(ProgramCase):
         self.assertEqual(line[0], f"{100 - limits.count('nothing') / 20:.1f}")
         self.assertEqual(sorted(line[1].split(", ")), sorted(shares.values()))
 
-    def test_what_is_learned_is_kept_and_used_by_the_next_run(self):
+    def test_learned_values_are_stored_and_used_by_the_next_run(self):
         (self.path / "memory").mkdir()
         text = ("simulation.duration_s = 82.0\noperator.action = 'identify'\n"
                 "muscle.stiffness_N_per_m = 22.0\n")
@@ -87,20 +87,20 @@ class Results(ProgramCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("memory/learned-1.toml:", done.stderr)
 
-    def test_what_is_learned_of_both_muscles_of_a_joint_is_kept(self):
+    def test_learned_values_of_both_muscles_of_a_joint_are_stored(self):
         (self.path / "memory").mkdir()
         text = "simulation.duration_s = 240.0\noperator.action = 'identify'\n[joint]\nantagonist.force_per_kelvin_N_per_K = 0.01\n"
         for extra in ([], ["--board", EXAMPLES / "joint-as5600-ads1115.toml"]):
             done = self.run_program("run", self.scenario(text), "--out", "out", "--learned", "memory", "--no-plot", "--no-trace", "--quiet", *extra)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             summary = json.loads((self.path / "out/summary.json").read_text())
-            for channel, told in ((1, "learned"), (2, "learned_antagonist")):
+            for channel, key in ((1, "learned"), (2, "learned_antagonist")):
                 stored = tomllib.loads((self.path / f"memory/learned-{channel}.toml").read_text())
-                self.assertEqual(stored["muscle"]["stiffness_N_per_m"], summary[told]["stiffness_N_per_m"])
-                self.assertAlmostEqual(summary[told]["stiffness_N_per_m"], 32.0, delta=3.0)
+                self.assertEqual(stored["muscle"]["stiffness_N_per_m"], summary[key]["stiffness_N_per_m"])
+                self.assertAlmostEqual(summary[key]["stiffness_N_per_m"], 32.0, delta=3.0)
         self.assertEqual(stored["version"], 2)
 
-    def test_what_was_learned_outlives_a_run_that_is_killed_or_interrupted(self):
+    def test_learned_values_outlive_a_killed_or_interrupted_run(self):
         self.scenario("simulation.duration_s = 200000.0\noperator.action = 'calibrate'\n")
         for end in (signal.SIGKILL, signal.SIGINT, signal.SIGTERM):
             memory = self.path / f"memory-{end}"
@@ -117,7 +117,7 @@ class Results(ProgramCase):
                 self.assertTrue(errors.endswith("; only recordings of faults and learned sets are kept\n"), errors)
             self.assertEqual(tomllib.loads((memory / "learned-1.toml").read_text())["version"], 1)
 
-    def test_a_run_that_cannot_store_what_was_learned_says_so_and_fails(self):
+    def test_a_run_that_cannot_store_learned_values_reports_it_and_fails(self):
         memory = self.path / "memory"
         memory.mkdir()
         (memory / "learned-1.toml.new").mkdir()
@@ -164,7 +164,7 @@ class Results(ProgramCase):
                          "--no-can")
         self.assertEqual([p.name for p in (self.path / "none").iterdir()], ["summary.json"])
 
-    def test_a_run_in_real_time_has_the_same_exit_status_where_something_is_asked_for(self):
+    def test_a_run_in_real_time_has_the_same_exit_status_when_commanded(self):
         broken = "simulation.duration_s = 1.5\ninjected_fault.heater_open = true\n"
         for text, options, status in ((broken, [], 1), (broken, ["--allow-fault"], 0),
                                       ("simulation.duration_s = 0.5\n", [], 0),
@@ -173,7 +173,7 @@ class Results(ProgramCase):
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertEqual("fault 20 heater_open" in done.stderr, status == 1)
 
-    def test_a_loop_that_oscillates_is_told_with_its_period(self):
+    def test_an_oscillating_loop_is_reported_with_its_period(self):
         text = ("simulation.duration_s = 60.0\nplant.damping_Ns_per_m = 0.12\nmuscle.damping_Ns_per_m = 0.12\n"
                 "controller = {kind = 'adaptive_ff', slow_when_oscillating = false}\n")
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
@@ -181,21 +181,21 @@ class Results(ProgramCase):
         self.assertAlmostEqual(summary["oscillation_period_s"], 0.5, delta=0.2)
         self.assertIn(f"with a period of {summary['oscillation_period_s']:.2g} s", done.stderr)
 
-    def test_a_run_in_real_time_says_how_far_it_came(self):
+    def test_a_run_in_real_time_reports_how_far_it_got(self):
         self.scenario("simulation.duration_s = 86400.0\n")
         running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--real-time"], cwd=self.path,
                                    stdout=subprocess.PIPE, text=True)
         running.stdout.readline()
         time.sleep(0.5)
         running.send_signal(signal.SIGINT)
-        told = running.communicate()[0]
+        output = running.communicate()[0]
         summary = json.loads((self.path / "out/summary.json").read_text())
         self.assertEqual(summary["window_s"][0], 0)
         self.assertAlmostEqual(summary["window_s"][1], summary["ticks"] / 1000)
-        self.assertIn(f"\nended at {summary['ticks'] / 1000:g} s of 86400 s\n", told)
-        self.assertIn(f"(0 to {summary['ticks'] / 1000:g} s)", told)
+        self.assertIn(f"\nended at {summary['ticks'] / 1000:g} s of 86400 s\n", output)
+        self.assertIn(f"(0 to {summary['ticks'] / 1000:g} s)", output)
 
-    def test_a_power_that_is_no_number_is_not_silent(self):
+    def test_a_power_of_nan_is_reported(self):
         done = self.run_program("run", self.scenario(
             SHORT + "controller = {p0_rad_per_s = -1000.0, accept_failed_premises = true}"),
             "--out", "out", "--no-plot")
@@ -208,7 +208,7 @@ class Results(ProgramCase):
         self.assertEqual(self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--quiet").returncode, 0)
         return json.loads((self.path / "out/summary.json").read_text())
 
-    def test_summary_says_what_was_run_and_which_results_belong_together(self):
+    def test_summary_identifies_the_run_and_its_results(self):
         summary = self.summary_of(SHORT)
         version = self.run_program("--version").stdout.strip()
         self.assertEqual((summary["schema_version"], summary["program_version"], summary["seed"]), (5, version, 1))
@@ -226,7 +226,7 @@ class Results(ProgramCase):
         self.assertEqual(found[0], found[1])
         self.assertNotEqual(found[0], found[2])
 
-    def test_summary_has_the_share_of_ticks_at_each_limit(self):
+    def test_summary_has_the_ratio_of_ticks_at_each_limit(self):
         summary = self.summary_of(SHORT + "power.max_W = 0.01\n")
         self.assertGreater(summary["limited_by_ratio"]["maximum"], 0.5)
         self.assertLessEqual(sum(summary["limited_by_ratio"].values()), 1.0)
@@ -242,8 +242,8 @@ class Results(ProgramCase):
         self.assertRegex(checked.stdout, r"\nmuscle: controller 0: margin 0\.\d+ once adapted, holds if no parameter moves by more than")
         for gains, delay in ((20000, 0.04), (100000, 0.0)):
             unstable = f'controller = {{kind = "pi", proportional_W_per_m = {gains}, integral_W_per_m_s = 20000}}\npower.delay_s = {delay}\n'
-            told = self.run_program("run", self.scenario(SHORT + unstable), "--check").stdout
-            self.assertRegex(told, r"\nmuscle: controller 0: is unstable on this muscle with [\d.]+ ms of delay: lower its gains")
+            output = self.run_program("run", self.scenario(SHORT + unstable), "--check").stdout
+            self.assertRegex(output, r"\nmuscle: controller 0: is unstable on this muscle with [\d.]+ ms of delay: lower its gains")
         listed = self.run_program("list")
         self.assertIn("sine", listed.stdout)
         self.assertIn("printed", listed.stdout)

@@ -70,7 +70,7 @@ class Identify(unittest.TestCase):
         self.assertTrue(done.stderr.startswith(f"supercoil: r.csv:{line}: "), done.stderr)
         self.assertIn(text, done.stderr)
 
-    def test_a_trace_gives_the_muscle_that_was_simulated(self):
+    def test_a_trace_gives_the_simulated_muscle(self):
         found = json.loads(self.identify(self.trace, "--json", "--stiffness", 25, "--thermal-mass", 0.25).stdout)
         self.assertTrue(found["is_muscle"])
         self.assertEqual(found["chosen"], "linear")
@@ -107,7 +107,7 @@ class Identify(unittest.TestCase):
         self.identify(self.trace, "--plot", "p.svg", "--from", 10, "--to", 90)
         self.assertIn("measured − predicted", (self.path / "p.svg").read_text())
 
-    def test_spans_are_those_that_were_asked_for(self):
+    def test_spans_are_as_requested(self):
         found = json.loads(self.identify(self.trace, "--json", "--fit", "40:90", "--judge", "5:35").stdout)
         self.assertEqual((found["fitted_s"], found["unseen_s"]), ([40, 90], [5, 35]))
         for wrong, text in ((("--fit", "40"), "--fit 40: must be FROM:TO"),
@@ -131,7 +131,7 @@ class Identify(unittest.TestCase):
         done = self.identify(name, "--bridge-gaps", "--json")
         self.assertIn("gap.csv:502: rows are missing in 1 places", done.stderr)
 
-    def test_a_wire_that_transforms_is_no_muscle(self):
+    def test_a_wire_with_a_phase_transformation_is_not_a_muscle(self):
         heat, rows = 0.0, []
         for k in range(6000):
             power = 4.0 if 500 <= k < 2500 or 3800 <= k < 5000 else 0.0
@@ -152,7 +152,7 @@ class Identify(unittest.TestCase):
         # In the sample the power never moves the muscle: the checks must report that.
         self.assertIn("flight-1.scfr:", self.identify("flight-1.scfr", "--channel", 1, status=2).stderr)
 
-    def test_the_recording_is_never_written_over(self):
+    def test_the_recording_is_never_overwritten(self):
         name = self.write("r.csv", "time_s,position_m,power_W", self.samples())
         for option in ("--muscle", "--plot"):
             self.assertIn("is the recording itself", self.identify(name, option, name, status=2).stderr)

@@ -48,7 +48,7 @@ class Doctor(unittest.TestCase):
         self.assertEqual(len(names), len(set(names)))
         return {finding["what"]: finding for finding in report["findings"]}
 
-    def test_every_device_that_is_missing_is_named_with_where_it_was_looked_for(self):
+    def test_every_missing_device_is_named_with_its_path(self):
         found = self.findings()
         for what in ("heartbeat", "stop_circuit", "light", "channel 1, enable", "channel 4, enable"):
             self.assertEqual(found[what]["severity"], "problem")
@@ -62,7 +62,7 @@ class Doctor(unittest.TestCase):
                       found["watchdog"]["found"])
         self.assertIn("by the configuration; not measured", found["bus i2c-1"]["found"])
 
-    def test_what_needs_no_device(self):
+    def test_checks_without_a_device(self):
         found = self.findings()
         for what in ("kernel", "real-time share", "priority", "other programs", "locked memory", "deep sleep",
                      "frequency", "processors"):
@@ -79,7 +79,7 @@ class Doctor(unittest.TestCase):
                 self.assertRegex(after, "^         what to do: .")
         self.assertRegex(lines[-1], r": \d+ problems, \d+ warnings?, \d+ in order$")
 
-    def test_beside_a_daemon_no_device_is_touched(self):
+    def test_no_device_is_touched_while_a_daemon_runs(self):
         with open(self.path / "lock", "w") as lock:
             lock.write("4711\n")
             lock.flush()
@@ -97,7 +97,7 @@ class Doctor(unittest.TestCase):
         self.assertIn("none/lock: the lock file cannot be created", found["devices"]["found"])
         self.assertNotIn("heartbeat", found)
 
-    def test_warnings_alone_are_no_failure(self):
+    def test_warnings_alone_are_not_a_failure(self):
         text = (self.path / "b.toml").read_text()
         (self.path / "b.toml").write_text("".join(
             line for line in text.splitlines(keepends=True) if not line.startswith("watchdog")))
@@ -112,7 +112,7 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found["CAN no-can6"]["severity"], "problem")
         self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, without commands; the limit is 50.0 %$")
 
-    def test_a_can_interface_only_when_it_is_asked_for(self):
+    def test_a_can_interface_is_checked_only_on_request(self):
         self.assertNotIn("CAN", " ".join(self.findings()))
         found = self.findings("--can", "no-can7")["CAN no-can7"]
         self.assertEqual(found["severity"], "problem")
@@ -126,7 +126,7 @@ class Doctor(unittest.TestCase):
         self.assertIn(f"on Debian {package}:", found["remedy"])
 
     @unittest.skipIf(pathlib.Path("/etc/supercoil/board.toml").exists(), "this machine has one")
-    def test_without_a_configuration_it_looks_at_the_machine_and_points_to_the_examples(self):
+    def test_without_a_configuration_it_checks_the_machine_and_names_the_examples(self):
         done = subprocess.run([PROGRAM, "doctor", "--json"], capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (1, ""))
         found = {finding["what"]: finding for finding in json.loads(done.stdout)["findings"]}
@@ -138,8 +138,8 @@ class Doctor(unittest.TestCase):
         self.assertIn("this machine: 1 problem, ", subprocess.run([PROGRAM, "doctor"], capture_output=True, text=True).stdout)
         for arguments in (("--config", "none.toml"), ("--config", "none.toml", "--json")):
             done = subprocess.run([PROGRAM, "doctor", *arguments], capture_output=True, text=True)
-            told = json.dumps({"error": done.stderr}, separators=(",", ":")) + "\n" if "--json" in arguments else ""
-            self.assertEqual((done.returncode, done.stdout), (2, told))
+            expected = json.dumps({"error": done.stderr}, separators=(",", ":")) + "\n" if "--json" in arguments else ""
+            self.assertEqual((done.returncode, done.stdout), (2, expected))
 
     def test_a_wrong_configuration(self):
         (self.path / "b.toml").write_text("nonsense")

@@ -71,16 +71,16 @@ class Log(unittest.TestCase):
                                 "margin_selector": "9", "margin_used": "", "gain_selector": "reference", "gain": "",
                                 "multiplexed_selector": "35", "multiplexed_value": "4"})
 
-    def test_times_and_channel_are_chosen(self):
+    def test_times_and_channel_can_be_selected(self):
         rows = self.rows("--from", "-0.5", "--to", "0.25", "--channel", "2")
         self.assertEqual({r["channel"] for r in rows}, {"2"})
         self.assertEqual([float(r["time_s"]) for r in rows], [round(i / 100, 2) for i in range(-50, 26)])
 
-    def test_the_gap_is_in_the_times(self):
+    def test_a_gap_shows_in_the_times(self):
         times = [float(r["time_s"]) for r in self.rows("--channel", 1)]
         self.assertEqual([(a, b) for a, b in zip(times, times[1:]) if b - a > 0.011], [(-4.51, -4.0)])
 
-    def test_a_file_gets_the_same(self):
+    def test_output_to_a_file_is_the_same(self):
         printed = self.log("r.scfr").stdout
         done = self.log("r.scfr", "--out", "r.csv")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
@@ -146,14 +146,14 @@ class Log(unittest.TestCase):
             self.assertEqual([message for _, _, message in reader.iter_messages(log_time_order=False)],
                              [message for _, _, message in messages])
 
-    def test_mcap_tells_units(self):
+    def test_mcap_has_units(self):
         self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)
         with open(self.path / "r.mcap", "rb") as file:
             schemas = {channel.topic: json.loads(schema.data)["properties"]
                        for schema, channel, _ in mcap.reader.NonSeekingReader(file).iter_messages()}
         for topic in ("/channel_1", "/channel_2"):
-            told = {name: quantity["description"] for name, quantity in schemas[topic].items() if "description" in quantity}
-            self.assertEqual(told, {
+            descriptions = {name: quantity["description"] for name, quantity in schemas[topic].items() if "description" in quantity}
+            self.assertEqual(descriptions, {
                 "time_s": "in s, relative to the fault", "reference": "in m; in mode power in W", "model_m": "in m",
                 "position_m": "in m", "demanded_W": "in W", "applied_W": "in W", "supply_V": "in V", "current_A": "in A",
                 "resistance_Ohm": "in Ohm", "resistance_age_s": "in s", "coldest_C": "in degC", "hottest_C": "in degC",
@@ -196,19 +196,19 @@ class Log(unittest.TestCase):
                          ["over_temperature", "under_voltage", "over_travel"])
         self.assertIn("99 % used: 159 of 160, at -0.020 s", margins[0])
 
-    def test_the_summary_is_there_for_programs_too(self):
+    def test_the_summary_has_a_json_form(self):
         done = self.log("r.scfr", "--summary", "--json")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        told = json.loads(done.stdout)
-        self.assertEqual((told["schema_version"], told["damage"]), (1, None))
-        self.assertEqual(told["fault"], {"name": "over_temperature", "number": 30, "channel": 2,
-                                         "meaning": "the estimated temperature passed its limit", "clock_s": 20.0})
-        self.assertEqual((told["from_s"], told["to_s"], told["row_count"], told["rate_Hz"]), (-10.0, 1.0, 2102, 100.0))
-        self.assertAlmostEqual(told["gaps"].pop("max_s"), 0.51)
-        self.assertEqual(told["gaps"], {"count": 1, "max_from_s": -4.51})
-        self.assertEqual(told["other_faults"], [{"at_s": 0.5, "channel": 1, "name": "emergency_stop"}])
-        self.assertEqual([channel["channel"] for channel in told["channels"]], [1, 2])
-        faulty = told["channels"][1]
+        summary = json.loads(done.stdout)
+        self.assertEqual((summary["schema_version"], summary["damage"]), (1, None))
+        self.assertEqual(summary["fault"], {"name": "over_temperature", "number": 30, "channel": 2,
+                                            "meaning": "the estimated temperature passed its limit", "clock_s": 20.0})
+        self.assertEqual((summary["from_s"], summary["to_s"], summary["row_count"], summary["rate_Hz"]), (-10.0, 1.0, 2102, 100.0))
+        self.assertAlmostEqual(summary["gaps"].pop("max_s"), 0.51)
+        self.assertEqual(summary["gaps"], {"count": 1, "max_from_s": -4.51})
+        self.assertEqual(summary["other_faults"], [{"at_s": 0.5, "channel": 1, "name": "emergency_stop"}])
+        self.assertEqual([channel["channel"] for channel in summary["channels"]], [1, 2])
+        faulty = summary["channels"][1]
         self.assertEqual(faulty["just_before"], {
             "state": "active", "mode": "position", "limited_by": "nothing", "position_m": 0.001999, "reference_m": 0.011,
             "supply_V": 12.0, "current_A": 0.0, "resistance_Ohm": 10.0, "resistance_age_s": 0.0})
@@ -218,7 +218,7 @@ class Log(unittest.TestCase):
         self.assertEqual(faulty["margins"][0], {"detector": "over_temperature", "used_ratio": 0.99375, "measured": 159.0,
                                                 "limit": 160.0, "at_s": -0.02})
 
-    def test_what_is_wrong_is_told_to_programs(self):
+    def test_errors_have_a_json_form(self):
         for message, arguments in (("none.scfr: there is no such file", ("none.scfr", "--summary", "--json")),
                                    ("--json requires --summary", ("r.scfr", "--json"))):
             done = self.log(*arguments)
@@ -249,7 +249,7 @@ class Log(unittest.TestCase):
                 (self.path / "d.scfr").write_bytes(content)
                 self.refused(message, "d.scfr", "--out", "out.csv")
 
-    def test_with_damaged_what_can_be_read_is_read(self):
+    def test_with_damaged_the_readable_rows_are_read(self):
         for content, count, message in [
                 (self.recording[:HEADER + 10 * ROW + 5], 10, "is cut off: 10 of 2102 rows are there; 10 rows"),
                 (self.recording[:99] + b"\0" + self.recording[100:], 2102, "its header is not as it was"),
@@ -281,7 +281,7 @@ class Log(unittest.TestCase):
         self.assertEqual(subprocess.run([PROGRAM], capture_output=True).returncode, 2)
         self.assertEqual(subprocess.run([PROGRAM, "fly"], capture_output=True).returncode, 2)
 
-    def test_the_recording_itself_and_what_is_no_file_are_not_overwritten(self):
+    def test_the_recording_itself_and_non_files_are_not_overwritten(self):
         os.link(self.path / "r.scfr", self.path / "again.scfr")
         for name in ["r.scfr", "./r.scfr", "again.scfr"]:
             self.refused(f"{name}: is the recording itself", "r.scfr", "--out", name)
@@ -291,7 +291,7 @@ class Log(unittest.TestCase):
         self.refused("/dev/full: is not a file", "r.scfr", "--out", "/dev/full")
         self.refused("none/x.csv.part: cannot be created", "r.scfr", "--out", "none/x.csv")
 
-    def test_a_full_disk_ends_with_status_1_and_leaves_what_was_there(self):
+    def test_a_full_disk_ends_with_status_1_and_keeps_the_old_file(self):
         (self.path / "out.csv").write_text("earlier")
 
         def small_disk():
@@ -320,7 +320,7 @@ class Log(unittest.TestCase):
         self.assertEqual(running.wait(), 1)
         self.assertIn("standard output: cannot be written: Broken pipe", errors)
 
-    def test_a_misspelt_command_is_told_with_the_one_that_was_meant(self):
+    def test_a_misspelt_command_suggests_the_nearest_one(self):
         for written, meant in (("comand", "did you mean command?"), ("xyzzy", "the commands are: log, command, ")):
             done = subprocess.run([PROGRAM, written, "state"], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (2, ""))

@@ -25,15 +25,15 @@ class Latency(unittest.TestCase):
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.path, timeout=120)
 
-    def test_json_is_complete_and_agrees_with_itself(self):
+    def test_json_is_complete_and_consistent(self):
         done = self.run_program(*GENTLE, "--ticks", 500, "--json")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        told = json.loads(done.stdout)
-        self.assertEqual((told["rate_Hz"], told["channels"], told["priority"], told["set_up"], told["ticks"]),
+        report = json.loads(done.stdout)
+        self.assertEqual((report["rate_Hz"], report["channels"], report["priority"], report["set_up"], report["ticks"]),
                          (1000.0, 1, 0, [], 500))
-        self.assertGreaterEqual(told["overruns"], 0)
+        self.assertGreaterEqual(report["overruns"], 0)
         for part in ("late", "tick"):
-            h = told[part]
+            h = report[part]
             self.assertEqual(sum(count for _, count in h["histogram"]), 500)
             order = [h[key + "_us"] for key in ("p50", "p99", "p99.9", "p99.99", "max")]
             self.assertEqual(order, sorted(order))
@@ -43,8 +43,8 @@ class Latency(unittest.TestCase):
             self.assertEqual(starts, sorted(set(starts)))
             self.assertLessEqual(starts[0], h["min_us"])
         # A tick takes some time, but less than a millisecond.
-        self.assertGreater(told["tick"]["min_us"], 0.0)
-        self.assertLess(told["tick"]["p50_us"], 1000.0)
+        self.assertGreater(report["tick"]["min_us"], 0.0)
+        self.assertLess(report["tick"]["p50_us"], 1000.0)
 
     def test_text_and_progress(self):
         done = self.run_program(*GENTLE, "--seconds", 2.5, "--rate", 200)
@@ -58,8 +58,8 @@ class Latency(unittest.TestCase):
         done = self.run_program(*GENTLE, "--ticks", 30, "--json", "--config",
                                 EXAMPLES / "raspberry-pi-pca9685-ads1115.toml")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        told = json.loads(done.stdout)
-        self.assertEqual((told["rate_Hz"], told["channels"], told["ticks"]), (100.0, 4, 30))
+        report = json.loads(done.stdout)
+        self.assertEqual((report["rate_Hz"], report["channels"], report["ticks"]), (100.0, 4, 30))
 
     def test_real_time_set_up_is_reported_whether_it_worked_or_not(self):
         done = self.run_program("--latency", "--priority", 1, "--cpu", 0, "--ticks", 20, "--json")
@@ -89,7 +89,7 @@ class Latency(unittest.TestCase):
         self.assertIn("50 ticks at 1000 Hz", (self.path / "a.svg").read_text())
         self.assertEqual([file.name for file in self.path.iterdir()], ["a.svg"])
 
-    def test_a_plot_that_cannot_be_drawn_keeps_what_was_measured(self):
+    def test_a_plot_that_cannot_be_drawn_keeps_the_measurements(self):
         done = self.run_program(*GENTLE, "--ticks", 50, "--plot", "none/a.svg")
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stdout.startswith("50 ticks"))
@@ -102,7 +102,7 @@ class Latency(unittest.TestCase):
         self.addCleanup(program.stdout.close)
         return program
 
-    def test_a_signal_ends_it_with_what_was_measured(self):
+    def test_a_signal_ends_it_with_the_measurements_so_far(self):
         for ends in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(ends.name):
                 program = self.start("--seconds", 600)
@@ -112,14 +112,14 @@ class Latency(unittest.TestCase):
                 self.assertEqual(program.returncode, 0)
                 self.assertLess(0, json.loads(out)["ticks"])
 
-    def test_under_nohup_it_goes_on_when_its_terminal_is_closed(self):
+    def test_under_nohup_it_continues_when_its_terminal_is_closed(self):
         program = self.start("--ticks", 2000, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         time.sleep(1)
         program.send_signal(signal.SIGHUP)
         out, _ = program.communicate(timeout=60)
         self.assertEqual((program.returncode, json.loads(out)["ticks"]), (0, 2000))
 
-    def test_it_goes_on_when_nobody_reads_its_log_any_more(self):
+    def test_it_continues_when_its_log_is_no_longer_read(self):
         reader, log = os.pipe()
         os.close(reader)
         # Long enough to report its progress every second.

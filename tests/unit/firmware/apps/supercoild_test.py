@@ -31,7 +31,7 @@ class Program(unittest.TestCase):
         (self.path / "b.toml").write_text(text.replace(old, new, 1))
         return "b.toml", text[:text.index(old)].count("\n") + 1
 
-    def test_examples_are_in_order(self):
+    def test_examples_are_valid(self):
         examples = sorted(EXAMPLES.glob("*.toml"))
         self.assertEqual(len(examples), 4)
         for example in examples:
@@ -49,13 +49,13 @@ class Program(unittest.TestCase):
 
     def test_check_prints_json_for_programs(self):
         done = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml", "--json")
-        told = json.loads(done.stdout)
+        report = json.loads(done.stdout)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(told["board"], "two muscles")
-        self.assertEqual((told["can"]["interface"], told["can"]["bit_rate"]), ("can0", 500000))
-        self.assertEqual([channel["learned_version"] for channel in told["channels"]], [0, 0])
-        self.assertRegex(told["advice"][0], "^channels 1, 2: in the coldest air it rests ")
-        can = told["channels"][0]["feasibility"]
+        self.assertEqual(report["board"], "two muscles")
+        self.assertEqual((report["can"]["interface"], report["can"]["bit_rate"]), ("can0", 500000))
+        self.assertEqual([channel["learned_version"] for channel in report["channels"]], [0, 0])
+        self.assertRegex(report["advice"][0], "^channels 1, 2: in the coldest air it rests ")
+        can = report["channels"][0]["feasibility"]
         text = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml").stdout
         self.assertIn(f"  can do      holds {1e3 * can['travel_m']:.3g} mm indefinitely, at {can['held_W']:.3g} W", text)
         self.assertIn(f"controller 0: margin {can['controllers'][0]['margin']:.2g}, holds if no parameter is off by more than", text)
@@ -80,7 +80,7 @@ class Program(unittest.TestCase):
         (self.path / f"learned-{channel}.toml").write_text(
             f"# supercoil learned, format 2, {len(body)} bytes, CRC-32 {zlib.crc32(body.encode()):08x}\n{body}")
 
-    def test_check_goes_by_what_the_board_has_learned(self):
+    def test_check_uses_the_learned_values(self):
         muscle = {"thermal_mass_J_per_K": 0.17, "heat_transfer_W_per_K": 0.09, "stiffness_N_per_m": 16.5, "damping_Ns_per_m": 2.0,
                   "moving_mass_kg": 0.09, "force_per_kelvin_N_per_K": 0.0086}
         calibration = {"position_offset_m": 0.0, "position_scale": 1.0, "cold_resistance_Ohm": 10.0}
@@ -110,13 +110,13 @@ class Program(unittest.TestCase):
             self.assertGreater(float(locked[1]), recorder_MiB + float(locked[2]))
             self.assertLessEqual(float(locked[1]), 16.5)
 
-    def test_off_is_said_of_every_device_that_it_reached(self):
+    def test_off_names_devices_that_it_cannot_reach(self):
         done = self.run_program("--off", *self.no_such_board())
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("b.toml: channel 4, enable: no chip with the label 'no-such-chip'", done.stderr)
         self.assertTrue(done.stderr.endswith("supercoild: problem: everything else is off\n"), done.stderr)
 
-    def test_off_beside_one_that_runs(self):
+    def test_off_while_a_daemon_runs(self):
         with open(self.path / "lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             done = self.run_program("--off", *self.no_such_board())
@@ -139,7 +139,7 @@ class Program(unittest.TestCase):
         self.assertIn("bus[2].name = 'i2c-3': the bus would be busy for 10.95 ms of a tick of 10 ms "
                       "(110 %); the limit is 70 %", done.stderr)
 
-    def test_a_file_that_is_not_there(self):
+    def test_a_missing_file(self):
         done = self.run_program("--check", "none.toml")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertEqual(done.stderr, "none.toml: there is no such file\n")
@@ -161,7 +161,7 @@ class Program(unittest.TestCase):
         (self.path / "b.toml").write_text(text)
         return "--config", "b.toml", "--run-folder", "."
 
-    def test_every_device_that_is_missing_is_named(self):
+    def test_every_missing_device_is_named(self):
         done = self.run_program(*self.no_such_board())
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         for what in ("heartbeat", "stop_circuit", "light", "channel 1, enable", "channel 4, enable"):
@@ -170,24 +170,24 @@ class Program(unittest.TestCase):
         self.assertIn("b.toml: channel 3, pwm: ", done.stderr)
         self.assertTrue(done.stderr.endswith("supercoild: problem: nothing was started\n"), done.stderr)
 
-    def test_a_start_says_the_version(self):
+    def test_a_start_logs_the_version(self):
         version = self.run_program("--version").stdout
         self.assertTrue(self.run_program(*self.no_such_board()).stderr.startswith(f"supercoild: version {version}"))
 
-    def test_a_log_that_nobody_reads_does_not_end_it_by_a_signal(self):
+    def test_an_unread_log_does_not_kill_it_by_a_signal(self):
         reader, log = os.pipe()
         os.close(reader)
         self.addCleanup(os.close, log)
         self.assertEqual(self.run_program(*self.no_such_board(), stderr=log).returncode, 1)
 
-    def test_a_folder_that_is_missing(self):
+    def test_a_missing_folder(self):
         arguments = self.no_such_board()
         done = self.run_program(*arguments[:3], "none")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "supercoild: problem: none/lock: the lock file cannot be created: "
                              "No such file or directory\n"))
 
-    def test_what_was_learned_and_is_damaged_is_no_start(self):
+    def test_damaged_learned_values_prevent_a_start(self):
         arguments = self.no_such_board()
         (self.path / "learned-2.toml").write_text("nonsense")
         done = self.run_program(*arguments)
@@ -195,7 +195,7 @@ class Program(unittest.TestCase):
         self.assertIn("learned-2.toml", done.stderr)
         self.assertNotIn("no-such-chip", done.stderr)
 
-    def test_only_one_drives_a_board(self):
+    def test_only_one_process_drives_a_board(self):
         arguments = self.no_such_board()
         with open(self.path / "lock", "w") as lock:
             lock.write("4711\n")

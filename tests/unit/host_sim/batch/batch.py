@@ -54,12 +54,12 @@ class Batch:
         self.assertIn(message, self.batch("--out", "whole", status=2).stderr)
         self.assertEqual(self.files("whole"), before)
 
-    def test_the_same_bytes_whatever_the_jobs(self):
+    def test_output_does_not_depend_on_the_number_of_jobs(self):
         whole = self.whole()
         self.batch("--out", "two", "--jobs", 2)
         self.assertEqual(self.files("two"), whole)
 
-    def test_it_goes_on_after_it_was_killed(self):
+    def test_it_continues_after_it_was_killed(self):
         whole = self.whole()
         for number in (signal.SIGKILL, signal.SIGINT):
             out = self.path / number.name
@@ -70,26 +70,26 @@ class Batch:
                     self.assertIsNone(running.poll(), "it ended before a run had")
                     time.sleep(0.001)
                 running.send_signal(number)
-                said = running.communicate()[1]
+                stderr = running.communicate()[1]
             if running.returncode == 130:
-                self.assertIn("the same command resumes from there", said)
+                self.assertIn("the same command resumes from there", stderr)
             self.assertIn("are already in", self.batch("--out", out).stderr)
             self.assertEqual(self.files(out), whole)
 
-    def test_parts_merged_are_the_whole(self):
+    def test_merged_parts_equal_the_whole(self):
         whole = self.whole()
         for part in (1, 2, 3):
             self.batch("--out", f"part{part}", "--shard", f"{part}/3")
         self.merge("merged", *[f"part{part}/runs.csv" for part in (3, 1, 2)])
         self.assertEqual(self.files("merged"), whole)
 
-    def test_merging_keeps_what_was_there(self):
+    def test_merging_keeps_existing_files(self):
         whole = self.whole()
         for part in (1, 2):
             self.batch("--out", f"part{part}", "--shard", f"{part}/2")
         self.merge("part1", "part2/runs.csv")
         self.assertEqual(self.files("part1"), whole)
 
-    def test_runs_that_are_no_file_are_named(self):
+    def test_runs_that_are_not_a_file_are_named(self):
         (self.path / "out/runs.csv").mkdir(parents=True)
         self.assertIn("out/runs.csv: is not a file", self.batch("--out", "out", status=2).stderr)

@@ -50,7 +50,7 @@ class Campaign(Batch, ProgramCase):
     def campaign(self, *arguments, study="brief.toml", status=0):
         return self.run_batch("campaign", *([study] if study else []), "--no-plot", *arguments, status=status)
 
-    def test_each_run_is_a_line_and_all_together_a_table(self):
+    def test_each_run_is_a_line_and_all_runs_give_a_table(self):
         whole = self.whole()
         self.assertEqual([name for name in sorted(whole) if not name.startswith("worst-")],
                          ["campaign.csv", "campaign.md", "report.html", "runs.csv"])
@@ -75,7 +75,7 @@ class Campaign(Batch, ProgramCase):
             line, = [line for line in table if (line["controller"], line["quantity"]) == (name, "refused")]
             self.assertEqual(int(line["failures"]), 24 - len(ran))
 
-    def test_contenders_of_a_run_meet_the_same(self):
+    def test_contenders_of_a_run_get_the_same_conditions(self):
         self.whole()
         rows = self.rows("whole")
         drawn = ("plant.stiffness_N_per_m", "reference.offset_m", "noise")
@@ -83,7 +83,7 @@ class Campaign(Batch, ProgramCase):
             self.assertEqual([one[name] for name in drawn], [other[name] for name in drawn])
         self.assertEqual(len({row["plant.stiffness_N_per_m"] for row in rows}), 24)
 
-    def test_the_worst_run_again_gives_the_same_figures(self):
+    def test_repeating_the_worst_run_gives_the_same_figures(self):
         self.whole()
         failed = [row for row in self.rows("whole") if not row["refused"] and float(row["tracking_rms_m"]) > 1e-3]
         self.assertTrue(failed)
@@ -96,7 +96,7 @@ class Campaign(Batch, ProgramCase):
         self.assertEqual(summary["tracking_rms_m"], float(worst["tracking_rms_m"]))
         self.assertEqual(summary["tracking_max_m"], float(worst["tracking_max_m"]))
 
-    def test_fewer_runs_go_on_to_more(self):
+    def test_a_campaign_can_be_extended_to_more_runs(self):
         whole = self.whole()
         self.campaign("--out", "more", "--runs", 10)
         self.assertEqual(len(self.rows("more")), 20)
@@ -104,7 +104,7 @@ class Campaign(Batch, ProgramCase):
         self.assertEqual(self.files("more")["runs.csv"], whole["runs.csv"])
         self.assertEqual(self.files("more")["campaign.csv"], whole["campaign.csv"])
 
-    def test_it_ends_when_it_knows_well_enough(self):
+    def test_it_ends_when_its_interval_is_narrow_enough(self):
         (self.path / "known.toml").write_text(STUDY.replace("runs = 24", "runs = 1000\nknown_to = 0.1")
                                               .replace("duration_s = 3.0", "duration_s = 0.5")
                                               .replace("[1.0, 3.0]", "[0.1, 0.5]"))
@@ -117,16 +117,16 @@ class Campaign(Batch, ProgramCase):
                 self.assertLessEqual(float(line["ci95_high"]) - float(line["ci95_low"]), 0.2)
         self.campaign("--out", "two", "--jobs", 2, study="known.toml")
         self.assertEqual(self.files("two"), self.files("one"))
-        said = self.campaign("--out", "part", "--shard", "1/2", study="known.toml", status=2).stderr
-        self.assertIn("study.known_to: one part cannot tell", said)
+        output = self.campaign("--out", "part", "--shard", "1/2", study="known.toml", status=2).stderr
+        self.assertIn("study.known_to: one part cannot tell", output)
 
-    def test_a_clusters_jobs_give_the_whole(self):
+    def test_jobs_of_a_cluster_equal_the_whole(self):
         whole = self.whole()
         self.path = self.path / "what's $HOME"  # a shell must leave it unchanged
         self.path.mkdir()
         (self.path / "brief.toml").write_text(STUDY)
-        said = self.campaign("--out", "array", "--slurm", 3, "--no-submit").stdout
-        self.assertIn("to submit them: sh array/submit.sh", said)
+        output = self.campaign("--out", "array", "--slurm", 3, "--no-submit").stdout
+        self.assertIn("to submit them: sh array/submit.sh", output)
         array = self.path / "array"
         for task in "312":
             subprocess.run(["sh", "part.sbatch"], cwd=array, check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": task})
@@ -135,7 +135,7 @@ class Campaign(Batch, ProgramCase):
         del whole["report.html"]  # without a figure
         self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
 
-    def test_a_containers_jobs_give_the_whole(self):
+    def test_jobs_in_containers_equal_the_whole(self):
         whole = self.whole()
         tools = self.path / "tools"
         tools.mkdir()
@@ -159,7 +159,7 @@ class Campaign(Batch, ProgramCase):
             self.assertEqual(row["promise_broken"], "1" if error > promised else "0")
             self.assertTrue(1e-5 < promised < 1e-4)
 
-    def test_what_submit_is_given_reaches_the_parts_alone(self):
+    def test_options_of_submit_reach_only_the_parts(self):
         tools = self.path / "tools"
         tools.mkdir()
         # sbatch --parsable with clusters prints the job's number and the cluster's name.
@@ -176,14 +176,14 @@ class Campaign(Batch, ProgramCase):
         self.assertNotIn("--cpus-per-task=8", merge)
         self.assertEqual(done.stdout, "job 17 runs the parts, job 17 merges them\n")
 
-    def test_other_goals_are_answered_by_the_same_runs(self):
+    def test_other_goals_are_evaluated_from_the_same_runs(self):
         whole = self.whole()
         (self.path / "brief.toml").write_text(STUDY.replace("tracking_rms_m = 1e-3", "hottest_C = 60.0"))
         self.assertIn("48 of 48 runs are already in", self.batch("--out", "whole").stderr)
         self.assertEqual(self.files("whole")["runs.csv"], whole["runs.csv"])
         self.assertIn(b",hottest_C,", self.files("whole")["campaign.csv"])
 
-    def test_without_sbatch_it_says_what_to_type(self):
+    def test_without_sbatch_it_prints_the_commands(self):
         tools = self.path / "tools"
         tools.mkdir()
         for tool in ("sh", "dirname"):
@@ -194,12 +194,12 @@ class Campaign(Batch, ProgramCase):
         self.assertIn("sbatch", done.stderr)
         self.assertIn("on a machine with sbatch, run: sh array/submit.sh", done.stderr)
 
-    def test_parts_that_lack_runs_are_told(self):
+    def test_parts_with_missing_runs_are_reported(self):
         self.campaign("--out", "part1", "--shard", "1/3")
-        said = self.campaign("--merge", "part1/runs.csv", "--out", "merged").stderr
-        self.assertIn("the parts have 16 of the study's 48 runs", said)
+        output = self.campaign("--merge", "part1/runs.csv", "--out", "merged").stderr
+        self.assertIn("the parts have 16 of the study's 48 runs", output)
 
-    def test_a_search_finds_what_is_worse_than_by_chance(self):
+    def test_a_search_finds_worse_runs_than_random_draws(self):
         self.whole()
         by_chance = {name: max(float(row["tracking_rms_m"]) for row in self.rows("whole")
                                if row["contender"] == name and not row["refused"]) for name in ("pi", "pd_ff")}
@@ -215,24 +215,24 @@ class Campaign(Batch, ProgramCase):
             self.assertIn(f"{1e6 * found:.3g}" if found < 1e-3 else f"{1e6 * found:.0f}",
                           (self.path / "one/search.md").read_text())
 
-    def test_a_damaged_line_is_told_with_its_number(self):
+    def test_a_damaged_line_is_reported_with_its_number(self):
         self.damaged("\n2,pi,", "\n2,mrac,", "runs.csv:5: is damaged: there is no such run")
 
-    def test_a_line_that_draws_something_else_is_damaged(self):
+    def test_a_line_with_other_draws_is_damaged(self):
         self.damaged("\n2,pi,", "\n2,pi,1", "runs.csv:5: is damaged: the study draws other values for this run")
 
     def test_results_of_another_study_are_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(STUDY.replace("0.0125", "0.0126"))
-        said = self.campaign("--out", "whole", status=2).stderr
-        self.assertIn("is of another version or definition", said)
-        self.assertIn("Choose another --out, or delete it", said)
+        output = self.campaign("--out", "whole", status=2).stderr
+        self.assertIn("is of another version or definition", output)
+        self.assertIn("Choose another --out, or delete it", output)
 
-    def test_what_is_no_scenario_in_the_middle_of_its_draws_is_refused_at_once(self):
+    def test_a_study_that_is_invalid_at_its_medians_is_refused_at_once(self):
         (self.path / "brief.toml").write_text(STUDY.replace("plant.stiffness_N_per_m", "plant.stifness_N_per_m"))
-        said = self.campaign("--out", "none", status=2).stderr
-        self.assertIn("at the median of all draws, with pi", said)
-        self.assertIn("did you mean stiffness_N_per_m?", said)
+        output = self.campaign("--out", "none", status=2).stderr
+        self.assertIn("at the median of all draws, with pi", output)
+        self.assertIn("did you mean stiffness_N_per_m?", output)
         self.assertFalse((self.path / "none").exists())
 
     def test_a_scenarios_file_is_named_where_it_is_wrong(self):
@@ -242,13 +242,13 @@ class Campaign(Batch, ProgramCase):
 
     def test_without_draws_there_is_nothing_to_search(self):
         (self.path / "brief.toml").write_text(STUDY.split("[[draw]]")[0])
-        said = self.campaign("--search", 5, "--out", "none", status=2).stderr
-        self.assertIn("has no [[draw]]: nothing to search over", said)
+        output = self.campaign("--search", 5, "--out", "none", status=2).stderr
+        self.assertIn("has no [[draw]]: nothing to search over", output)
 
-    def test_it_says_what_there_is(self):
-        said = self.campaign("--list", study=None).stdout
+    def test_it_lists_the_available_studies(self):
+        output = self.campaign("--list", study=None).stdout
         for name in ("follows", "identify", "promise", "temperature", "hottest_C", "steady_rms_m"):
-            self.assertIn(name, said)
+            self.assertIn(name, output)
         self.assertIn("no study given: name a TOML file or a study from --list", self.campaign(study=None, status=2).stderr)
 
 

@@ -62,7 +62,7 @@ class Page(unittest.TestCase):
     def rows(self, table):
         return [row.findall("td") for row in self.page.findall(f".//table[@id='{table}']/tbody/tr")]
 
-    def test_what_a_study_names_is_text(self):
+    def test_names_of_a_study_are_escaped(self):
         self.assertEqual(self.page.findtext(".//h1"), NAME)
         self.assertEqual(self.page.findtext(".//main/p"), ABOUT)
         tags = {element.tag for element in self.page.iter()}
@@ -70,16 +70,16 @@ class Page(unittest.TestCase):
         self.assertEqual(self.rows("draws")[0][0].text, "<u>stiffness")
         self.assertIn("my <i>", {row[0].text for row in self.rows("goals")})
 
-    def test_it_says_what_was_asked(self):
-        asked = {row.findtext("th"): row.findtext("td") for row in self.page.findall(".//table[@id='asked']/tbody/tr")}
+    def test_it_states_the_setup_of_the_study(self):
+        setup = {row.findtext("th"): row.findtext("td") for row in self.page.findall(".//table[@id='asked']/tbody/tr")}
         first = (self.out / "runs.csv").read_text().split("\n", 1)[0]
-        self.assertTrue(first.startswith(f"# {asked['made by']}, "))
-        self.assertEqual([asked[what] for what in ("scenario", "runs", "sampling", "controllers", "tracking window")],
+        self.assertTrue(first.startswith(f"# {setup['made by']}, "))
+        self.assertEqual([setup[what] for what in ("scenario", "runs", "sampling", "controllers", "tracking window")],
                          ["pwm", "12", "sobol, seed 1", "pi, my <i>", "1 to 2 s"])
         self.assertEqual([row[1].text for row in self.rows("draws")],
                          ["log-uniform, 8 to 40", "uniform, 0.008 to 0.0125", "one of 1e-06, 1e-05"])
 
-    def test_its_figures_are_those_of_the_table(self):
+    def test_figures_match_the_table(self):
         def values(row):
             return [data.get("value") for cell in row for data in cell.findall("data")]
 
@@ -90,7 +90,7 @@ class Page(unittest.TestCase):
         self.assertEqual(shown, written)
         self.assertEqual(len(written), 2 * (2 + 3))
 
-    def test_it_is_one_file(self):
+    def test_it_is_a_single_file(self):
         images = self.page.findall(".//img")
         self.assertEqual([element for element in self.page.iter() if element.get("href") or element.tag == "link"], [])
         self.assertEqual(len(images), 1)
@@ -102,7 +102,7 @@ class Page(unittest.TestCase):
         for other in ("://", "url(", "@import"):
             self.assertNotIn(other, rest)
 
-    def test_its_commands_repeat_the_worst_runs(self):
+    def test_commands_repeat_the_worst_runs(self):
         with open(self.out / "runs.csv") as file:
             next(file)
             ran = {(line["contender"], line["run"]): line for line in csv.DictReader(file)}
@@ -118,7 +118,7 @@ class Page(unittest.TestCase):
             line = ran[row[0].text, row[1].findtext("data")]
             self.assertEqual(summary["tracking_rms_m"], float(line["tracking_rms_m"]))
 
-    def test_it_reads_well_on_a_phone_and_on_a_desk(self):
+    def test_it_fits_phones_and_desktops(self):
         with Browser() as browser:
             browser.driver.get((self.out / "report.html").as_uri())
             requests = [url for url in browser.requests() if not url.startswith(("file:", "data:", "chrome:"))]

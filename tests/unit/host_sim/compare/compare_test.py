@@ -27,7 +27,7 @@ class Compare(Batch, ProgramCase):
     def test_it_writes_runs_and_tables(self):
         self.assertEqual(sorted(self.whole()), ["compare.csv", "compare.md", "runs.csv"])
 
-    def test_a_run_through_run_gives_the_same_figures(self):
+    def test_supercoil_sim_run_gives_the_same_figures(self):
         self.whole()
         text = BRIEF + "[controller]\nkind = 'pi'\n[estimator]\nkind = 'none'\n"
         (self.path / "s.toml").write_text(text.replace("[simulation]", "[simulation]\nseed = 2"))
@@ -50,17 +50,17 @@ class Compare(Batch, ProgramCase):
         self.assertAlmostEqual(float(row["ci95_high"]), mean + half, delta=1e-5 * mean)
         self.assertAlmostEqual(float(row["ci95_low"]), mean - half, delta=1e-5 * mean)
 
-    def test_only_what_is_missing_is_run_again(self):
+    def test_only_missing_runs_are_repeated(self):
         whole = self.whole()
         runs = self.path / "whole/runs.csv"
         lines = runs.read_text().splitlines(keepends=True)
         runs.write_text("".join(lines[:-1]) + lines[-1][:20])
-        said = self.batch("--out", "whole").stderr
-        self.assertIn("its last line is incomplete; that run is repeated", said)
-        self.assertIn("3 of 4 runs are already in", said)
+        output = self.batch("--out", "whole").stderr
+        self.assertIn("its last line is incomplete; that run is repeated", output)
+        self.assertIn("3 of 4 runs are already in", output)
         self.assertEqual(self.files("whole"), whole)
 
-    def test_a_damaged_line_is_told_with_its_number(self):
+    def test_a_damaged_line_is_reported_with_its_number(self):
         self.damaged(",double,1,", ",double,x,", "runs.csv:3: is damaged")
 
     def test_another_version_is_refused(self):
@@ -74,14 +74,14 @@ class Compare(Batch, ProgramCase):
     def test_another_definition_is_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))
-        said = self.batch("--out", "whole", status=2).stderr
-        self.assertIn("runs.csv: its pi with brief was run with another definition", said)
+        output = self.batch("--out", "whole", status=2).stderr
+        self.assertIn("runs.csv: its pi with brief was run with another definition", output)
         self.batch("--out", "other")
-        said = self.merge("merged", "whole/runs.csv", "other/runs.csv", status=2).stderr
-        self.assertIn("gave another result before", said)
+        output = self.merge("merged", "whole/runs.csv", "other/runs.csv", status=2).stderr
+        self.assertIn("gave another result before", output)
         self.assertFalse((self.path / "merged").exists())
 
-    def test_what_cannot_be_chosen_is_refused_before_anything_is_written(self):
+    def test_invalid_choices_are_refused_before_anything_is_written(self):
         for arguments, message in [
                 (["--controllers", "pid"], "--controllers pid: must be a .toml file or one of: pi, pi-tuned, "),
                 (["--disturbances", "stiffness+x"], "--disturbances stiffness+x: after + must come a time in seconds"),
@@ -100,21 +100,21 @@ class Compare(Batch, ProgramCase):
             "controller.kind = 'pi'\n[plant]\nstiffness_N_per_m = 12.0\n[reference]\nkind = 'steps'\n[reference_model]\n"
             "kind = 'eq8'\n")
         arguments = ["--controllers", "mine.toml", "--disturbances", "brief.toml", "--seeds", "1", "--out", "out"]
-        said = self.compare(*arguments, status=2).stderr.splitlines()
-        self.assertEqual([line.split(": ")[0:2] for line in said], [["mine.toml:2", "plant"], ["mine.toml:4", "reference"]])
-        self.assertIn("belongs in a file for --disturbances", said[0])
+        output = self.compare(*arguments, status=2).stderr.splitlines()
+        self.assertEqual([line.split(": ")[0:2] for line in output], [["mine.toml:2", "plant"], ["mine.toml:4", "reference"]])
+        self.assertIn("belongs in a file for --disturbances", output[0])
         self.assertFalse((self.path / "out").exists())
 
-    def test_what_fixed_point_cannot_hold_is_left_out(self):
-        said = self.compare("--controllers", "pi,mrac-c", "--disturbances", "brief.toml", "--arithmetic",
-                            "double,q8.24", "--seeds", "1", "--no-plot", "--out", "out").stderr
-        self.assertIn("left out: ", said)
-        self.assertIn("the covariance of mrac_ls does not fit q8.24", said)
+    def test_controllers_that_do_not_fit_fixed_point_are_left_out(self):
+        output = self.compare("--controllers", "pi,mrac-c", "--disturbances", "brief.toml", "--arithmetic",
+                              "double,q8.24", "--seeds", "1", "--no-plot", "--out", "out").stderr
+        self.assertIn("left out: ", output)
+        self.assertIn("the covariance of mrac_ls does not fit q8.24", output)
         text = (self.path / "out/runs.csv").read_text()
         self.assertIn("pi,brief,q8.24,1,", text)
         self.assertNotIn("mrac-c,brief,q8.24", text)
 
-    def test_a_fault_is_counted_and_the_muscle_not_followed(self):
+    def test_a_fault_is_counted_and_ends_tracking(self):
         (self.path / "broken.toml").write_text(BRIEF.replace("plant.stiffness_N_per_m = 12.0", "injected_fault.heater_open = true"))
         self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--no-plot", "--out", "out")
         row, = self.rows("out")
@@ -124,8 +124,8 @@ class Compare(Batch, ProgramCase):
     def test_a_table_without_a_finite_value_is_drawn(self):
         (self.path / "broken.toml").write_text(
             "[simulation]\nduration_s = 21.5\n[[event]]\nat_s = 0.5\ninjected_fault.heater_open = true\n")
-        said = self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--out", "out").stderr
-        self.assertEqual(said, "")
+        output = self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--out", "out").stderr
+        self.assertEqual(output, "")
         self.assertIn("no value to draw", (self.path / "out/compare.svg").read_text())
 
     def test_a_later_disturbance_has_later_windows(self):
@@ -139,9 +139,9 @@ class Compare(Batch, ProgramCase):
                      "--out", "out")
         with open(self.path / "out/runs.csv") as file:
             next(file)
-            asked, written = csv.DictReader(file)
-        self.assertEqual((asked["disturbance"], written["disturbance"]), ("brief:steps", "steps"))
-        self.assertAlmostEqual(float(asked["peak_m"]), float(written["peak_m"]), delta=1e-9)
+            requested, written = csv.DictReader(file)
+        self.assertEqual((requested["disturbance"], written["disturbance"]), ("brief:steps", "steps"))
+        self.assertAlmostEqual(float(requested["peak_m"]), float(written["peak_m"]), delta=1e-9)
 
     def test_a_disturbance_may_tune_a_controller(self):
         (self.path / "tuned.toml").write_text(BRIEF + "[tuned.pi]\nintegral_W_per_m_s = 1e4\n")

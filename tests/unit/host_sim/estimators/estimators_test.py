@@ -20,8 +20,8 @@ class Estimators(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.whole = pathlib.Path(folder.name) / "whole"
-        cls.said = subprocess.run([PROGRAM, "estimators", "--seeds", "1", "--no-plot", "--out", cls.whole, "--jobs", "2"],
-                                  capture_output=True, text=True, check=True, timeout=300).stdout
+        cls.output = subprocess.run([PROGRAM, "estimators", "--seeds", "1", "--no-plot", "--out", cls.whole, "--jobs", "2"],
+                                    capture_output=True, text=True, check=True, timeout=300).stdout
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -34,12 +34,12 @@ class Estimators(unittest.TestCase):
         self.assertEqual(done.returncode, status, done.stderr)
         return done
 
-    def test_the_same_bytes_whatever_the_jobs(self):
+    def test_output_does_not_depend_on_the_number_of_jobs(self):
         self.compare("--seeds", 1, "--no-plot", "--out", "one", "--jobs", 1)
         self.assertEqual((self.path / "one/estimators.csv").read_bytes(), (self.whole / "estimators.csv").read_bytes())
         self.assertEqual(sorted(file.name for file in (self.path / "one").iterdir()), ["estimators.csv", "estimators.md", "runs.csv"])
         self.assertEqual((self.path / "one/runs.csv").read_bytes(), (self.whole / "runs.csv").read_bytes())
-        self.assertIn((self.whole / "estimators.md").read_text(), self.said)
+        self.assertIn((self.whole / "estimators.md").read_text(), self.output)
 
         with open(self.path / "one/estimators.csv") as file:
             rows = {(row["trial"], row["estimator"], row["measure"]): row for row in csv.DictReader(file)}
@@ -52,7 +52,7 @@ class Estimators(unittest.TestCase):
         self.assertGreater(steady["gradient"], 3.0 * steady["bound"])
         self.assertEqual(rows["nominal", "gradient", "reported_rms_percent"]["theta1"], "")
 
-    def test_it_goes_on_after_it_was_interrupted(self):
+    def test_it_continues_after_it_was_interrupted(self):
         for number, status in ((signal.SIGKILL, -9), (signal.SIGINT, 130)):
             out = self.path / number.name
             with subprocess.Popen([PROGRAM, "estimators", "--seeds", "1", "--no-plot", "--out", out, "--jobs", "1"],
@@ -61,10 +61,10 @@ class Estimators(unittest.TestCase):
                     self.assertIsNone(running.poll(), "it ended before three runs had")
                     time.sleep(0.001)
                 running.send_signal(number)
-                told = running.communicate(timeout=60)[1]
-            self.assertEqual(running.returncode, status, told)
+                stderr = running.communicate(timeout=60)[1]
+            self.assertEqual(running.returncode, status, stderr)
             if number == signal.SIGINT:
-                self.assertRegex(told, r"interrupted; \d+ runs are kept in .*runs.csv; the same command resumes")
+                self.assertRegex(stderr, r"interrupted; \d+ runs are kept in .*runs.csv; the same command resumes")
             kept = (out / "runs.csv").read_text()
             (out / "runs.csv").write_text(kept + "nominal,gradient,7,0.1")  # torn
             done = self.compare("--seeds", 1, "--no-plot", "--out", out)
@@ -77,12 +77,12 @@ class Estimators(unittest.TestCase):
         shutil.copytree(self.whole, self.path / "out")
         runs = self.path / "out/runs.csv"
         whole = runs.read_text()
-        for text, told in ((whole.replace("nominal,gradient,1,", "nominal,gradient,x,", 1), "runs.csv:3: is damaged"),
-                           (whole.replace("supercoil-sim ", "supercoil-sim 0.0", 1), "is of another version or definition")):
+        for text, message in ((whole.replace("nominal,gradient,1,", "nominal,gradient,x,", 1), "runs.csv:3: is damaged"),
+                              (whole.replace("supercoil-sim ", "supercoil-sim 0.0", 1), "is of another version or definition")):
             runs.write_text(text)
-            self.assertIn(told, self.compare("--seeds", 1, "--no-plot", "--out", "out", status=2).stderr)
+            self.assertIn(message, self.compare("--seeds", 1, "--no-plot", "--out", "out", status=2).stderr)
 
-    def test_what_is_wrong_is_said(self):
+    def test_errors_are_reported(self):
         self.assertIn("--seeds", self.compare("--seeds", 0, status=2).stderr)
         (self.path / "file").write_text("")
         self.assertIn("file", self.compare("--seeds", 1, "--out", "file", status=2).stderr)

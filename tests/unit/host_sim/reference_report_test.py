@@ -10,47 +10,47 @@ from sim_program import SHORT, ProgramCase
 HOT = "thermal = {transfer_ratio = [0.25, 2.2], power_ratio = [1.0, 1.3]}\n"
 
 
-class Told(ProgramCase):
+class ReferenceReport(ProgramCase):
     def after(self, text, status=0):
         """A run's output and its summary."""
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stdout, json.loads((self.path / "out/summary.json").read_text())
 
-    def test_says_beforehand_that_a_slow_muscle_cannot_follow_its_reference_model(self):
+    def test_advises_shaping_for_a_muscle_slower_than_its_reference_model(self):
         slow = SHORT + "[plant]\nthermal_mass_J_per_K = 2.0\n"
-        told = self.run_program("run", self.scenario(slow), "--check").stdout
-        self.assertRegex(told, r"\nadvice: controller 0: .* shape_reference = true")
+        output = self.run_program("run", self.scenario(slow), "--check").stdout
+        self.assertRegex(output, r"\nadvice: controller 0: .* shape_reference = true")
         shaped = slow + "[controller]\nshape_reference = true\n"
         self.assertNotIn("advice", self.run_program("run", self.scenario(shaped), "--check").stdout)
 
-    def test_check_tells_programs_what_it_tells_people(self):
+    def test_check_has_the_same_values_in_json_and_text(self):
         scenario = self.scenario(SHORT + "[controller]\nkind = 'learned_ff'\n[plant]\nthermal_mass_J_per_K = 2.0\n")
-        told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)
-        can, controller = told["feasibility"], told["feasibility"]["controllers"][0]
+        report = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)
+        can, controller = report["feasibility"], report["feasibility"]["controllers"][0]
         text = self.run_program("run", scenario, "--check").stdout
         self.assertIn(f"holds {1e3 * can['travel_m']:.3g} mm indefinitely, at {can['held_W']:.3g} W", text)
         self.assertIn(f"margin {controller['margin']:.2g}, ", text)
         self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
         self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
-        self.assertEqual([line in text for line in told["advice"]], [True, True])
-        self.assertEqual(told["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
+        self.assertEqual([line in text for line in report["advice"]], [True, True])
+        self.assertEqual(report["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
 
-    def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
+    def test_an_infeasible_reference_is_reported_with_its_ratio_and_advice(self):
         # Through a fast model even the step to the middle of the sine asks for too much.
-        for turn_rad_per_s, shape, poles, told in ((2.0, "false", [4.0, 5.0, 6.0], True), (2.0, "true", [4.0, 5.0, 6.0], True),
-                                                 (0.2, "false", [4.0, 5.0, 6.0], True), (0.2, "false", [2.0, 2.0, 2.0], False)):
+        for turn_rad_per_s, shape, poles, infeasible in ((2.0, "false", [4.0, 5.0, 6.0], True), (2.0, "true", [4.0, 5.0, 6.0], True),
+                                                       (0.2, "false", [4.0, 5.0, 6.0], True), (0.2, "false", [2.0, 2.0, 2.0], False)):
             text = (f"simulation.duration_s = 120.0\ncontroller = {{kind = 'learned_ff', shape_reference = {shape}}}\n"
                     f"reference.angular_frequency_rad_per_s = {turn_rad_per_s}\nreference_model.poles_rad_per_s = {poles}\n")
             done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
             ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
-            self.assertEqual(ratio > 0.0, told, (ratio, done.stdout))
+            self.assertEqual(ratio > 0.0, infeasible, (ratio, done.stdout))
             line = re.findall(r"asked for more than the muscle can do, first at .* s for .* s and in (.*) % of all ticks that followed it, "
                               r"mostly limited_by \w+: use a slower or smaller reference(.*)", done.stdout)
             advice = ", or shape_reference = true" if shape == "false" else ""
-            self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
+            self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if infeasible else [])
 
-    def test_the_controller_that_suits_is_recommended_where_none_is_so(self):
+    def test_a_suitable_controller_is_recommended_when_none_is_configured(self):
         scenario = self.scenario(SHORT)
         suits = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["feasibility"]["recommended"]
         self.assertIsNone(suits["in_use"])
@@ -63,21 +63,21 @@ class Told(ProgramCase):
         self.assertIn("\nrecommended: controller 0, as configured: it follows closest", self.after(taken)[0])
         self.assertEqual(json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)["feasibility"]["recommended"]["in_use"], 0)
 
-    def test_noise_at_a_limit_is_no_reference_that_is_not_feasible(self):
-        told, summary = self.after("simulation.duration_s = 60.0\n")
+    def test_noise_at_a_limit_is_not_an_infeasible_reference(self):
+        output, summary = self.after("simulation.duration_s = 60.0\n")
         self.assertGreater(sum(summary["limited_by_ratio"].values()), 0.03)
         self.assertEqual((summary["infeasible_ratio"], summary["infeasible_from_s"]), (0, None))
-        self.assertNotIn("asked for more", told)
+        self.assertNotIn("asked for more", output)
 
-    def test_a_reference_that_is_not_feasible_from_an_event_on_is_told_with_the_event(self):
+    def test_a_reference_infeasible_after_an_event_is_reported_with_the_event(self):
         step = "reference = {kind = 'steps', levels_m = [0.010], hold_s = 50.0}\ncontroller.kind = 'pi'\n"
-        told, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n", 1)
+        output, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n", 1)
         self.assertGreater(summary["infeasible_from_s"], 15.0)
         self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s for {summary['infeasible_lasts_s']:.3g} s and in "
                       f"{100 * summary['infeasible_ratio']:.1f} % of all ticks that followed it, after the event at 15 s (plant.load_N), mostly "
-                      "limited_by temperature: use a smaller reference\n", told)
+                      "limited_by temperature: use a smaller reference\n", output)
 
-    def test_a_step_is_told_alike_before_and_after(self):
+    def test_a_step_is_reported_alike_before_and_after_a_run(self):
         # At rest, noise keeps the power at its minimum for a while, which no reference asks for.
         step = ("simulation.duration_s = 60.0\nplant.thermal_mass_J_per_K = 2.0\n"
                 "reference = {kind = 'step', from_m = 0.0, to_m = 0.02, at_s = 5.0}\n")
@@ -86,7 +86,7 @@ class Told(ProgramCase):
         self.assertLess(abs(summary["infeasible_from_s"] - before["first_s"]), 0.02)
         self.assertLess(abs(summary["infeasible_lasts_s"] / before["first_lasts_s"] - 1.0), 0.2)
 
-    def test_a_quick_sine_of_which_the_model_passes_little_is_told(self):
+    def test_a_fast_sine_attenuated_by_the_model_is_reported(self):
         quick = ("simulation.duration_s = 30.0\nreference = {kind = 'sine', offset_m = 0.011, amplitude_m = 0.009, angular_frequency_rad_per_s = 3.0}\n"
                  "controller = {kind = 'learned_ff', shape_reference = true}\n")
         text = self.run_program("run", self.scenario(quick), "--check").stdout
@@ -97,34 +97,34 @@ class Told(ProgramCase):
         self.assertIn(f"passes {before['passed_ratio']:.3g} of its amplitude", line)
         self.assertIn(f"is {1e3 * before['off_reference_rms_m']:.3g} mm rms from the reference itself", line)
         self.assertIn(f"the recommended reference_model passes {before['passed_by_recommended_ratio']:.3g}", line)
-        told, summary = self.after(quick)
-        self.assertIn(f"\nit was {1e3 * summary['off_reference_rms_m']:.3g} mm rms from the reference itself: {line}\n", told)
+        output, summary = self.after(quick)
+        self.assertIn(f"\nit was {1e3 * summary['off_reference_rms_m']:.3g} mm rms from the reference itself: {line}\n", output)
         self.assertLess(abs(summary["off_reference_rms_m"] / before["off_reference_rms_m"] - 1.0), 0.2)
         self.assertLess(before["promised_rms_m"], 100e-6)
         usual = self.run_program("run", self.scenario(SHORT), "--check").stdout
         self.assertNotIn("reference model passes", usual)
 
-    def test_shaping_is_no_advice_where_an_event_has_switched_it_on(self):
+    def test_shaping_is_not_advised_when_an_event_has_enabled_it(self):
         fast = "simulation.duration_s = 40.0\nreference.angular_frequency_rad_per_s = 2.0\ncontroller.kind = 'learned_ff'\n"
         fast += "reference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n"
-        told, _ = self.after(fast + "[[event]]\nat_s = 0.0\ncontroller.shape_reference = true\n")
-        self.assertRegex(told, r"after the event at 0 s \(controller\.shape_reference\), mostly limited_by \w+: use a slower or smaller reference\n")
+        output, _ = self.after(fast + "[[event]]\nat_s = 0.0\ncontroller.shape_reference = true\n")
+        self.assertRegex(output, r"after the event at 0 s \(controller\.shape_reference\), mostly limited_by \w+: use a slower or smaller reference\n")
 
-    def test_a_set_point_beyond_what_is_held_is_told_with_its_end(self):
+    def test_a_set_point_beyond_the_held_travel_is_reported_with_its_fault(self):
         step = "simulation.duration_s = 200.0\nreference = {kind = 'step', to_m = 0.03, at_s = 5.0}\nsensor.position.min_m = -0.01\n"
         beyond = "; a set point that stays above %s mm %s\n"
         for shape, load_N, held_mm, end in (("false", 0.0, 25, True), ("true", 0.0, 25, False), ("true", 0.05, 21.9, True)):
             scenario = self.scenario(step + f"controller = {{kind = 'learned_ff', shape_reference = {shape}}}\nplant.load_N = {load_N}\n")
             text = self.run_program("run", scenario, "--check").stdout
             self.assertIn(beyond % (held_mm, "ends in controller_invalid after 120 s" if end else "comes back to it"), text)
-            told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]["controller_invalid_s"]
-            self.assertEqual(f"; it ends in controller_invalid at about {told or 0:.3g} s" in text, end)
+            predicted_s = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]["controller_invalid_s"]
+            self.assertEqual(f"; it ends in controller_invalid at about {predicted_s or 0:.3g} s" in text, end)
             summary = self.after((self.path / "s.toml").read_text(), 1 if end else 0)[1]
             self.assertEqual([fault["name"] for fault in summary["faults"]], ["controller_invalid"] if end else [])
             if end:
-                self.assertLess(abs(summary["faults"][0]["at_s"] - told), 3.0)
+                self.assertLess(abs(summary["faults"][0]["at_s"] - predicted_s), 3.0)
 
-    def test_what_may_become_too_hot_is_told_beforehand(self):
+    def test_a_possible_overtemperature_is_reported_in_advance(self):
         scenario = self.scenario(HOT + "reference = {kind = 'steps', levels_m = [0.018], hold_s = 50.0}\n")
         reference = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]
         self.assertEqual((reference["limited_by"], reference["held_by"]), ("temperature", "temperature"))

@@ -36,7 +36,7 @@ struct Slow final : BusDevice {
 
 }  // namespace
 
-TEST_GROUP(ABus) {
+TEST_GROUP(BusOfDevices) {
   FakeAdc* good_device = new FakeAdc;
   FakeAdc* bad_device = new FakeAdc;
   FakePwm* pwm_device = new FakePwm;
@@ -57,14 +57,14 @@ TEST_GROUP(ABus) {
   }
 };
 
-TEST(ABus, HasNoTimesBeforeItsFirstRound) {
+TEST(BusOfDevices, HasNoTimesBeforeItsFirstRound) {
   const BusHealth health;
   UNSIGNED_LONGS_EQUAL(0, health.rounds.load());
   UNSIGNED_LONGS_EQUAL(0, health.skipped.load());
   LONGS_EQUAL(0, health.max_round_ns.load());
 }
 
-TEST(ABus, ServesEveryDeviceWhileAnotherFails) {
+TEST(BusOfDevices, ServesEveryDeviceWhileAnotherFails) {
   bad_device->status = hal::Status::io_error;
   const auto bus = started(200us);
   for (int step = 1; step < 200; ++step) {
@@ -82,7 +82,7 @@ TEST(ABus, ServesEveryDeviceWhileAnotherFails) {
   CHECK(good.latest().status == hal::Status::ok);
 }
 
-TEST(ABus, NoticesWhenADeviceComesBack) {
+TEST(BusOfDevices, NoticesWhenADeviceComesBack) {
   const auto bus = started(200us);
   wait_for_rounds(*bus, 2);
   bad_device->status = hal::Status::gone;
@@ -93,7 +93,7 @@ TEST(ABus, NoticesWhenADeviceComesBack) {
   CHECK(bad.latest().status == hal::Status::ok);
 }
 
-TEST(ABus, ThatIsTooSlowSkipsPeriodsAndCountsThem) {
+TEST(BusOfDevices, ThatIsTooSlowSkipsPeriodsAndCountsThem) {
   slow.first = slow.then = 3ms;
   const auto bus = started(1ms);
   wait_for_rounds(*bus, 3);
@@ -102,7 +102,7 @@ TEST(ABus, ThatIsTooSlowSkipsPeriodsAndCountsThem) {
 }
 
 /// A late round shortens the time to the next one and never lengthens it.
-TEST(ABus, ThatIsFastEnoughIsServedInEveryPeriod) {
+TEST(BusOfDevices, ThatIsFastEnoughIsServedInEveryPeriod) {
   auto bus = started(10ms);
   wait_for_rounds(*bus, 10);
   bus.reset();
@@ -112,14 +112,14 @@ TEST(ABus, ThatIsFastEnoughIsServedInEveryPeriod) {
   CHECK(shortest < 15ms);
 }
 
-TEST(ABus, DoesNotRunFasterThanItsPeriod) {
+TEST(BusOfDevices, DoesNotRunFasterThanItsPeriod) {
   const hal::Time start = MonotonicClock::time();
   const auto bus = started(2ms);
   wait_for_rounds(*bus, 5);
   CHECK(MonotonicClock::time() - start >= 4 * 2ms);
 }
 
-TEST(ABus, DoesNotCatchUpSkippedPeriods) {
+TEST(BusOfDevices, DoesNotCatchUpSkippedPeriods) {
   slow.first = 30ms;
   auto bus = started(2ms);
   wait_for_rounds(*bus, 6);
@@ -128,7 +128,7 @@ TEST(ABus, DoesNotCatchUpSkippedPeriods) {
   CHECK(slow.started.at(5) - slow.started.at(1) >= 3 * 2ms);
 }
 
-TEST(ABus, IsNoLongerServedOnceEnded) {
+TEST(BusOfDevices, IsNoLongerServedOnceEnded) {
   auto bus = started(200us);
   wait_for_rounds(*bus, 2);
   bus.reset();
@@ -137,21 +137,21 @@ TEST(ABus, IsNoLongerServedOnceEnded) {
   LONGS_EQUAL(reads, good_device->reads);
 }
 
-TEST(ABus, CanBeStartedAndEndedAtOnce) {
+TEST(BusOfDevices, CanBeStartedAndEndedAtOnce) {
   for (int i = 0; i < 50; ++i)
     started(1ms).reset();
 }
 
-TEST(ABus, WithoutItsThreadIsAnError) {
+TEST(BusOfDevices, WithoutItsThreadIsAnError) {
   CHECK_FALSE(BusThread::start({"small", 0, -1, 1}, 1ms, {}).has_value());
 }
 
-TEST(ABus, WithoutAPositivePeriodIsAnError) {
+TEST(BusOfDevices, WithoutAPositivePeriodIsAnError) {
   const auto bus = BusThread::start({"i2c-1"}, 0ns, {});
   STRCMP_EQUAL("a bus's period must be above 0", bus.error().text().c_str());
 }
 
-TEST(ABus, ReportsTheResultOfSettingItsPriority) {
+TEST(BusOfDevices, ReportsTheResultOfSettingItsPriority) {
   const auto bus = BusThread::start({"i2c-1", 50, 0}, 1ms, {});
   LONGS_EQUAL(2, (*bus)->steps().size());
 }

@@ -31,9 +31,9 @@ TEST(Gpio, ReportsWhyAChipCannotBeOpened) {
   dev.write("gpiochip0", "");
   dev.make_pipe("gpiochip1");
   dev.make_folder("gpiochip2");
-  const std::string said = answer();
+  const std::string text = answer();
   for (const char* chip : {"gpiochip0", "gpiochip1", "gpiochip2"}) {
-    STRCMP_CONTAINS(("cannot open " + dev / chip + ": ").c_str(), said.c_str());
+    STRCMP_CONTAINS(("cannot open " + dev / chip + ": ").c_str(), text.c_str());
   }
 }
 

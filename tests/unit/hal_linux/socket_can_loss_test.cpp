@@ -41,10 +41,10 @@ TEST_GROUP(SocketCanLoss) {
     check(hal::Status::gone, can->send({0x201, 0, {}, {}}));
     CHECK(can->state() == hal::CanState::down);
   }
-  void wait_for_the_next_look() const {
+  void wait_for_next_retry() const {
     std::this_thread::sleep_for(110ms);
   }
-  void check_hears() {
+  void check_receives() {
     check(hal::Status::not_ready, can->receive(frame));
     CHECK(can->state() == hal::CanState::active);
     kernel.deliver(0x201, {5});
@@ -57,18 +57,18 @@ TEST(SocketCanLoss, InterfaceThatComesUpAgainIsReceivedAgain) {
   kernel.set_down("can0");
   check_gone();
   kernel.set_up("can0");
-  wait_for_the_next_look();
-  check_hears();
+  wait_for_next_retry();
+  check_receives();
 }
 
 TEST(SocketCanLoss, InterfaceThatVanishedComesBackUnderAnotherNumber) {
   kernel.unplug("can0");
   check_gone();
-  wait_for_the_next_look();
+  wait_for_next_retry();
   check_gone();
   kernel.plug("can0", 9);
-  wait_for_the_next_look();
-  check_hears();
+  wait_for_next_retry();
+  check_receives();
   LONGS_EQUAL(9, kernel.bound_to);
   LONGS_EQUAL(1, kernel.filters.size());  // set on the new socket too
 }
@@ -78,7 +78,7 @@ TEST(SocketCanLoss, IsDetectedBySendingToo) {
     fail_next(Call::write, "", error);
     check(hal::Status::gone, can->send({0x201, 0, {}, {}}));
     CHECK(can->state() == hal::CanState::down);
-    wait_for_the_next_look();
+    wait_for_next_retry();
     check(hal::Status::ok, can->send({0x201, 0, {}, {}}));
     CHECK(can->state() == hal::CanState::active);
   }
@@ -108,8 +108,8 @@ TEST(SocketCanLoss, InterfaceThatIsDownAtFirstMayComeUpLater) {
   open();
   check_gone();
   kernel.set_up("can0");
-  wait_for_the_next_look();
-  check_hears();
+  wait_for_next_retry();
+  check_receives();
 }
 
 TEST(SocketCanLoss, ControllerAlreadyBusOffIsReported) {
@@ -124,9 +124,9 @@ TEST(SocketCanLoss, FailuresDuringRecoveryAreRetried) {
   check_gone();
   kernel.set_up("can0");
   kernel.option_error = ENOMEM;
-  wait_for_the_next_look();
+  wait_for_next_retry();
   check_gone();
   kernel.option_error = 0;
-  wait_for_the_next_look();
-  check_hears();
+  wait_for_next_retry();
+  check_receives();
 }

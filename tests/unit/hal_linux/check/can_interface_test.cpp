@@ -9,7 +9,7 @@
 
 #include "supercoil/hal_linux/checks.hpp"
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -76,10 +76,10 @@ TEST_GROUP(CheckCanLink) {
     root.write("sys/class/net/eth0/type", "1\n");
   }
   hal::Finding found(const std::string& interface = "supercoil-no0") const {
-    Told told;
-    check_can_interface(machine, interface, told.sink());
-    LONGS_EQUAL(1, told.findings.size());
-    return told.findings.front();
+    CollectedFindings collected;
+    check_can_interface(machine, interface, collected.sink());
+    LONGS_EQUAL(1, collected.findings.size());
+    return collected.findings.front();
   }
 };
 

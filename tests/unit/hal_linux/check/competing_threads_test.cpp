@@ -4,7 +4,7 @@
 
 #include "supercoil/hal_linux/checks.hpp"
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
 using namespace supercoil;
@@ -26,7 +26,7 @@ constexpr unsigned of_user = 0x00400100;
 
 }  // namespace
 
-TEST_GROUP(CheckRivals) {
+TEST_GROUP(CheckCompetingThreads) {
   TemporaryFolder root;
   const Machine machine{root / "proc", root / "sys", root / "dev"};
 
@@ -36,18 +36,18 @@ TEST_GROUP(CheckRivals) {
     root.write("proc/12/task/12/stat", stat("migration/0", of_kernel, 99, SCHED_FIFO));
   }
   hal::Finding found(int priority = 80) const {
-    Told told;
-    check_competing_threads(machine, {priority, -1}, told.sink());
-    LONGS_EQUAL(1, told.findings.size());
-    return told.findings.front();
+    CollectedFindings collected;
+    check_competing_threads(machine, {priority, -1}, collected.sink());
+    LONGS_EQUAL(1, collected.findings.size());
+    return collected.findings.front();
   }
 };
 
-TEST(CheckRivals, OnlyCountsKernelThreads) {
+TEST(CheckCompetingThreads, OnlyCountsKernelThreads) {
   check_finding("ok", "none above priority 80 (besides 1 kernel thread)", "", found());
 }
 
-TEST(CheckRivals, NamesProgramsWithAHigherPriority) {
+TEST(CheckCompetingThreads, NamesProgramsWithAHigherPriority) {
   root.write("proc/300/task/300/stat", stat("pulse (audio)", of_user, 0, SCHED_OTHER));
   root.write("proc/300/task/301/stat", stat("pulse (audio)", of_user, 90, SCHED_FIFO));
   root.write("proc/300/task/302/stat", stat("pulse (audio)", of_user, 90, SCHED_FIFO));
@@ -61,7 +61,7 @@ TEST(CheckRivals, NamesProgramsWithAHigherPriority) {
   check_finding("warning", "as loud (80)", "chrt", found(79));
 }
 
-TEST(CheckRivals, ToleratesThreadsThatEndMeanwhile) {
+TEST(CheckCompetingThreads, ToleratesThreadsThatEndMeanwhile) {
   root.make_folder("proc/600/task/600");
   root.write("proc/601/task/601/stat", "601 (cut");
   root.write("proc/602/task/602/stat", "602 (cut) R 1 2 3");
@@ -75,16 +75,16 @@ TEST(CheckRivals, ToleratesThreadsThatEndMeanwhile) {
   CHECK_FALSE(parse_thread_stat("5 (x) S a b c d e f g").has_value());
 }
 
-TEST(CheckRivals, CountsAProgramListedTwiceInProcOnce) {
+TEST(CheckCompetingThreads, CountsAProgramListedTwiceInProcOnce) {
   root.write("proc/300/task/301/stat", stat("pulse", of_user, 90, SCHED_FIFO));
   root.link("proc/thread-self", "proc/300");
   check_finding("warning", "pulse (90) above priority 80", "chrt", found());
 }
 
-TEST(CheckRivals, AreComparedWithPriority80ByDefault) {
+TEST(CheckCompetingThreads, AreComparedWithPriority80ByDefault) {
   root.write("proc/300/task/300/stat", stat("as loud", of_user, 80, SCHED_FIFO));
   root.write("proc/300/task/301/stat", stat("louder", of_user, 81, SCHED_FIFO));
-  Told told;
-  check_competing_threads(machine, {}, told.sink());
-  check_finding("warning", "louder (81) above priority 80", "chrt", told.findings.front());
+  CollectedFindings collected;
+  check_competing_threads(machine, {}, collected.sink());
+  check_finding("warning", "louder (81) above priority 80", "chrt", collected.findings.front());
 }

@@ -4,7 +4,7 @@
 
 #include "supercoil/hal_linux/checks.hpp"
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
 using namespace supercoil;
@@ -29,10 +29,10 @@ TEST_GROUP(CheckKernel) {
   }
   template <class Check>
   static hal::Finding only(const Check& check) {
-    Told told;
-    check(told.sink());
-    LONGS_EQUAL(1, told.findings.size());
-    return told.findings.front();
+    CollectedFindings collected;
+    check(collected.sink());
+    LONGS_EQUAL(1, collected.findings.size());
+    return collected.findings.front();
   }
   hal::Finding kernel() const {
     return only([&](const hal::FindingSink& sink) { check_kernel(machine, sink); });

@@ -4,7 +4,7 @@
 
 #include "supercoil/hal_linux/checks.hpp"
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -15,16 +15,16 @@ using namespace supercoil::test;
 TEST_GROUP(CheckRights) {
   TemporaryFolder root;
   const Machine machine{root / "proc", root / "sys", root / "dev"};
-  Told told;
+  CollectedFindings collected;
 
   void setup() override {
-    may("0000000000000000");
+    set_capabilities("0000000000000000");
     limit("8388608");
   }
   void teardown() override {
     reset_calls();
   }
-  void may(const std::string& capabilities) const {
+  void set_capabilities(const std::string& capabilities) const {
     root.write("proc/self/status", "Name:\tdoctor\nCapPrm:\tffffffffffffffff\nCapEff:\t" +
                                        capabilities + "\nCapBnd:\tffffffffffffffff\n");
   }
@@ -37,13 +37,13 @@ TEST_GROUP(CheckRights) {
   }
   hal::Finding priority(int answer) {
     next(Call::set_scheduling, "", [answer] { return -answer; });
-    check_priority(machine, {80, -1}, told.sink());
+    check_priority(machine, {80, -1}, collected.sink());
     LONGS_EQUAL(0, waiting());
-    return told.findings.back();
+    return collected.findings.back();
   }
   hal::Finding memory() {
-    check_locked_memory(machine, told.sink());
-    return told.findings.back();
+    check_locked_memory(machine, collected.sink());
+    return collected.findings.back();
   }
 };
 
@@ -51,11 +51,11 @@ TEST(CheckRights, NamesWhatPreventsThePriority) {
   check_finding("warning",
                 "not priority 80 of SCHED_FIFO: Operation not permitted; the limit of priority is",
                 "LimitRTPRIO=99", priority(EPERM));
-  may("0000000000800000");
+  set_capabilities("0000000000800000");
   check_finding("warning", "despite CAP_SYS_NICE", "cpu.rt_runtime_us", priority(EPERM));
-  STRCMP_CONTAINS("not priority 80 of SCHED_FIFO", told.findings.back().found.c_str());
+  STRCMP_CONTAINS("not priority 80 of SCHED_FIFO", collected.findings.back().found.c_str());
   // A sandbox that accepts the call but does nothing.
-  may("0000000000000000");
+  set_capabilities("0000000000000000");
   check_finding("warning", "accepted, but the thread does not have it", "LimitRTPRIO=99",
                 priority(0));
 }
@@ -69,15 +69,15 @@ TEST(CheckRights, ComparesTheLimitOfLockedMemory) {
   check_finding("ok", "limit unlimited", "", memory());
   limit("nonsense");
   check_finding("warning", "no number in " + root / "proc/self/limits", "root", memory());
-  may("0000000000004000");
+  set_capabilities("0000000000004000");
   check_finding("ok", "CAP_IPC_LOCK", "", memory());
 }
 
 TEST(CheckRights, SaysWhyProcessorsMaySleep) {
-  check_cpu_latency(machine, told.sink());
+  check_cpu_latency(machine, collected.sink());
   check_finding("warning", "cannot open " + root / "dev/cpu_dma_latency", "allow writing to",
-                told.findings.back());
+                collected.findings.back());
   root.write("dev/cpu_dma_latency", "");
-  check_cpu_latency(machine, told.sink());
-  check_finding("ok", "CPUs kept from deep sleep", "", told.findings.back());
+  check_cpu_latency(machine, collected.sink());
+  check_finding("ok", "CPUs kept from deep sleep", "", collected.findings.back());
 }

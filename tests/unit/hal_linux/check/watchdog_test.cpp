@@ -4,7 +4,7 @@
 
 #include "supercoil/hal_linux/checks.hpp"
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -36,10 +36,10 @@ TEST_GROUP(CheckWatchdog) {
     reset_calls();
   }
   hal::Finding found(const std::string& path, bool in_use = false) const {
-    Told told;
-    check_watchdog(machine, path, in_use, told.sink());
-    LONGS_EQUAL(1, told.findings.size());
-    return told.findings.front();
+    CollectedFindings collected;
+    check_watchdog(machine, path, in_use, collected.sink());
+    LONGS_EQUAL(1, collected.findings.size());
+    return collected.findings.front();
   }
 };
 
@@ -99,7 +99,7 @@ TEST(CheckWatchdog, DoesNotMistakeAnotherOneForTheFirst) {
   without_first.write("sys/class/watchdog/watchdog1/dev", "250:1\n");
   const Machine other{without_first / "proc", without_first / "sys", without_first / "dev"};
   set_device(10, 130);
-  Told told;
-  check_watchdog(other, device, false, told.sink());
-  check_finding("warning", "does not identify it", "wdctl", told.findings.front());
+  CollectedFindings collected;
+  check_watchdog(other, device, false, collected.sink());
+  check_finding("warning", "does not identify it", "wdctl", collected.findings.front());
 }

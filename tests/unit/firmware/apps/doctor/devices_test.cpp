@@ -6,7 +6,7 @@
 
 #include "apps/supercoil/doctor/check_devices.hpp"
 #include "unit/firmware/io/config/support/small_board.hpp"
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 #include "unit/hal_linux/support/gpio_kernel.hpp"
 #include "unit/hal_linux/support/pwm_kernel.hpp"
 
@@ -51,9 +51,9 @@ TEST_GROUP(DoctorDevices) {
   void look() {
     const auto config = config::parse_board_config(text, "b.toml");
     if (!config) FAIL(config::to_text(config.error()).c_str());
-    Told told;
-    times = doctor::check_devices(*config, machine, 1, told.sink());
-    findings = told.findings;
+    CollectedFindings collected;
+    times = doctor::check_devices(*config, machine, 1, collected.sink());
+    findings = collected.findings;
   }
   hal::Finding found(const std::string& what) const {
     for (const hal::Finding& finding : findings)
@@ -72,13 +72,13 @@ TEST_GROUP(DoctorDevices) {
 
 TEST(DoctorDevices, AreAllReported) {
   look();
-  std::string whats;
+  std::string names;
   for (const hal::Finding& finding : findings)
-    whats += finding.what + "; ";
+    names += finding.what + "; ";
   STRCMP_EQUAL(
       "heartbeat; stop_circuit; channel 1, enable; channel 1, enable released; channel 1, pwm; "
       "supply; channel 1, position; channel 1, current; ",
-      whats.c_str());
+      names.c_str());
   check_found("heartbeat", "BEAT of gpio, low; ");
   check_found("stop_circuit", "STOP of gpio: closed; ");
   check_found("channel 1, enable", "EN1 of gpio, low; ");

@@ -1,11 +1,12 @@
 // doctor's findings about calls, lines and buses.
+#include "unit/hal_linux/check/findings.hpp"
+
 #include <ctime>
 
 #include <CppUTest/TestHarness.h>
 
 #include "apps/supercoil/doctor/call_time.hpp"
 #include "apps/supercoil/doctor/check_devices.hpp"
-#include "unit/hal_linux/check/told.hpp"
 
 using namespace supercoil;
 using namespace supercoil::doctor;
@@ -26,10 +27,10 @@ static hal::Finding bus(const BusTimes& measured, double rate_Hz = 100.0) {
   // 3 transactions of (9 x 5 + 2) / 100 kHz + 30 us: 1.5 ms.
   config.wiring.buses.push_back({"i2c-1", config::BusKind::i2c, 100e3, 30e-6});
   config.wiring.supply.access = {"i2c-1", 3, 5, 0.0};
-  Told told;
-  check_buses(config, measured, told.sink());
-  LONGS_EQUAL(1, told.findings.size());
-  return told.findings.front();
+  CollectedFindings collected;
+  check_buses(config, measured, collected.sink());
+  LONGS_EQUAL(1, collected.findings.size());
+  return collected.findings.front();
 }
 }
 ;

@@ -2,7 +2,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/check/findings.hpp"
 
 using namespace supercoil;
 using namespace supercoil::doctor;

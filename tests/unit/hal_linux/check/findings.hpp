@@ -10,7 +10,7 @@
 
 namespace supercoil::test {
 
-struct Told {
+struct CollectedFindings {
   std::vector<hal::Finding> findings;
   hal::FindingSink sink() {
     return [this](const hal::Finding& finding) { findings.push_back(finding); };

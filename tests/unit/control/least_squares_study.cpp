@@ -18,10 +18,10 @@ using supercoil::test::Learning;
 
 int failures = 0;
 
-void expect_at_most(const std::string& what, double value, double most) {
-  std::printf("%-58s %8.4f, at most %.4f%s\n", what.c_str(), value, most,
-              value <= most ? "" : "  FAILED");
-  if (!(value <= most)) ++failures;
+void expect_at_most(const std::string& what, double value, double max) {
+  std::printf("%-58s %8.4f, at most %.4f%s\n", what.c_str(), value, max,
+              value <= max ? "" : "  FAILED");
+  if (!(value <= max)) ++failures;
 }
 
 /// The shortest time within which 95 % of 40 seeds are done.

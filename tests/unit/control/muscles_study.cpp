@@ -20,9 +20,9 @@ using Square = Matrix<double, 5>;
 
 int failures = 0;
 
-void expect_within(const char* what, double value, double least, double most) {
-  const bool right = value >= least && value <= most;
-  std::printf("%-58s %8.4f, %.4f to %.4f%s\n", what, value, least, most, right ? "" : "  FAILED");
+void expect_within(const char* what, double value, double min, double max) {
+  const bool right = value >= min && value <= max;
+  std::printf("%-58s %8.4f, %.4f to %.4f%s\n", what, value, min, max, right ? "" : "  FAILED");
   if (!right) ++failures;
 }
 
@@ -56,7 +56,7 @@ std::vector<FollowedMuscle> muscles() {
 
 void false_changes() {
   constexpr double duration_s = 1000.0;
-  double seen_s = 0.0;
+  double total_s = 0.0;
   std::int64_t changes = 0;
   for (FollowedMuscle muscle : muscles()) {
     for (const Course motion : {Course::sine, Course::steps, Course::random_steps}) {
@@ -67,10 +67,10 @@ void false_changes() {
         return true;
       });
       changes += found;
-      seen_s += duration_s;
+      total_s += duration_s;
     }
   }
-  expect_within("false changes in 20,000 s", static_cast<double>(changes) * 20e3 / seen_s, 0.0,
+  expect_within("false changes in 20,000 s", static_cast<double>(changes) * 20e3 / total_s, 0.0,
                 1.0);
 }
 
@@ -95,7 +95,7 @@ double settled_s(const FollowedMuscle& muscle) {
 }
 
 /// The slowest run, relative to the same muscle with an estimator that only forgets.
-void settling(const char* what, host_sim::MusclePreset preset, double most) {
+void settling(const char* what, host_sim::MusclePreset preset, double max) {
   constexpr int phases = 8;
   double worst = 0.0;
   for (const Course motion : {Course::sine, Course::steps, Course::random_steps}) {
@@ -117,7 +117,7 @@ void settling(const char* what, host_sim::MusclePreset preset, double most) {
       }
     }
   }
-  expect_within(what, worst, 0.0, most);
+  expect_within(what, worst, 0.0, max);
 }
 
 /// Linear if odd. What a maker of muscles might sell: no two are alike.
@@ -162,7 +162,7 @@ FollowedMuscle random_muscle(unsigned seed) {
 
 /// What the estimator reported at a time, and the regressions of the minute after it.
 struct Outcome {
-  Parameters told;
+  Parameters estimate;
   Square covariance;
   bool trusted;
   Square information = Square::Zero();
@@ -176,15 +176,15 @@ Outcome outcome_of(const FollowedMuscle& muscle, double at_s) {
   regression.restart(0.0);
   Outcome outcome{};
   long tick_count = 0;
-  bool told = false;
+  bool recorded = false;
   muscle.run((at_s + 60.0) * slow, [&](const FollowedMuscle::Tick& tick) {
     regression.step(tick.position_W, tick.applied_W);
     if (++tick_count % 10 != 0) return true;
     regression.update();
     if (tick.time_s < at_s * slow) return true;
-    if (!told) {
-      told = true;
-      outcome.told = tick.estimator.parameters();
+    if (!recorded) {
+      recorded = true;
+      outcome.estimate = tick.estimator.parameters();
       outcome.covariance = tick.estimator.covariance();
       outcome.trusted = relative_error_bound(tick.estimator.standard_deviations()) <=
                         usual.excitation.trusted_error;
@@ -198,13 +198,13 @@ Outcome outcome_of(const FollowedMuscle& muscle, double at_s) {
 }
 
 /// The error in deviations (rms over the directions that are known to a quarter), and in θ.
-struct Off {
+struct EstimateError {
   double deviations = 0.0;
   double theta = 0.0;
   bool known = false;
 };
 
-Off off_of(const Outcome& o, const FollowedMuscle& muscle) {
+EstimateError error_of(const Outcome& o, const FollowedMuscle& muscle) {
   Parameters units = Parameters::Ones();
   units[4] = muscle.max_W / 2.0;
   const Square inverse = units.cwiseInverse().asDiagonal();
@@ -212,27 +212,27 @@ Off off_of(const Outcome& o, const FollowedMuscle& muscle) {
   int known = 0;
   while (known < 5 && solver.eigenvalues()[known] < 0.25 * 0.25)
     ++known;
-  Off off{.known = known > 0};
-  if (known == 0) return off;
+  EstimateError error{.known = known > 0};
+  if (known == 0) return error;
   // Unknown directions are not judged: the best fit is along the others.
   const Eigen::MatrixXd along = units.asDiagonal() * solver.eigenvectors().leftCols(known);
   Eigen::VectorXd best;
   if (muscle.effects.any()) {
     best = (along.transpose() * o.information * along)
                .ldlt()
-               .solve(along.transpose() * (o.correlation - o.information * o.told));
+               .solve(along.transpose() * (o.correlation - o.information * o.estimate));
   } else {
     Parameters truth = Parameters::Ones();
     truth[4] = 0.0;
-    best = solver.eigenvectors().leftCols(known).transpose() * (inverse * (truth - o.told));
+    best = solver.eigenvectors().leftCols(known).transpose() * (inverse * (truth - o.estimate));
   }
   const Eigen::VectorXd spread = solver.eigenvalues().head(known).cwiseSqrt();
-  off.deviations = best.cwiseQuotient(spread).norm() / std::sqrt(known);
-  off.theta = (along * best).head(4).norm();
-  return off;
+  error.deviations = best.cwiseQuotient(spread).norm() / std::sqrt(known);
+  error.theta = (along * best).head(4).norm();
+  return error;
 }
 
-void honesty() {
+void check_deviations() {
   constexpr unsigned count = 200;
   double judged = 0.0;
   double within = 0.0;
@@ -243,17 +243,17 @@ void honesty() {
   for (unsigned seed = 1; seed <= count; ++seed) {
     const FollowedMuscle muscle = random_muscle(seed);
     const Outcome outcome = outcome_of(muscle, 100.0 + seed % 100);
-    const Off off = off_of(outcome, muscle);
+    const EstimateError error = error_of(outcome, muscle);
     if (outcome.trusted) {
       trusted += 1.0;
-      if (off.theta > EstimatorSettings{}.excitation.trusted_error) wrong += 1.0;
+      if (error.theta > EstimatorSettings{}.excitation.trusted_error) wrong += 1.0;
     }
-    if (!off.known) continue;
+    if (!error.known) continue;
     judged += 1.0;
-    if (off.deviations <= 2.0) within += 1.0;
+    if (error.deviations <= 2.0) within += 1.0;
     if (!muscle.effects.any()) continue;
     judged_real += 1.0;
-    if (off.deviations <= 2.0) within_real += 1.0;
+    if (error.deviations <= 2.0) within_real += 1.0;
   }
   expect_within("of 200 random muscles, something is known of", judged, 150.0, count);
   expect_within("  within two deviations", within / judged, 0.90, 0.99);
@@ -269,6 +269,6 @@ int main() {
   settling("settling with over without a detector, paper", host_sim::MusclePreset::paper, 1.1);
   settling("  real", host_sim::MusclePreset::real, 1.1);
   settling("  real_hard", host_sim::MusclePreset::real_hard, 1.1);
-  honesty();
+  check_deviations();
   return failures == 0 ? 0 : 1;
 }

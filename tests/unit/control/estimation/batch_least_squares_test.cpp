@@ -14,13 +14,13 @@ namespace {
 constexpr double block_s = 8.0;
 
 /// Every parameter of the belief is as far off as the board allows.
-PhysicalParameters half_wrong_belief() {
-  PhysicalParameters believed;
-  believed.thermal_mass_J_per_K *= 1.5;
-  believed.heat_transfer_W_per_K *= 0.5;
-  believed.stiffness_N_per_m *= 1.5;
-  believed.damping_Ns_per_m *= 0.5;
-  return believed;
+PhysicalParameters half_wrong_guess() {
+  PhysicalParameters guess;
+  guess.thermal_mass_J_per_K *= 1.5;
+  guess.heat_transfer_W_per_K *= 0.5;
+  guess.stiffness_N_per_m *= 1.5;
+  guess.damping_Ns_per_m *= 0.5;
+  return guess;
 }
 
 /// The paper's muscle under a power that steps and swings.
@@ -34,9 +34,9 @@ struct PowerSteps {
   std::optional<BatchLeastSquares::Fit> run(unsigned seed = 1) const {
     return experiment(seed).fit();
   }
-  BatchLeastSquares experiment(unsigned seed = 1, double anew_at_s = 1e6) const {
+  BatchLeastSquares experiment(unsigned seed = 1, double restart_at_s = 1e6) const {
     constexpr double step_s = 1e-3;
-    BatchLeastSquares fit(half_wrong_belief(), step_s);
+    BatchLeastSquares fit(half_wrong_guess(), step_s);
     fit.start(0.0);
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0.0, noise_rms_m);
@@ -51,9 +51,9 @@ struct PowerSteps {
         muscle.change(parameters);
       }
       muscle.step(power_W);
-      if (std::abs(time_s - anew_at_s) < 0.5 * step_s) fit.restart();
+      if (std::abs(time_s - restart_at_s) < 0.5 * step_s) fit.restart();
       // The filters settle during the first block of a run.
-      const double from_s = time_s < anew_at_s ? block_s : anew_at_s;
+      const double from_s = time_s < restart_at_s ? block_s : restart_at_s;
       fit.step(muscle.position_m() + noise(random), power_W + bias_W,
                time_s < from_s ? std::optional<std::size_t>()
                                : static_cast<std::size_t>((time_s - from_s) / block_s));
@@ -105,10 +105,10 @@ TEST(BatchLeastSquares, ValidatesAMuscleOnAnExperimentNotUsedForTheFit) {
 
 /// The restart comes in the middle of a stroke: the filters need not settle again.
 TEST(BatchLeastSquares, RestartingMidExperimentFindsTheSameMuscle) {
-  const BatchLeastSquares anew =
+  const BatchLeastSquares restarted =
       PowerSteps{.noise_rms_m = 0.0, .blocks = 14}.experiment(1, 7.6 * block_s);
-  CHECK_EQUAL(8U, anew.blocks());
-  const auto fit = anew.fit();
+  CHECK_EQUAL(8U, restarted.blocks());
+  const auto fit = restarted.fit();
   CHECK(fit.has_value());
   for (int i = 0; i < 4; ++i)
     DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.005 * paper_theta()[i]);
@@ -139,15 +139,15 @@ TEST(BatchLeastSquares, NoiseWidensTheResultWithoutBias) {
 
 TEST(BatchLeastSquares, ReportedDeviationsMatchTheErrors) {
   Theta squares = Theta::Zero();
-  Theta told = Theta::Zero();
+  Theta reported = Theta::Zero();
   constexpr int runs = 20;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     const auto fit = PowerSteps{.noise_rms_m = 0.3e-3}.run(seed);
     squares += (fit->theta.cwiseQuotient(paper_theta()) - Theta::Ones()).cwiseAbs2() / runs;
-    told += fit->deviation.cwiseAbs2() / runs;
+    reported += fit->deviation.cwiseAbs2() / runs;
   }
   for (int i = 0; i < 4; ++i) {
-    const double ratio = std::sqrt(told[i] / squares[i]);
+    const double ratio = std::sqrt(reported[i] / squares[i]);
     CHECK(ratio > 0.6);
     CHECK(ratio < 1.8);
   }

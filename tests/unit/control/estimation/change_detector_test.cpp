@@ -70,10 +70,10 @@ TEST(ChangeDetector, IsBlindAtFirstAndDoesNotRepeatAChangeTooSoon) {
       watch(detector, 300.0, [](double time_s) { return time_s > 50.0 ? 1.0 : 0.0; });
   DOUBLES_EQUAL(-1.0, found.time_s, 0.0);
   Detector later = fresh();
-  int told = 0;
+  int detections = 0;
   for (int k = 0; k < 10'300; ++k) {
     const double time_s = k * detector_period_s;
-    if (later.step(signals(time_s), time_s > 100.0 ? 1.0 : 0.0)) ++told;
+    if (later.step(signals(time_s), time_s > 100.0 ? 1.0 : 0.0)) ++detections;
   }
-  LONGS_EQUAL(1, told);
+  LONGS_EQUAL(1, detections);
 }

@@ -81,9 +81,9 @@ TEST(LeastSquares, NeverReportsParametersOutsideItsBounds) {
   settings.max_ratio = 0.9;
   Learning<double> learning(1, settings);
   learning.run_until(5.0);
-  const auto told = learning.estimator.parameters().head<4>().eval();
-  DOUBLES_EQUAL(0.9, told.maxCoeff(), 1e-12);
-  CHECK(told.minCoeff() >= settings.min_ratio);
+  const auto reported = learning.estimator.parameters().head<4>().eval();
+  DOUBLES_EQUAL(0.9, reported.maxCoeff(), 1e-12);
+  CHECK(reported.minCoeff() >= settings.min_ratio);
 }
 
 TEST(LeastSquares, FloatLearnsOverHoursOfMotionAndRest) {

@@ -51,9 +51,9 @@ TEST(SimplestChange, KnownValuesArePassedThrough) {
   const Square known = Square::Identity() * 1e-6;
   for (const Parameters& theta : {moved(1.0, 1.0, 0.75, 0.75, 0.0), moved(1.3, 1.3, 1.3, 1.3, 0.0),
                                   moved(1.0, 1.0, 1.0, 1.0, 0.5), moved(1.0, 1.0, 1.0, 1.4, 0.0)}) {
-    const auto told = begun().explained(theta, known);
-    CHECK(told.has_value());
-    CHECK((*told - theta).norm() < 0.01);
+    const auto found = begun().explained(theta, known);
+    CHECK(found.has_value());
+    CHECK((*found - theta).norm() < 0.01);
   }
 }
 
@@ -66,10 +66,10 @@ TEST(SimplestChange, UndeterminedParametersKeepTheirValues) {
   open[4] = -0.3;
   covariance += open * open.transpose();
   // Least squares lies halfway: it puts half of the change into θ3.
-  const auto told = begun().explained(moved(1.0, 1.0, 1.25, 1.0, 0.25), covariance);
-  CHECK(told.has_value());
-  DOUBLES_EQUAL(1.0, (*told)[2], 0.02);
-  DOUBLES_EQUAL(0.5, (*told)[4], 0.03);
+  const auto found = begun().explained(moved(1.0, 1.0, 1.25, 1.0, 0.25), covariance);
+  CHECK(found.has_value());
+  DOUBLES_EQUAL(1.0, (*found)[2], 0.02);
+  DOUBLES_EQUAL(0.5, (*found)[4], 0.03);
 }
 
 /// The data determine only the sum of θ4 and the bias.
@@ -80,17 +80,17 @@ TEST(SimplestChange, EquallyGoodExplanationsAreLeftUndecided) {
 }
 
 TEST(SimplestChange, PrefersTheNarrowerOfTwoEquallyGoodExplanations) {
-  const auto told = begun(20.0).explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), sum_known());
-  CHECK(told.has_value());
-  DOUBLES_EQUAL(1.0, (*told)[3], 0.02);
-  DOUBLES_EQUAL(0.5, (*told)[4], 0.03);
+  const auto found = begun(20.0).explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), sum_known());
+  CHECK(found.has_value());
+  DOUBLES_EQUAL(1.0, (*found)[3], 0.02);
+  DOUBLES_EQUAL(0.5, (*found)[4], 0.03);
 }
 
 TEST(SimplestChange, TwoSimultaneousChangesPassThroughFromLeastSquares) {
   const Parameters theta = moved(1.0, 1.0, 0.75, 0.75, 0.5);
-  const auto told = begun().explained(theta, Square::Identity() * 1e-6);
-  CHECK(told.has_value());
-  CHECK((*told - theta).norm() < 1e-9);
+  const auto found = begun().explained(theta, Square::Identity() * 1e-6);
+  CHECK(found.has_value());
+  CHECK((*found - theta).norm() < 1e-9);
 }
 
 TEST(SimplestChange, NaNIsLeftUndecided) {

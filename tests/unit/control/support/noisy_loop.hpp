@@ -29,9 +29,9 @@ struct NoisyLoop {
   double soft_from_s = 1e9;  ///< from this time on the stiffness is 12 N/m
   double (*reference_m)(double) = paper_sine_m;
 
-  /// see(time_s, true error in µm) at each tick.
-  template <class See>
-  void run(double duration_s, See see) const {
+  /// on_tick(time_s, true error in µm) at each tick.
+  template <class OnTick>
+  void run(double duration_s, OnTick on_tick) const {
     constexpr double count_m = 0.040 / 65536;
     control::Controller law(controller, step_s);
     std::optional<control::Estimator> learning;
@@ -51,18 +51,18 @@ struct NoisyLoop {
         truth.stiffness_N_per_m = 12.0;
         muscle.change(truth);
       }
-      const double seen_m =
+      const double measured_m =
           std::nearbyint((muscle.position_m() + noise(source)) / count_m) * count_m;
       if (learning) {
-        learning->step(seen_m, power_W);
+        learning->step(measured_m, power_W);
         law.learn(*learning->estimate());
       }
       const auto out = law.step({.reference_m = reference_m(time_s),
-                                 .position_m = seen_m,
+                                 .position_m = measured_m,
                                  .applied_power_W = power_W,
                                  .limited = limited,
                                  .range = range});
-      see(time_s, 1e6 * (out.model_m - muscle.position_m()));
+      on_tick(time_s, 1e6 * (out.model_m - muscle.position_m()));
       power_W = range.clip(out.demanded_power_W);
       limited = power_W != out.demanded_power_W;
       muscle.step(power_W);

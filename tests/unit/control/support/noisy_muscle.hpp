@@ -21,9 +21,9 @@ class NoisyMuscle {
   const control::PhysicalParameters& truth() const { return truth_; }
   double time_s() const { return step_s * static_cast<double>(ticks_); }
 
-  /// Runs tick by tick until then; see(position_m, power_W) gets what a board would measure.
-  template <class See>
-  void run_until(double time_s, See see) {
+  /// Runs tick by tick until then; on_tick(position_m, power_W) gets what a board would measure.
+  template <class OnTick>
+  void run_until(double time_s, OnTick on_tick) {
     for (; ticks_ < std::lround(time_s / step_s); ++ticks_) {
       if (ticks_ == std::lround(soft_from_s_ / step_s)) {
         truth_.stiffness_N_per_m = 12.0;
@@ -31,7 +31,8 @@ class NoisyMuscle {
       }
       const double power_W = paper_power_W(this->time_s());
       muscle_.step(power_W);
-      see(std::nearbyint((muscle_.position_m() + noise_(source_)) / count_m) * count_m, power_W);
+      on_tick(std::nearbyint((muscle_.position_m() + noise_(source_)) / count_m) * count_m,
+              power_W);
     }
   }
 

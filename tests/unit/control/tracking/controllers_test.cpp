@@ -35,7 +35,7 @@ std::pair<double, double> difference(ControllerKind kind, const nlohmann::json& 
   return worst;
 }
 
-void expect_scipys(ControllerKind kind, const char* name) {
+void expect_scipy_response(ControllerKind kind, const char* name) {
   const auto run = supercoil::test::reference("tracking", name);
   const auto coarse = difference(kind, run, 1e-3);
   const auto fine = difference(kind, run, 0.5e-3);
@@ -49,11 +49,11 @@ void expect_scipys(ControllerKind kind, const char* name) {
 TEST_GROUP(Controllers){};
 
 TEST(Controllers, PiMatchesScipysClosedLoopToFirstOrderInTheStep) {
-  expect_scipys(ControllerKind::pi, "pi");
+  expect_scipy_response(ControllerKind::pi, "pi");
 }
 
 TEST(Controllers, PdWithFeedforwardMatchesScipysClosedLoopToFirstOrder) {
-  expect_scipys(ControllerKind::pd_ff, "pd_ff");
+  expect_scipy_response(ControllerKind::pd_ff, "pd_ff");
 }
 
 TEST(Controllers, PiHoldsItsIntegralAtTheLimitAndLetsItOnlyLeadOut) {

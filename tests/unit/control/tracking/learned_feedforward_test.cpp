@@ -22,7 +22,7 @@ NoisyLoop learning_loop() {
   return loop;
 }
 
-void scale_belief(NoisyLoop& loop, const Theta& factors) {
+void scale_model(NoisyLoop& loop, const Theta& factors) {
   loop.controller.learned_ff.scale.nominal =
       loop.controller.learned_ff.scale.nominal.cwiseProduct(factors);
 }
@@ -55,7 +55,7 @@ TEST(LearnedFeedforward, FollowsStepsWithinHalfAMicrometre) {
 
 TEST(LearnedFeedforward, LearnsAMuscleWhoseModelIs30PercentOff) {
   NoisyLoop loop = learning_loop();
-  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  scale_model(loop, {1.3, 0.7, 1.3, 0.7});
   CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] <= 1.5);
   loop.controller.learned_ff.learn = false;
   CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] > 10.0);
@@ -63,7 +63,7 @@ TEST(LearnedFeedforward, LearnsAMuscleWhoseModelIs30PercentOff) {
 
 TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodicReferenceAndForgetsItAfterAChange) {
   NoisyLoop loop = learning_loop();
-  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  scale_model(loop, {1.3, 0.7, 1.3, 0.7});
   loop.controller.learned_ff.learn = false;
   const double period_s = 8.0 * std::atan(1.0) / 0.25;
   const double once_um = loop.rms_um<1>({{{200.0, 251.0}}})[0];
@@ -79,7 +79,7 @@ TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodicReferenceAndForgetsItA
 
 TEST(LearnedFeedforward, IterativeLearningFollowsADetectedPeriodUntilItEnds) {
   NoisyLoop loop = learning_loop();
-  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  scale_model(loop, {1.3, 0.7, 1.3, 0.7});
   loop.controller.learned_ff.learn = false;
   loop.reference_m = [](double time_s) {
     return 0.011 + 0.009 * std::sin(time_s < 251.0 ? 0.25 * time_s : 0.4 * time_s - 37.65);

@@ -23,9 +23,9 @@ class LossyBus final : public hal::CanBus {
 
   hal::Status send(const hal::CanFrame& frame) override {
     if (--lost_ >= 0) return hal::Status::ok;
-    const can::Reader<can::message::muscle_read> asked(frame);
+    const can::Reader<can::message::muscle_read> request(frame);
     answers_.push_back(can::Encoder<can::message::muscle>(node)
-                           .set("quantity", asked.get<std::uint8_t>("quantity"))
+                           .set("quantity", request.get<std::uint8_t>("quantity"))
                            .set("value", 0.5)
                            .frame());
     return hal::Status::ok;
@@ -46,17 +46,17 @@ class LossyBus final : public hal::CanBus {
 /// The board behind it obeys every command; the first ones, except claims, are lost.
 class LossyCommands final : public hal::CanBus {
  public:
-  /// heard counts the commands, lost ones included, but no claims.
-  LossyCommands(int lost, int& heard) : lost_(lost), heard_(heard) {}
+  /// received counts the commands, lost ones included, but not claims.
+  LossyCommands(int lost, int& received) : lost_(lost), received_(received) {}
 
   hal::Status send(const hal::CanFrame& frame) override {
-    const can::Reader<can::message::command> asked(frame);
-    const bool claims = asked.get<std::uint8_t>("opcode") == telemetry::lease;
-    if (!claims && ++heard_ <= lost_) return hal::Status::ok;
+    const can::Reader<can::message::command> request(frame);
+    const bool claims = request.get<std::uint8_t>("opcode") == telemetry::lease;
+    if (!claims && ++received_ <= lost_) return hal::Status::ok;
     answers_.push_back(can::Encoder<can::message::acknowledge>(node)
-                           .set("counter", asked.get("counter"))
-                           .set("opcode", asked.get("opcode"))
-                           .set("session", asked.get("session"))
+                           .set("counter", request.get("counter"))
+                           .set("opcode", request.get("opcode"))
+                           .set("session", request.get("session"))
                            .set("granted", 0x4321)
                            .protected_frame());
     return hal::Status::ok;
@@ -71,11 +71,11 @@ class LossyCommands final : public hal::CanBus {
 
  private:
   int lost_;
-  int& heard_;
+  int& received_;
   std::deque<hal::CanFrame> answers_;
 };
 
-Result<KnownMuscle> asked(int lost) {
+Result<KnownMuscle> muscle_after(int lost) {
   return Commander(std::make_unique<LossyBus>(lost), node).muscle();
 }
 
@@ -84,14 +84,14 @@ Result<KnownMuscle> asked(int lost) {
 TEST_GROUP(Commander){};
 
 TEST(Commander, RepeatsALostRequest) {
-  const auto known = asked(1);
+  const auto known = muscle_after(1);
   CHECK(known.has_value());
   for (const double value : *known)
     DOUBLES_EQUAL(0.5, value, 0.0);
 }
 
 TEST(Commander, ReportsThatNoNodeAnswers) {
-  const auto known = asked(2);
+  const auto known = muscle_after(2);
   CHECK_FALSE(known.has_value());
   STRCMP_CONTAINS("no answer from node 3", known.error().text().c_str());
 }
@@ -99,21 +99,21 @@ TEST(Commander, ReportsThatNoNodeAnswers) {
 /// For a person or a step that renews: a single lost frame must not end a command to heat.
 TEST(Commander, RepeatsARenewalBeforeTheCommandExpires) {
   for (const Verb verb : {Verb::renew, Verb::power, Verb::position, Verb::disarm}) {
-    int heard = 0;
-    Commander commander(std::make_unique<LossyCommands>(2, heard), node);
+    int received = 0;
+    Commander commander(std::make_unique<LossyCommands>(2, received), node);
     const auto answer = commander.ask(verb, 0.0);
     CHECK(answer.has_value());
     CHECK(*answer == Refusal::none);
-    LONGS_EQUAL(3, heard);
+    LONGS_EQUAL(3, received);
   }
 }
 
 /// A command that starts something may have been obeyed although its answer was lost.
 TEST(Commander, NeverRepeatsACommandThatStartsSomething) {
   for (const Verb verb : {Verb::identify, Verb::store, Verb::reset}) {
-    int heard = 0;
-    Commander commander(std::make_unique<LossyCommands>(1, heard), node);
+    int received = 0;
+    Commander commander(std::make_unique<LossyCommands>(1, received), node);
     CHECK_FALSE(commander.ask(verb, 0.0).has_value());
-    LONGS_EQUAL(1, heard);
+    LONGS_EQUAL(1, received);
   }
 }

@@ -1,4 +1,4 @@
-// What is shown of a node of which only some frames were heard.
+// What is shown of a node of which only some frames were received.
 #include "apps/supercoil/bus/terminal.hpp"
 
 #include <cmath>
@@ -16,18 +16,18 @@ using namespace supercoil;
 using namespace supercoil::operating;
 
 TEST_GROUP(Terminal) {
-  FrameHistory heard{10.0, 500e3};
+  FrameHistory history{10.0, 500e3};
 
-  std::string told() const {
-    return state_text(heard, {{1, "mrac"}});
+  std::string shown() const {
+    return state_text(history, {{1, "mrac"}});
   }
 };
 
 TEST(Terminal, WithoutAStatusNoControllerIsShown) {
   can::Encoder<can::message::measurement> frame(can::Node{1});
   frame.set("position_m", 0.005);
-  heard.add({frame.frame()});
-  STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", told().c_str());
+  history.add({frame.frame()});
+  STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", shown().c_str());
 }
 
 /// It does not matter which part of Joint came last.
@@ -36,18 +36,18 @@ TEST(Terminal, TheNodeOfAJointHasItsAngle) {
   agonist.position_m = 0.005236F;
   for (const telemetry::JointPart part :
        {telemetry::JointPart::motion, telemetry::JointPart::agonist_heat}) {
-    heard.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
-    STRCMP_CONTAINS("  angle            20.000 deg\n  position", told().c_str());
+    history.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
+    STRCMP_CONTAINS("  angle            20.000 deg\n  position", shown().c_str());
   }
   agonist.position_m = NAN;
-  heard.add(
+  history.add(
       {telemetry::joint(1, telemetry::JointPart::motion, control::Lever(0.015), agonist, nullptr)});
-  STRCMP_CONTAINS("  angle                 - deg\n", told().c_str());
+  STRCMP_CONTAINS("  angle                 - deg\n", shown().c_str());
 }
 
 TEST(Terminal, OnlyANodeOfAJointHasAnAngle) {
-  heard.add({can::Encoder<can::message::measurement>(can::Node{1}).frame()});
-  CHECK(told().find("angle") == std::string::npos);
+  history.add({can::Encoder<can::message::measurement>(can::Node{1}).frame()});
+  CHECK(shown().find("angle") == std::string::npos);
 }
 
 /// A different part that came since leaves the value as it was; its own part withdraws it.
@@ -55,21 +55,21 @@ TEST(Terminal, JsonOmitsValuesThatAreNoLongerAvailable) {
   Row agonist{};
   agonist.mode = static_cast<std::uint8_t>(Mode::position);
   agonist.reference = 0.005236F;
-  const auto hear = [&](telemetry::JointPart part) {
-    heard.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
-    return state_json(heard)["nodes"][0]["Joint"]["reference_deg"];
+  const auto reference_after = [&](telemetry::JointPart part) {
+    history.add({telemetry::joint(1, part, control::Lever(0.015), agonist, nullptr)});
+    return state_json(history)["nodes"][0]["Joint"]["reference_deg"];
   };
-  DOUBLES_EQUAL(20.0, hear(telemetry::JointPart::motion).get<double>(), 1e-3);
+  DOUBLES_EQUAL(20.0, reference_after(telemetry::JointPart::motion).get<double>(), 1e-3);
   agonist.mode = static_cast<std::uint8_t>(Mode::rest);
-  DOUBLES_EQUAL(20.0, hear(telemetry::JointPart::effort).get<double>(), 1e-3);
-  CHECK(hear(telemetry::JointPart::motion).is_null());
+  DOUBLES_EQUAL(20.0, reference_after(telemetry::JointPart::effort).get<double>(), 1e-3);
+  CHECK(reference_after(telemetry::JointPart::motion).is_null());
 }
 
 TEST(Terminal, AModeWithoutProgressShowsNoPercentage) {
   can::Encoder<can::message::status> frame(can::Node{1});
   frame.set("mode", static_cast<double>(Mode::identify)).set("progress", NAN);
-  heard.add({frame.frame()});
-  const std::string text = told();
+  history.add({frame.frame()});
+  const std::string text = shown();
   const std::string of_node = text.substr(text.find("node 1"));
   STRCMP_CONTAINS(", identify, mrac (controller 0)", of_node.c_str());
   CHECK(of_node.find('%') == std::string::npos);
@@ -78,12 +78,12 @@ TEST(Terminal, AModeWithoutProgressShowsNoPercentage) {
 TEST(Terminal, TheResultOfIdentifyIsShownOnceWithItsMeaning) {
   can::Encoder<can::message::status> status(can::Node{1});
   status.set("result", static_cast<double>(ModeResult::too_little_motion));
-  heard.add({status.frame()});
+  history.add({status.frame()});
   can::Encoder<can::message::estimate> estimate(can::Node{1});
   estimate.set("identify_notes", note_too_little_motion + note_theta1_kept);
-  heard.add({estimate.frame()});
+  history.add({estimate.frame()});
   STRCMP_CONTAINS(
       ", last identification or calibration: too_little_motion: the muscle moved by less than 1 % "
       "of its travel at the maximum power; theta1_kept\n",
-      told().c_str());
+      shown().c_str());
 }

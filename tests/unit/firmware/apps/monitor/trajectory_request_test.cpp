@@ -68,8 +68,8 @@ TEST(TrajectoryRequest, LimitsTheNumberOfKnots) {
 }
 
 TEST(TrajectoryRequest, ReturnsTheBoardsAnswer) {
-  const std::string told = sent_json({3, {Refusal::infeasible, PlaybackState::playing, 20, 1.5}});
+  const std::string json = sent_json({3, {Refusal::infeasible, PlaybackState::playing, 20, 1.5}});
   STRCMP_EQUAL(
       R"({"buffered_s":1.5,"playback":"playing","refusal":"infeasible","room":20,"taken":3})",
-      told.c_str());
+      json.c_str());
 }

@@ -12,21 +12,19 @@ namespace {
 /// What a bench would answer for the paper's muscle.
 MuscleAnswers paper_answers() {
   MuscleAnswers a;
-  const auto says = [&](QuestionId what, double value) {
-    a.set(static_cast<std::size_t>(what), value);
-  };
-  says(QuestionId::cold_resistance_Ohm, 10.0);
-  says(QuestionId::load_g, 90.0);
-  says(QuestionId::stretch_weight_g, 100.0);
-  says(QuestionId::stretch_mm, 61.3125);
-  says(QuestionId::heated_W, 2.0);
-  says(QuestionId::heated_mm, 12.0787);
-  says(QuestionId::half_cooling_s, 1.26168);
-  says(QuestionId::thread_g, 0.162 / 1.65);
-  says(QuestionId::heated_K, 0.0);
-  says(QuestionId::max_W, 4.5);
-  says(QuestionId::max_travel_mm, 25.0);
-  says(QuestionId::uncertainty_percent, 50.0);
+  const auto set = [&](QuestionId what, double value) { a.set(static_cast<std::size_t>(what), value); };
+  set(QuestionId::cold_resistance_Ohm, 10.0);
+  set(QuestionId::load_g, 90.0);
+  set(QuestionId::stretch_weight_g, 100.0);
+  set(QuestionId::stretch_mm, 61.3125);
+  set(QuestionId::heated_W, 2.0);
+  set(QuestionId::heated_mm, 12.0787);
+  set(QuestionId::half_cooling_s, 1.26168);
+  set(QuestionId::thread_g, 0.162 / 1.65);
+  set(QuestionId::heated_K, 0.0);
+  set(QuestionId::max_W, 4.5);
+  set(QuestionId::max_travel_mm, 25.0);
+  set(QuestionId::uncertainty_percent, 50.0);
   return a;
 }
 

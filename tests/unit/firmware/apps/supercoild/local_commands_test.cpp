@@ -28,11 +28,11 @@ class Client {
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     LONGS_EQUAL(0, ::connect(socket_.number(), where, sizeof(address)));
   }
-  void say(const std::string& line) const {
+  void send(const std::string& line) const {
     LONGS_EQUAL(line.size(), ::send(socket_.number(), line.data(), line.size(), MSG_NOSIGNAL));
   }
   /// Empty: nothing has arrived.
-  std::string heard() const {
+  std::string received() const {
     std::array<char, 8192> text{};
     const ssize_t size = ::recv(socket_.number(), text.data(), text.size(), MSG_DONTWAIT);
     return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "";
@@ -58,9 +58,9 @@ TEST_GROUP(LocalCommands) {
   NewestRows rows{rig.loop.channels()};
 
   std::string answer_to(const Client& client, const std::string& line) {
-    client.say(line);
+    client.send(line);
     commands.serve(rig.loop, rows, 0);
-    return client.heard();
+    return client.received();
   }
   void pass_answers() {
     for (Answer answer; rig.loop.answer(answer);)
@@ -71,7 +71,7 @@ TEST_GROUP(LocalCommands) {
     STRCMP_EQUAL("", answer_to(client, line).c_str());
     rig.executive.run_tick();
     pass_answers();
-    return client.heard();
+    return client.received();
   }
   /// A client that has been accepted.
   Client client() {
@@ -112,8 +112,8 @@ TEST(LocalCommands, AreAnsweredOnceTheLoopHasExecutedThem) {
   STRCMP_EQUAL("", answer_to(other, "1 rest").c_str());
   rig.executive.run_tick();
   pass_answers();
-  STRCMP_EQUAL("ok", one.heard().c_str());
-  STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
+  STRCMP_EQUAL("ok", one.received().c_str());
+  STRCMP_EQUAL("refused: wrong_state", other.received().c_str());
 }
 
 TEST(LocalCommands, AreRefusedAtOnceWhileTheQueueIsFullWithoutChangingTheOrder) {
@@ -126,8 +126,8 @@ TEST(LocalCommands, AreRefusedAtOnceWhileTheQueueIsFullWithoutChangingTheOrder) 
   for (Answer answer; rig.loop.answer(answer);) {
     if (answer.command.source != Source::can) commands.pass(answer, rig.loop);
   }
-  STRCMP_EQUAL("refused: wrong_state", busy.heard().c_str());
-  STRCMP_EQUAL("", busy.heard().c_str());
+  STRCMP_EQUAL("refused: wrong_state", busy.received().c_str());
+  STRCMP_EQUAL("", busy.received().c_str());
 }
 
 TEST(LocalCommands, AreRefusedRatherThanTruncated) {
@@ -150,7 +150,7 @@ TEST(LocalCommands, AnUnsuitableScaleIsNotExplainedByTuning) {
   CHECK(rig.loop.answer(answer));
   answer.refusal = Refusal::unsuitable;
   commands.pass(answer, rig.loop);
-  STRCMP_EQUAL("refused: unsuitable", one.heard().c_str());
+  STRCMP_EQUAL("refused: unsuitable", one.received().c_str());
 }
 
 TEST(LocalCommands, AControllerIsTuned) {
@@ -162,7 +162,7 @@ TEST(LocalCommands, AControllerIsTuned) {
   STRCMP_EQUAL("", answer_to(one, "1 tune 0").c_str());
   rig.executive.run_tick();
   pass_answers();
-  STRCMP_EQUAL("ok", one.heard().c_str());
+  STRCMP_EQUAL("ok", one.received().c_str());
   STRCMP_EQUAL("321.5", in_use().c_str());
   STRCMP_EQUAL("ok", answer_to(one, "prepare 1 0 all configured").c_str());
   STRCMP_EQUAL(before.c_str(), answer_to(one, "tuning 1 0 integral_W_per_m_s prepared").c_str());
@@ -174,7 +174,7 @@ TEST(LocalCommands, TheReasonForAnUnsuitableControllerIsGiven) {
   answer_to(one, "1 tune 0");
   rig.executive.run_tick();
   pass_answers();
-  STRCMP_CONTAINS("refused: unsuitable: kind is unstable on this muscle", one.heard().c_str());
+  STRCMP_CONTAINS("refused: unsuitable: kind is unstable on this muscle", one.received().c_str());
   for (const auto& [line, answer] :
        {std::pair{"prepare 1 0 integral_W_per_m_s 1e9",
                   "refused: out_of_range; 1e+07 would be obeyed"},
@@ -198,8 +198,8 @@ TEST(LocalCommands, ALostAnswerDoesNotShiftOthers) {
   Answer lost;
   CHECK(rig.loop.answer(lost));
   pass_answers();
-  STRCMP_EQUAL("", one.heard().c_str());
-  STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
+  STRCMP_EQUAL("", one.received().c_str());
+  STRCMP_EQUAL("refused: wrong_state", other.received().c_str());
 }
 
 TEST(LocalCommands, AnExcessClientIsRefusedWithAReason) {
@@ -209,7 +209,7 @@ TEST(LocalCommands, AnExcessClientIsRefusedWithAReason) {
   while (clients.size() < max_clients)
     clients.push_back(client());
   const Client one_more = client();
-  STRCMP_EQUAL("refused: too many clients", one_more.heard().c_str());
+  STRCMP_EQUAL("refused: too many clients", one_more.received().c_str());
   CHECK_FALSE(answer_to(clients.back(), "state").empty());
 }
 

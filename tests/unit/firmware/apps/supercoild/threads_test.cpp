@@ -133,23 +133,23 @@ TEST(DaemonThreads, CanMastersAreAnsweredOnTheBusAndLocalClientsOnTheSocket) {
   master.session = master.name;
   float nonce = telemetry::claim_value;
   for (const std::size_t claims : {1U, 2U}) {
-    bus.order(master.frame(telemetry::Opcode::lease, nonce));
-    until([&] { return bus.heard(acknowledge).size() == claims; });
-    nonce = test::read_answer(bus.heard(acknowledge).back()).granted;
+    bus.deliver(master.frame(telemetry::Opcode::lease, nonce));
+    until([&] { return bus.sent(acknowledge).size() == claims; });
+    nonce = test::read_answer(bus.sent(acknowledge).back()).granted;
   }
-  master.session = test::read_answer(bus.heard(acknowledge).back()).granted;
+  master.session = test::read_answer(bus.sent(acknowledge).back()).granted;
   CHECK(master.session != 0);
 
   const auto obeyed = [&](Verb verb) {
-    const std::size_t answers = bus.heard(acknowledge).size();
-    bus.order(master.frame(verb));
+    const std::size_t answers = bus.sent(acknowledge).size();
+    bus.deliver(master.frame(verb));
     STRCMP_EQUAL("refused: wrong_state", ask(socket, "1 rest").c_str());
-    until([&] { return bus.heard(acknowledge).size() > answers; });
-    return test::read_answer(bus.heard(acknowledge).back()).refusal == 0;
+    until([&] { return bus.sent(acknowledge).size() > answers; });
+    return test::read_answer(bus.sent(acknowledge).back()).refusal == 0;
   };
   until([&] { return obeyed(Verb::disarm); });
   constexpr std::uint16_t status = SUPERCOIL_STATUS_FRAME_ID;  // of node 1
-  until([&] { return !bus.heard(status).empty() && !bus.heard(status + 1).empty(); });
+  until([&] { return !bus.sent(status).empty() && !bus.sent(status + 1).empty(); });
 }
 
 TEST(DaemonThreads, APendingSigtermCoolsWhileTheMainThreadIsBusyElsewhere) {

@@ -13,28 +13,28 @@ class MeetingBus final : public hal::CanBus {
  public:
   hal::Status send(const hal::CanFrame& frame) override {
     const std::lock_guard lock(mutex_);
-    heard_.push_back(frame);
+    sent_.push_back(frame);
     return hal::Status::ok;
   }
   hal::Status receive(hal::CanFrame& frame) override {
     const std::lock_guard lock(mutex_);
-    if (orders_.empty()) return hal::Status::not_ready;
-    frame = orders_.front();
-    orders_.pop_front();
+    if (incoming_.empty()) return hal::Status::not_ready;
+    frame = incoming_.front();
+    incoming_.pop_front();
     return hal::Status::ok;
   }
   hal::CanState state() const override { return hal::CanState::active; }
 
   /// For the test.
-  void order(const hal::CanFrame& frame) {
+  void deliver(const hal::CanFrame& frame) {
     const std::lock_guard lock(mutex_);
-    orders_.push_back(frame);
+    incoming_.push_back(frame);
   }
   /// All frames that the board has sent with this identifier.
-  std::vector<hal::CanFrame> heard(std::uint16_t id) const {
+  std::vector<hal::CanFrame> sent(std::uint16_t id) const {
     const std::lock_guard lock(mutex_);
     std::vector<hal::CanFrame> found;
-    for (const hal::CanFrame& frame : heard_) {
+    for (const hal::CanFrame& frame : sent_) {
       if (frame.id == id) found.push_back(frame);
     }
     return found;
@@ -42,8 +42,8 @@ class MeetingBus final : public hal::CanBus {
 
  private:
   mutable std::mutex mutex_;
-  std::deque<hal::CanFrame> orders_;
-  std::vector<hal::CanFrame> heard_;
+  std::deque<hal::CanFrame> incoming_;
+  std::vector<hal::CanFrame> sent_;
 };
 
 }  // namespace supercoil::test

@@ -61,13 +61,15 @@ TEST(KnownThermalBounds, OfAWeighedMuscleAreItsMassOverItsTimeConstant) {
 TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseUpToIt) {
   const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
   const double mean_K = 2.0 / 0.089;
-  const double least = 0.97 * 0.089 / 1.25;
-  const double most = 1.03 * 0.089 * 1.25;
-  DOUBLES_EQUAL(least, known.min_heat_transfer_W_per_K(0.701 * mean_K), 1e-9);
-  DOUBLES_EQUAL(most, known.max_heat_transfer_W_per_K(0.999 * mean_K), 1e-9);
+  const double min_W_per_K = 0.97 * 0.089 / 1.25;
+  const double max_W_per_K = 1.03 * 0.089 * 1.25;
+  DOUBLES_EQUAL(min_W_per_K, known.min_heat_transfer_W_per_K(0.701 * mean_K), 1e-9);
+  DOUBLES_EQUAL(max_W_per_K, known.max_heat_transfer_W_per_K(0.999 * mean_K), 1e-9);
   // The heat transfer may be less when colder and more when hotter, as the cube root of the rise.
-  DOUBLES_EQUAL(least * std::cbrt(6.0 / 7.0), known.min_heat_transfer_W_per_K(0.6 * mean_K), 1e-9);
-  DOUBLES_EQUAL(most * std::cbrt(1.05), known.max_heat_transfer_W_per_K(1.05 * mean_K), 1e-9);
+  DOUBLES_EQUAL(min_W_per_K * std::cbrt(6.0 / 7.0), known.min_heat_transfer_W_per_K(0.6 * mean_K),
+                1e-9);
+  DOUBLES_EQUAL(max_W_per_K * std::cbrt(1.05), known.max_heat_transfer_W_per_K(1.05 * mean_K),
+                1e-9);
 }
 
 TEST(KnownThermalBounds, NeverLeaveTheConfiguredBounds) {
@@ -97,15 +99,17 @@ TEST(KnownThermalBounds, ForMeasuredPowerAreDividedByTrueOverMeasured) {
   facts.steady_max_W = 1.6;
   const KnownThermalBounds read =
       known_thermal_bounds_by_reading(weighed_muscle(), facts, compared_power);
-  const double most = compared_power.max;
-  const double least = compared_power.min;
-  DOUBLES_EQUAL(known.bounds.min_mass_J_per_K / most, read.bounds.min_mass_J_per_K, 1e-12);
-  DOUBLES_EQUAL(known.bounds.max_mass_J_per_K / least, read.bounds.max_mass_J_per_K, 1e-12);
-  DOUBLES_EQUAL(known.bounds.min_transfer_W_per_K / most, read.bounds.min_transfer_W_per_K, 1e-12);
-  DOUBLES_EQUAL(known.bounds.max_transfer_W_per_K / least, read.bounds.max_transfer_W_per_K, 1e-12);
+  const double max_ratio = compared_power.max;
+  const double min_ratio = compared_power.min;
+  DOUBLES_EQUAL(known.bounds.min_mass_J_per_K / max_ratio, read.bounds.min_mass_J_per_K, 1e-12);
+  DOUBLES_EQUAL(known.bounds.max_mass_J_per_K / min_ratio, read.bounds.max_mass_J_per_K, 1e-12);
+  DOUBLES_EQUAL(known.bounds.min_transfer_W_per_K / max_ratio, read.bounds.min_transfer_W_per_K,
+                1e-12);
+  DOUBLES_EQUAL(known.bounds.max_transfer_W_per_K / min_ratio, read.bounds.max_transfer_W_per_K,
+                1e-12);
   LONGS_EQUAL(2, read.count);
-  DOUBLES_EQUAL(known.spans[0].min_W_per_K / most, read.spans[0].min_W_per_K, 1e-12);
-  DOUBLES_EQUAL(known.spans[0].max_W_per_K / least, read.spans[0].max_W_per_K, 1e-12);
+  DOUBLES_EQUAL(known.spans[0].min_W_per_K / max_ratio, read.spans[0].min_W_per_K, 1e-12);
+  DOUBLES_EQUAL(known.spans[0].max_W_per_K / min_ratio, read.spans[0].max_W_per_K, 1e-12);
   // The reading itself is already in measured power.
   DOUBLES_EQUAL(1.5 / 18.0, read.spans[1].min_W_per_K, 1e-12);
   DOUBLES_EQUAL(1.6 / 16.0, read.spans[1].max_W_per_K, 1e-12);
@@ -202,7 +206,7 @@ TEST(SteadyState, AllowsForTheErrorsOfTheSenses) {
     CHECK(steady.read(rise_K, compared_power, facts) == Refusal::out_of_range);
 }
 
-TEST_GROUP(HeatThatWasRead) {
+TEST_GROUP(HeatByReading) {
   ThermalSettings settings;
 
   /// Held at a power for good, with senses that read 2 % too high or too low.
@@ -218,7 +222,7 @@ TEST_GROUP(HeatThatWasRead) {
   }
 };
 
-TEST(HeatThatWasRead, IsIndependentOfTheErrorsOfTheSenses) {
+TEST(HeatByReading, IsIndependentOfTheErrorsOfTheSenses) {
   const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   const Heat heat = held(settings, facts, 1.5);
   // At the power of the reading, only the thermometer's error remains.
@@ -228,7 +232,7 @@ TEST(HeatThatWasRead, IsIndependentOfTheErrorsOfTheSenses) {
   CHECK_COMPARE(heat.coldest_K(), <=, 15.85);
 }
 
-TEST(HeatThatWasRead, IsWiderWhereAReadingOfThePowerIsMissing) {
+TEST(HeatByReading, IsWiderWhereAReadingOfThePowerIsMissing) {
   const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   Heat sensed(settings, {}, tick_s);
   sensed.set_thermal_facts(facts, compared_power);
@@ -241,7 +245,7 @@ TEST(HeatThatWasRead, IsWiderWhereAReadingOfThePowerIsMissing) {
                 0.03);
 }
 
-TEST(HeatThatWasRead, IsForgottenWithoutAJump) {
+TEST(HeatByReading, IsForgottenWithoutAJump) {
   ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   Heat heat = held(settings, facts, 1.5);
   facts.clear_reading();

@@ -18,8 +18,8 @@ TEST_GROUP(MeterComparison) {
   static constexpr MeterComparison::Settings settings{9.0, 15.0, 0.3, 0.002, 0.0005};
   MeterComparison comparison{settings, step_s};
   board::SenseComparison present;
-  double supply_told = 0.9;
-  double current_told = 0.8;
+  double supply_reading_ratio = 0.9;
+  double current_reading_ratio = 0.8;
   double duty = 0.0;
 
   double line_A() const {
@@ -29,7 +29,7 @@ TEST_GROUP(MeterComparison) {
     duty = new_duty;
     comparison.restart();
     for (int i = 0; i < std::lround(time_s / step_s); ++i)
-      comparison.step(duty, supply_told * supply_V, current_told * line_A());
+      comparison.step(duty, supply_reading_ratio * supply_V, current_reading_ratio * line_A());
   }
   Refusal volts(double meter_V) {
     return comparison.read(MeterComparison::supply, meter_V, present, resistance_Ohm);
@@ -53,10 +53,10 @@ TEST_GROUP(MeterComparison) {
     comparison = MeterComparison(coarse, step_s);
     for (std::size_t i = 0; i < typed.size(); ++i) {
       duty = i == 0 ? 0.1 : 0.1 * ratio;
-      const double told_A = coarse.current_step_A * std::round(line_A() / coarse.current_step_A);
+      const double reading_A = coarse.current_step_A * std::round(line_A() / coarse.current_step_A);
       comparison.restart();
       for (int k = 0; k < 1000; ++k)
-        comparison.step(duty, supply_V, told_A);
+        comparison.step(duty, supply_V, reading_A);
       if (volts(supply_V) != Refusal::none || amperes(typed[i] * line_A()) != Refusal::none)
         return {};
     }
@@ -80,8 +80,8 @@ TEST(MeterComparison, FindsTheGainsFromTwoPowers) {
   check(Refusal::none, amperes(line_A()));
   const auto found = comparison.found();
   CHECK(found.has_value());
-  DOUBLES_EQUAL(1.0 / supply_told, found->supply_gain, 1e-9);
-  DOUBLES_EQUAL(1.0 / current_told, found->current_gain, 1e-9);
+  DOUBLES_EQUAL(1.0 / supply_reading_ratio, found->supply_gain, 1e-9);
+  DOUBLES_EQUAL(1.0 / current_reading_ratio, found->current_gain, 1e-9);
   DOUBLES_EQUAL(0.02, found->error_ratio, 1e-9);
   DOUBLES_EQUAL(0.0, found->compared_s, 0.0);
 }
@@ -98,8 +98,8 @@ TEST(MeterComparison, WaitsForVoltsWhenAmperesAreReadFirst) {
 
 TEST(MeterComparison, FindsGainsOverTheUncorrectedReadings) {
   present = {1.25, 0.8, 0.05, 1.0};
-  supply_told = 1.25 * 0.9;
-  current_told = 0.8 * 0.9;
+  supply_reading_ratio = 1.25 * 0.9;
+  current_reading_ratio = 0.8 * 0.9;
   for (const double d : {0.1, 0.2}) {
     hold(d);
     read_both();
@@ -168,7 +168,7 @@ TEST(MeterComparison, SwappedReadingsAreRefusedAndDiscardEarlierOnes) {
 }
 
 TEST(MeterComparison, ASupplyThatTheConfigurationDoesNotAllowIsRefused) {
-  supply_told = 1.0;
+  supply_reading_ratio = 1.0;
   hold(0.1);
   for (const double meter_V : {8.99, 15.01}) {
     check(Refusal::out_of_range, volts(meter_V));
@@ -179,13 +179,13 @@ TEST(MeterComparison, ASupplyThatTheConfigurationDoesNotAllowIsRefused) {
 }
 
 TEST(MeterComparison, AGainBeyondItsRangeIsRefused) {
-  for (const double told : {1.0 / 0.69, 1.0 / 1.41}) {
-    current_told = told;
+  for (const double gain : {1.0 / 0.69, 1.0 / 1.41}) {
+    current_reading_ratio = gain;
     hold(0.1);
     check(Refusal::out_of_range, amperes(line_A()));
   }
-  for (const double told : {1.0 / 0.71, 1.0 / 1.39}) {
-    current_told = told;
+  for (const double gain : {1.0 / 0.71, 1.0 / 1.39}) {
+    current_reading_ratio = gain;
     hold(0.1);
     check(Refusal::none, amperes(line_A()));
   }
@@ -197,7 +197,7 @@ TEST(MeterComparison, AResistanceThatIsNotTheConfiguredOneIsRefused) {
   for (const double meter_A : {0.99 * min_A, 1.01 * max_A, 1.01 * min_A, 0.99 * max_A}) {
     const bool fits = meter_A > min_A && meter_A < max_A;
     hold(0.1);
-    current_told = meter_A / line_A();  // so that the gain is not the reason
+    current_reading_ratio = meter_A / line_A();  // so that the gain is not the reason
     hold(0.1);
     check(Refusal::none, volts(supply_V));
     check(fits ? Refusal::none : Refusal::out_of_range, amperes(meter_A));
@@ -228,7 +228,7 @@ TEST(MeterComparison, SenseResolutionRemainsAsError) {
 
 /// A converter without noise gives whole counts, and each power lies between two of them.
 TEST(MeterComparison, QuantisedReadingsAreNotRefused) {
-  supply_told = 1.0;
+  supply_reading_ratio = 1.0;
   for (int i = 0; i < 400; ++i) {
     const double counts = 8.0 + 0.13 * i;
     for (const double ratio : {1.5, 2.0, 2.1}) {
@@ -242,7 +242,7 @@ TEST(MeterComparison, QuantisedReadingsAreNotRefused) {
 }
 
 TEST(MeterComparison, AMistypedReadingAtFewCountsIsRefusedOrWithinTheError) {
-  supply_told = 1.0;
+  supply_reading_ratio = 1.0;
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
     const double counts = 8.0 + 0.13 * i;
@@ -273,14 +273,14 @@ TEST(MeterComparison, TooCoarseASenseIsRefused) {
 TEST(MeterComparison, WaitsForASteadySecondFromTheFirstTick) {
   duty = 0.1;
   for (int i = 0; i < 999; ++i)
-    comparison.step(duty, supply_told * supply_V, current_told * line_A());
+    comparison.step(duty, supply_reading_ratio * supply_V, current_reading_ratio * line_A());
   check(Refusal::not_ready, volts(supply_V));
-  comparison.step(duty, supply_told * supply_V, current_told * line_A());
+  comparison.step(duty, supply_reading_ratio * supply_V, current_reading_ratio * line_A());
   check(Refusal::none, volts(supply_V));
 }
 
 TEST(MeterComparison, FiltersTheSensesAsSlowlyAsAMetersDisplay) {
-  supply_told = current_told = 1.0;
+  supply_reading_ratio = current_reading_ratio = 1.0;
   for (const double d : {0.1, 0.2}) {
     hold(d, 3.0);
     // Half a second later, one time constant, 63 % of a change has arrived.

@@ -112,23 +112,23 @@ KnownMuscle known_in(const PlaceInJoint& joint) {
 
 }  // namespace
 
-TEST_GROUP(ToldJoint){};
+TEST_GROUP(PublishedJoint){};
 
-TEST(ToldJoint, MatchesTheJointOfItsBoard) {
+TEST(PublishedJoint, MatchesTheJointOfItsBoard) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   for (const control::Lever& lever : {control::Lever(0.02), control::Lever(-0.5, 0.25, radii_m)}) {
     for (const int direction : {1, -1}) {
-      const PlaceInJoint told = joint_from(known_in({direction, lever, 2.0}));
-      LONGS_EQUAL(direction, told.direction);
-      DOUBLES_EQUAL(2.0, told.other_channel_offset, 0.0);
+      const PlaceInJoint published = joint_from(known_in({direction, lever, 2.0}));
+      LONGS_EQUAL(direction, published.direction);
+      DOUBLES_EQUAL(2.0, published.other_channel_offset, 0.0);
       for (const double angle_rad : {-1.0, -0.2, 0.0, 0.1, 2.0})
-        DOUBLES_EQUAL(direction * lever.arc_m(angle_rad), told.position_m(angle_rad), 1e-15);
+        DOUBLES_EQUAL(direction * lever.arc_m(angle_rad), published.position_m(angle_rad), 1e-15);
     }
   }
   LONGS_EQUAL(0, joint_from(known_in({})).direction);
 }
 
-TEST(ToldJoint, AnInvalidTableIsIgnored) {
+TEST(PublishedJoint, AnInvalidTableIsIgnored) {
   const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
   const KnownMuscle right = known_in({1, control::Lever(-0.5, 0.5, radii_m), 1.0});
   CHECK_FALSE(joint_from(right).lever.is_constant());

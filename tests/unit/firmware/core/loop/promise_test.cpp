@@ -183,9 +183,9 @@ TEST(Promise, TheBoardsMuscleReplacesTheFilesMuscle) {
   CHECK_TRUE(now.muscle_identified);
   DOUBLES_EQUAL(15.0, now.unexplained_ratio, 0.0);
   known[known_unexplained_ratio] = NAN;
-  const ChannelSettings untold = with_known(channel, known);
-  CHECK_FALSE(untold.muscle_identified);
-  DOUBLES_EQUAL(0.0, untold.unexplained_ratio, 0.0);
+  const ChannelSettings unreported = with_known(channel, known);
+  CHECK_FALSE(unreported.muscle_identified);
+  DOUBLES_EQUAL(0.0, unreported.unexplained_ratio, 0.0);
 }
 
 TEST(Promise, AProbeDoesNotCountInALongMotionThatIsNeverCold) {

@@ -89,7 +89,7 @@ TEST(BoardSupervisor, DetectsEachFaultAtItsTimeAndNotEarlier) {
   }
 }
 
-TEST(BoardSupervisor, AnUnreadSupplyIsAnUnderVoltage) {
+TEST(BoardSupervisor, AnUnreadSupplyCountsAsZeroVolts) {
   Board board;
   board.inputs.supply.present = false;
   board.step();

@@ -279,7 +279,7 @@ TEST(ChannelSupervisor, AControllerIsNotLostWithoutAHeatingCommand) {
 namespace {
 
 /// The fault within two seconds of a joint's muscle that demands more than it gets and is still.
-Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, int)>& at_tick) {
+Fault fault_of_a_motionless_muscle(const std::function<void(ChannelInputs&, int)>& at_tick) {
   Channel channel;
   channel.inputs.axis.in_joint = true;
   channel.inputs.heater.limited = true;
@@ -301,13 +301,13 @@ Fault found_of_a_muscle_without_motion(const std::function<void(ChannelInputs&, 
 TEST(ChannelSupervisor, OnlyAMuscleWithUnmetDemandIsLoose) {
   for (const double demanded_W : {3.5, 3.7}) {
     check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none,
-                found_of_a_muscle_without_motion(
+                fault_of_a_motionless_muscle(
                     [&](ChannelInputs& e, int) { e.axis.demanded_W = demanded_W; }));
   }
 }
 
 TEST(ChannelSupervisor, AMuscleThatIsOffIsNotLoose) {
-  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int) {
+  check_fault(Fault::none, fault_of_a_motionless_muscle([](ChannelInputs& e, int) {
                 e.heater.off = true;
                 e.heater.current.value = 0.0;
               }));
@@ -316,12 +316,12 @@ TEST(ChannelSupervisor, AMuscleThatIsOffIsNotLoose) {
 // Positions from before say nothing about how far it has moved since.
 TEST(ChannelSupervisor, LooseRestartsAfterACalibrationAndWithANewMuscle) {
   constexpr int every = 700;  // less than the 750 within which it must be seen to move
-  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
+  check_fault(Fault::none, fault_of_a_motionless_muscle([](ChannelInputs& e, int tick) {
                 e.axis.recalibrated.reset();
                 const double here_m = e.axis.position.value;
                 if (tick % every == 0) e.axis.recalibrated = {here_m, here_m, 1.0};
               }));
-  check_fault(Fault::none, found_of_a_muscle_without_motion([](ChannelInputs& e, int tick) {
+  check_fault(Fault::none, fault_of_a_motionless_muscle([](ChannelInputs& e, int tick) {
                 e.axis.expected_jumped = tick % every == 0;
               }));
 }
@@ -335,15 +335,15 @@ TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {
 }
 
 TEST(ChannelSupervisor, ARecalibrationIsNotAResponseOfTheMuscle) {
-  for (const bool told : {false, true}) {
+  for (const bool reported : {false, true}) {
     Channel channel;
     for (int i = 0; i < 1000; ++i)
       channel.step();
     const double before_m = channel.inputs.axis.position.value;
     channel.inputs.axis.position.value += 0.002;
-    if (told) channel.inputs.axis.recalibrated = {before_m, before_m + 0.002, 1.0};
+    if (reported) channel.inputs.axis.recalibrated = {before_m, before_m + 0.002, 1.0};
     check_fault(Fault::none, channel.step());
-    DOUBLES_EQUAL(told ? 0.0 : 0.002, channel.moved_m(), 50e-6);
+    DOUBLES_EQUAL(reported ? 0.0 : 0.002, channel.moved_m(), 50e-6);
   }
 }
 

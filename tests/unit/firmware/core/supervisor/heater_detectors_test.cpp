@@ -13,8 +13,8 @@ namespace {
 
 /// Ticks until the detector trips, or -1.
 template <class Step>
-int ticks_until(Step step, int most = 100000) {
-  for (int tick = 1; tick <= most; ++tick) {
+int ticks_until(Step step, int max_ticks = 100000) {
+  for (int tick = 1; tick <= max_ticks; ++tick) {
     if (step(tick)) return tick;
   }
   return -1;

@@ -19,10 +19,10 @@ NotResponding::Expected rising(int tick) {
   return {expected_m, expected_m, expected_m};
 }
 
-/// The first tick at which the step trips, counted from 1; -1: none within `most`.
+/// The first tick at which the step trips, counted from 1; -1: none within max_ticks.
 template <class Step>
-int tripped_at(Step step, int most = 100'000) {
-  for (int tick = 0; tick < most; ++tick) {
+int tripped_at(Step step, int max_ticks = 100'000) {
+  for (int tick = 0; tick < max_ticks; ++tick) {
     if (step(tick)) return tick + 1;
   }
   return -1;

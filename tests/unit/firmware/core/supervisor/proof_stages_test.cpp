@@ -273,15 +273,15 @@ TEST(ProofStages, RestartWithALearnedMuscle) {
 }
 
 TEST(ProofStages, ARecalibrationIsNotMotion) {
-  for (const bool told : {false, true}) {
+  for (const bool reported : {false, true}) {
     HeldMuscle muscle(paper_proof());
     muscle.run(20.0);
     muscle.off_sensor = true;
     muscle.run(0.304);  // within a step, whose positions have different calibrations
     muscle.moved_m = 0.01;
-    if (told) muscle.proof.recalibrated();
+    if (reported) muscle.proof.recalibrated();
     muscle.run(2.5);
-    LONGS_EQUAL(told, muscle.unanswered);
+    LONGS_EQUAL(reported, muscle.unanswered);
   }
 }
 

@@ -14,7 +14,7 @@ constexpr double step_noise_m = 3.2e-6;  // 10 um rms at 1 kHz, averaged over 10
 
 /// The fraction of blocks with this result, for a muscle that answers with this ratio of the
 /// expected motion, a sine of 7 um rms.
-double part_that_is(detectors::Response::Result wanted, double response_ratio, int blocks) {
+double fraction_with_result(detectors::Response::Result wanted, double response_ratio, int blocks) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, step_noise_m);
   int found = 0;
@@ -40,7 +40,8 @@ double tail(double deviations) {
 TEST_GROUP(Response){};
 
 TEST(Response, FalseResponsesOfADeadMuscleAreAtMostOneInAThousand) {
-  CHECK_COMPARE(part_that_is(detectors::Response::Result::answered, 0.0, 50000), <=, 1.3e-3);
+  CHECK_COMPARE(fraction_with_result(detectors::Response::Result::answered, 0.0, 50000), <=,
+                1.3e-3);
 }
 
 // 1e-9 cannot be counted. The missed fraction is at most twice a normal tail at 1, 2, 3 and 4
@@ -49,7 +50,7 @@ TEST(Response, MissRateOfALivingMuscleFollowsTheNormalTail) {
   for (const double deviations : {1.0, 2.0, 3.0, 4.0}) {
     const double ratio =
         detectors::Response::silent_ratio + deviations / detectors::Response::needed_deviations;
-    const double missed = part_that_is(detectors::Response::Result::silent, ratio, 40000);
+    const double missed = fraction_with_result(detectors::Response::Result::silent, ratio, 40000);
     CHECK_COMPARE(missed, <=, 2.0 * tail(deviations) + 5e-5);
   }
   const double of_half =

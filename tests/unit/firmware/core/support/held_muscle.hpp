@@ -64,12 +64,12 @@ class HeldMuscle {
     proof.step({power_W_, dither_W_, 1, present, position_m, heat_.max_K() + hotter_K, heating,
                 warmer_air_K});
     unanswered = unanswered || proof.unanswered();
-    const double asked_W = proof.with_dither_W(demanded_W);
-    power_W_ = obeys ? std::min(asked_W, proof.max_W()) : asked_W;
-    dither_W_ = power_W_ < asked_W ? 0.0 : proof.dither_W();
+    const double requested_W = proof.with_dither_W(demanded_W);
+    power_W_ = obeys ? std::min(requested_W, proof.max_W()) : requested_W;
+    dither_W_ = power_W_ < requested_W ? 0.0 : proof.dither_W();
     dither_ticks += dither_W_ != 0.0 ? 1 : 0;
     min_W = std::min(min_W, proof.max_W());
-    peak_W = std::max(peak_W, asked_W);
+    peak_W = std::max(peak_W, requested_W);
   }
 
   void warm() {

@@ -70,11 +70,11 @@ TEST(Socketcand, ElementsAreExtractedFromTheStream) {
 TEST(Socketcand, TheSplitOfTheStreamDoesNotMatter) {
   CHECK(rc::check("splits", [] {
     const std::string stream = any_stream();
-    const auto most = *rc::gen::inRange<std::size_t>(1, 400);
+    const auto max_length = *rc::gen::inRange<std::size_t>(1, 400);
     ElementReader reader;
     Elements elements;
     for (std::size_t at = 0; at < stream.size();) {
-      const auto length = *rc::gen::inRange<std::size_t>(1, most + 1);
+      const auto length = *rc::gen::inRange<std::size_t>(1, max_length + 1);
       reader.put(std::string_view(stream).substr(at, length));
       take_all(reader, elements);
       at += length;
@@ -113,9 +113,9 @@ TEST(Socketcand, EveryFrameRoundTrips) {
     const auto sent = parse_send(inside(send_text(frame)));
     RC_ASSERT(sent.has_value());
     RC_ASSERT(same(*sent, without_time(frame)));
-    const auto heard = parse_frame(inside(frame_text(frame, frame.received)));
-    RC_ASSERT(heard.has_value());
-    RC_ASSERT(same(*heard, frame));
+    const auto parsed = parse_frame(inside(frame_text(frame, frame.received)));
+    RC_ASSERT(parsed.has_value());
+    RC_ASSERT(same(*parsed, frame));
   }));
 }
 
@@ -124,10 +124,10 @@ TEST(Socketcand, ReadsOutputOfOtherPrograms) {
   CHECK(sent.has_value());
   LONGS_EQUAL(0x7FF, sent->id);
   LONGS_EQUAL(0x0B, sent->data[2]);
-  const auto heard = parse_frame("frame 7ff 1.5 a00B");
-  CHECK(heard.has_value());
-  LONGS_EQUAL(2, heard->length);
-  CHECK(heard->received == 1500ms);
+  const auto parsed = parse_frame("frame 7ff 1.5 a00B");
+  CHECK(parsed.has_value());
+  LONGS_EQUAL(2, parsed->length);
+  CHECK(parsed->received == 1500ms);
 }
 
 TEST(Socketcand, AnInvalidFrameIsRefused) {

@@ -56,12 +56,12 @@ TEST(JointInDegrees, TheAntagonistMayHaveItsOwnLever) {
   DOUBLES_EQUAL(-1e-6 * 2.0 / 3.0, antagonist.position.scaling.per_count, 1e-18);
   DOUBLES_EQUAL(0.041 * 2.0 / 3.0, antagonist.supervision.max_position_m, 1e-12);
   DOUBLES_EQUAL(0.010, antagonist.joint.lever.zero_radius_m(), 1e-12);
-  const std::string told = describe(c);
-  STRCMP_CONTAINS("lever of 15 mm, the antagonist's of 10 mm\n", told.c_str());
+  const std::string description = describe(c);
+  STRCMP_CONTAINS("lever of 15 mm, the antagonist's of 10 mm\n", description.c_str());
   STRCMP_CONTAINS(
       "stiffness   16 N/m at the agonist's lever, 0.0036 Nm/rad, however much both pull: linear "
       "muscles\n",
-      told.c_str());
+      description.c_str());
   // This many more watts than with the agonist's lever.
   const double alike_W =
       read_in_degrees(ranged("[-20, 30.0]")).settings.joints[0].gain_ratio(c.settings.channels);

@@ -229,10 +229,10 @@ TEST(JointConfig, CheckReportsWhereAMuscleGoesSlack) {
   STRCMP_CONTAINS("  slack       by the model, without power: the agonist from 9.5° on, taut at ",
                   describe(alike).c_str());
   STRCMP_CONTAINS("; the antagonist from -9.5° on, taut at ", describe(alike).c_str());
-  const BoardConfig told =
+  const BoardConfig config =
       read_board(board_with_joint + "pretension_N = 0.02\nstiffness_ratio = [0.25, 0.0]\n");
-  STRCMP_CONTAINS("the agonist from 19.1° on", describe(told).c_str());
-  STRCMP_CONTAINS("the antagonist nowhere within its travel\n", describe(told).c_str());
+  STRCMP_CONTAINS("the agonist from 19.1° on", describe(config).c_str());
+  STRCMP_CONTAINS("the antagonist nowhere within its travel\n", describe(config).c_str());
   check_answer(
       "joint[1].stiffness_ratio = [0.5, 0.6]: must not exceed 1 in total: a spring has the rest",
       board_with_joint + "stiffness_ratio = [0.5, 0.6]\n");

@@ -54,14 +54,14 @@ TEST(JointWithAWeight, HasTheArmsWeightAndHangingAngle) {
 }
 
 TEST(JointWithAWeight, CheckReportsThePowerToHoldAngles) {
-  const std::string told = describe(read_arm(arm));
+  const std::string text = describe(read_arm(arm));
   STRCMP_CONTAINS(
       "  joint       turned against gravity; lever of 15 mm; held indefinitely up to 9.7 mm (37°); "
       "0.0071325 Nm/rad at 0°\n"
       "              the weight pulls the cold muscle with 0.236 N; held at 15° with 1.2 W, 30° "
       "with 2.19 W, 45° with 2.96 W, 60° with "
       "3.49 W; pulls with up to 0.333 N\n",
-      told.c_str());
+      text.c_str());
 }
 
 TEST(JointWithAWeight, MustPullTheArmBackFromEveryAngle) {

@@ -134,7 +134,7 @@ TEST(Mishap, KilledBeforeAndAfterEveryCallLeavesWholeRecordings) {
   }
 }
 
-TEST(Mishap, AFullFileSystemIsReported) {
+TEST(Mishap, AFileTooLargeForTheFileSystemIsReported) {
   Child child([&](int report) {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit small{10'000, 10'000};

@@ -15,7 +15,7 @@ TEST_GROUP_BASE(Writing,
     disk.change({"/d/" + name, std::make_shared<Inode>(Inode{text, text, false}), ""});
 disk.sync_names();
 }
-bool there(const std::string& name) {
+bool exists(const std::string& name) {
   return disk.names.contains("/d/" + name);
 }
 void a_fault() {
@@ -32,14 +32,14 @@ TEST(Writing, NumbersCountUpFromTheHighestPresent) {
   put("flight-12.scfr");
   a_fault();
   a_fault();
-  CHECK(there("flight-13.scfr") && there("flight-14.scfr") && there("flight-7.scfr"));
+  CHECK(exists("flight-13.scfr") && exists("flight-14.scfr") && exists("flight-7.scfr"));
 }
 
 TEST(Writing, NumbersAreNotReusedWhenTheNewestIsRemoved) {
   a_fault();
   disk.names.erase("/d/flight-1.scfr");
   a_fault();
-  CHECK(there("flight-2.scfr"));
+  CHECK(exists("flight-2.scfr"));
 }
 
 TEST(Writing, OnlyTheNewestTwentyAreKeptAndNothingElseIsTouched) {
@@ -52,9 +52,9 @@ TEST(Writing, OnlyTheNewestTwentyAreKeptAndNothingElseIsTouched) {
   for (int i = 1; i <= 25; ++i)
     put("flight-" + std::to_string(i) + ".scfr");
   a_fault();
-  CHECK(!there("flight-6.scfr") && there("flight-7.scfr") && there("flight-26.scfr"));
+  CHECK(!exists("flight-6.scfr") && exists("flight-7.scfr") && exists("flight-26.scfr"));
   for (const std::string& name : others)
-    CHECK_TEXT(there(name), name.c_str());
+    CHECK_TEXT(exists(name), name.c_str());
 }
 
 TEST(Writing, FilesWithOtherNamesDoNotCount) {
@@ -62,7 +62,7 @@ TEST(Writing, FilesWithOtherNamesDoNotCount) {
   for (int i = 1; i <= 19; ++i)
     put("flight-" + std::to_string(i) + ".scfr");
   a_fault();
-  CHECK(there("flight-1.scfr") && there("flight-20.scfr"));
+  CHECK(exists("flight-1.scfr") && exists("flight-20.scfr"));
 }
 
 TEST(Writing, TheOldestIsRemovedBeforeTheNewOneIsCreated) {
@@ -71,10 +71,10 @@ TEST(Writing, TheOldestIsRemovedBeforeTheNewOneIsCreated) {
   SimulatedFiles full(disk, {1, ENOSPC, false, false});  // call 0 removes, call 1 makes the file
   FlightRecorder failing("/d", 2, rate_Hz, full, settings_on(disk));
   Ticks{failing, 0, {Fault::over_travel, Fault::none}}.until(1.1);
-  CHECK(!there("flight-1.scfr") && there("flight-2.scfr") && !there("flight-21.scfr"));
+  CHECK(!exists("flight-1.scfr") && exists("flight-2.scfr") && !exists("flight-21.scfr"));
   Ticks{failing, 2 * second_ns, {Fault::over_travel, Fault::none}}.until(7.0);
-  CHECK_TEXT(there("flight-2.scfr"), "the second try needs no more room");
-  CHECK(there("flight-21.scfr"));
+  CHECK_TEXT(exists("flight-2.scfr"), "the second try needs no more room");
+  CHECK(exists("flight-21.scfr"));
 }
 
 TEST(Writing, AFailedRemovalDoesNotPreventOthers) {
@@ -83,11 +83,11 @@ TEST(Writing, AFailedRemovalDoesNotPreventOthers) {
   SimulatedFiles stuck(disk, {0, EISDIR, false, false});
   FlightRecorder recorder_("/d", 2, rate_Hz, stuck, settings_on(disk));
   Ticks{recorder_, 0, {Fault::over_travel, Fault::none}}.until(1.1);
-  CHECK(there("flight-1.scfr") && !there("flight-2.scfr") && there("flight-21.scfr"));
-  const auto said = recorder_.take_notes();
-  LONGS_EQUAL(2, said.size());
-  CHECK(!said[0].problem && said[1].problem);
-  STRCMP_CONTAINS("/d/flight-1.scfr: simulated: Is a directory", said[1].text.c_str());
+  CHECK(exists("flight-1.scfr") && !exists("flight-2.scfr") && exists("flight-21.scfr"));
+  const auto notes = recorder_.take_notes();
+  LONGS_EQUAL(2, notes.size());
+  CHECK(!notes[0].problem && notes[1].problem);
+  STRCMP_CONTAINS("/d/flight-1.scfr: simulated: Is a directory", notes[1].text.c_str());
 }
 
 TEST(Writing, RemnantsOfAnInterruptedWriteAreRemoved) {
@@ -95,7 +95,7 @@ TEST(Writing, RemnantsOfAnInterruptedWriteAreRemoved) {
   put("flight-1.scfr.new");
   a_fault();
   LONGS_EQUAL(1, recordings());
-  CHECK(there("flight-1.scfr"));
+  CHECK(exists("flight-1.scfr"));
 }
 
 TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsRetriedOnce) {
@@ -105,21 +105,21 @@ TEST(Writing, AFullDiskIsReportedLeavesNothingAndIsRetriedOnce) {
   t.until(19.99);
   t.fault(0);
   t.until(21.01);
-  auto said = failing.take_notes();
-  LONGS_EQUAL(1, said.size());
-  CHECK(said[0].problem);
+  auto notes = failing.take_notes();
+  LONGS_EQUAL(1, notes.size());
+  CHECK(notes[0].problem);
   STRCMP_EQUAL(
       "over_temperature (30) of channel 1 is not recorded: /d/flight-1.scfr.new: simulated: "
       "No space left on device; will try once more",
-      said[0].text.c_str());
+      notes[0].text.c_str());
   LONGS_EQUAL_TEXT(0, recordings(), "the half file is removed");
   t.until(26.01);
   LONGS_EQUAL(0, recordings());
   t.until(26.02);
   check_rows(recording(1).rows, 10.0, 21.0);
-  said = failing.take_notes();
-  LONGS_EQUAL(1, said.size());
-  CHECK(!said[0].problem);
+  notes = failing.take_notes();
+  LONGS_EQUAL(1, notes.size());
+  CHECK(!notes[0].problem);
 }
 
 TEST(Writing, TheSecondAttemptIsTheLastAndLaterFaultsAreRecorded) {
@@ -127,9 +127,9 @@ TEST(Writing, TheSecondAttemptIsTheLastAndLaterFaultsAreRecorded) {
   recorder::FlightRecorder failing("/d", 2, rate_Hz, full, settings_on(disk));
   Ticks t{failing, 0, {Fault::over_travel, Fault::none}};
   t.until(30.0);
-  const auto said = failing.take_notes();
-  LONGS_EQUAL(2, said.size());
-  STRCMP_CONTAINS("Read-only file system; giving up", said[1].text.c_str());
+  const auto notes = failing.take_notes();
+  LONGS_EQUAL(2, notes.size());
+  STRCMP_CONTAINS("Read-only file system; giving up", notes[1].text.c_str());
   const int calls = full.calls();
   t.until(60.0);
   LONGS_EQUAL(calls, full.calls());
@@ -178,16 +178,17 @@ TEST(Writing, AFailedListingIsReportedLikeAnyProblem) {
   recorder::RecorderSettings settings;  // the real list of a folder that does not exist
   recorder::FlightRecorder failing("/none/there", 2, rate_Hz, files, settings);
   Ticks{failing, 0, {Fault::over_travel, Fault::none}}.until(2.0);
-  const auto said = failing.take_notes();
-  LONGS_EQUAL(1, said.size());
-  STRCMP_CONTAINS("/none/there: cannot be listed: No such file or directory", said[0].text.c_str());
+  const auto notes = failing.take_notes();
+  LONGS_EQUAL(1, notes.size());
+  STRCMP_CONTAINS("/none/there: cannot be listed: No such file or directory",
+                  notes[0].text.c_str());
   LONGS_EQUAL(0, files.calls());
 }
 
 TEST(Writing, UnreadNotesAreBounded) {
   for (int i = 0; i < 40; ++i)
     a_fault();
-  const auto said = recorder.take_notes();
-  LONGS_EQUAL(32, said.size());
-  STRCMP_CONTAINS("flight-40.scfr", said.back().text.c_str());
+  const auto notes = recorder.take_notes();
+  LONGS_EQUAL(32, notes.size());
+  STRCMP_CONTAINS("flight-40.scfr", notes.back().text.c_str());
 }

@@ -62,7 +62,7 @@ std::string mixed(const std::string& text) {
   return text.substr(0, place(text)) + other.substr(place(other));
 }
 
-bool all_noticed(const char* name, const std::function<std::string(const std::string&)>& damage) {
+bool all_detected(const char* name, const std::function<std::string(const std::string&)>& damage) {
   return rc::check(name, [&] {
     const board::Learned set = *learned_sets();
     const std::string text = encode(set);
@@ -81,13 +81,13 @@ bool all_noticed(const char* name, const std::function<std::string(const std::st
 TEST_GROUP(Damage){};
 
 TEST(Damage, OfRandomKindsIsDetected) {
-  CHECK(all_noticed("flipped bits", with_flipped_bits));
+  CHECK(all_detected("flipped bits", with_flipped_bits));
   CHECK(
-      all_noticed("cut off", [](const std::string& text) { return text.substr(0, place(text)); }));
-  CHECK(all_noticed("a part twice", with_a_part_twice));
-  CHECK(all_noticed("a part lost", without_a_part));
-  CHECK(all_noticed("a burst", with_a_burst));
-  CHECK(all_noticed("mixed", mixed));
+      all_detected("cut off", [](const std::string& text) { return text.substr(0, place(text)); }));
+  CHECK(all_detected("a part twice", with_a_part_twice));
+  CHECK(all_detected("a part lost", without_a_part));
+  CHECK(all_detected("a burst", with_a_burst));
+  CHECK(all_detected("mixed", mixed));
 }
 
 TEST(Damage, OfEveryBitAndAtEveryLengthIsDetected) {

@@ -21,7 +21,7 @@ const std::string path = "/d/learned-1.toml";
 /// load() may return: the last set whose save was reported, or one that was tried after it.
 class Board {
  public:
-  void one_life() {
+  void run_once() {
     Disk disk(content_);
     const Mishap mishap{*rc::gen::inRange(-1, 40), *rc::gen::element(0, ENOSPC, EIO, EROFS),
                         *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
@@ -72,7 +72,7 @@ TEST(History, OfAnyKindEndsWithASavedSet) {
     Board board;
     const int lives = *rc::gen::inRange(1, 12);
     for (int i = 0; i < lives; ++i) {
-      board.one_life();
+      board.run_once();
       if (*rc::gen::inRange(0, 3) == 0) board.damage();
     }
   }));

@@ -50,14 +50,14 @@ TEST_GROUP(CanCommands) {
 TEST(CanCommands, AreReceivedForEachChannelWithTheSyncOfAllBoards) {
   settings.first_node = 3;
   const auto ids = telemetry::received_ids(settings, 2);
-  const std::set<std::uint16_t> heard(ids.begin(), ids.end());
+  const std::set<std::uint16_t> received(ids.begin(), ids.end());
   for (const can::Node node : {can::Node{2}, can::Node{3}, can::Node{4}, can::Node{5}}) {
     const bool is_own = node == 3 || node == 4;
     for (const can::MessageInfo& message :
          {can::message::command, can::message::knot, can::message::play, can::message::status})
-      CHECK_EQUAL(is_own, heard.contains(can::id_of(message, node)));
+      CHECK_EQUAL(is_own, received.contains(can::id_of(message, node)));
   }
-  CHECK(heard.contains(telemetry::sync_id));
+  CHECK(received.contains(telemetry::sync_id));
 }
 
 TEST(CanCommands, AMasterClaimsALeaseAndIsObeyed) {
@@ -187,8 +187,8 @@ TEST(CanCommands, AreRefusedAtOnceWhenTheQueueIsFull) {
 TEST(CanCommands, ALostAnswerDoesNotShiftOthers) {
   claim(master);
   const auto lost = take(master.frame(Verb::arm));
-  const auto heard = take(master.frame(Verb::rest));
-  const auto answer = read_answer(*commands.answered({*heard.command, Refusal::wrong_state}));
+  const auto kept = take(master.frame(Verb::rest));
+  const auto answer = read_answer(*commands.answered({*kept.command, Refusal::wrong_state}));
   LONGS_EQUAL(static_cast<int>(Verb::rest), answer.opcode);
   CHECK_FALSE(commands.answered({*lost.command, Refusal::none}).has_value());
 }

@@ -52,7 +52,7 @@ Row antagonist_row() {
   return row;
 }
 
-supercoil_joint_t told(JointPart part, const Row& agonist, const Row* antagonist,
+supercoil_joint_t sent(JointPart part, const Row& agonist, const Row* antagonist,
                        const control::Lever& lever = control::Lever(lever_m)) {
   return unpacked(joint(1, part, lever, agonist, antagonist), supercoil_joint_unpack);
 }
@@ -66,7 +66,7 @@ TEST_GROUP(JointFrame) {
 
 TEST(JointFrame, EveryPartHasTheAngleAndTheLimitOfEachMuscle) {
   for (std::uint8_t part = 0; part < joint_parts(true); ++part) {
-    const auto m = told(static_cast<JointPart>(part), agonist, &antagonist);
+    const auto m = sent(static_cast<JointPart>(part), agonist, &antagonist);
     LONGS_EQUAL(part, m.part);
     DOUBLES_EQUAL(-12.3455, supercoil_joint_angle_deg_decode(m.angle_deg), 0.00026);
     LONGS_EQUAL(1, m.agonist_limited);
@@ -77,28 +77,28 @@ TEST(JointFrame, EveryPartHasTheAngleAndTheLimitOfEachMuscle) {
 }
 
 TEST(JointFrame, MotionAndEffortAreOfTheJoint) {
-  const auto motion = told(JointPart::motion, agonist, &antagonist);
+  const auto motion = sent(JointPart::motion, agonist, &antagonist);
   DOUBLES_EQUAL(20.0, supercoil_joint_reference_deg_decode(motion.reference_deg), 0.00026);
   DOUBLES_EQUAL(-0.3455, supercoil_joint_error_deg_decode(motion.error_deg), 0.00026);
-  const auto effort = told(JointPart::effort, agonist, &antagonist);
+  const auto effort = sent(JointPart::effort, agonist, &antagonist);
   DOUBLES_EQUAL(-1.234, supercoil_joint_effort_w_decode(effort.effort_w), 1e-9);
   DOUBLES_EQUAL(0.9, supercoil_joint_co_contraction_w_decode(effort.co_contraction_w), 1e-9);
 }
 
 TEST(JointFrame, HeatAndPowerAreOfTheNamedMuscle) {
-  const auto heat = told(JointPart::agonist_heat, agonist, &antagonist);
+  const auto heat = sent(JointPart::agonist_heat, agonist, &antagonist);
   DOUBLES_EQUAL(31.25, supercoil_joint_agonist_coldest_c_decode(heat.agonist_coldest_c), 1e-9);
   DOUBLES_EQUAL(42.5, supercoil_joint_agonist_hottest_c_decode(heat.agonist_hottest_c), 1e-9);
-  const auto power = told(JointPart::agonist_power, agonist, &antagonist);
+  const auto power = sent(JointPart::agonist_power, agonist, &antagonist);
   DOUBLES_EQUAL(0.125, supercoil_joint_agonist_applied_w_decode(power.agonist_applied_w), 1e-9);
   DOUBLES_EQUAL(5.43, supercoil_joint_agonist_resistance_ohm_decode(power.agonist_resistance_ohm),
                 1e-9);
-  const auto other = told(JointPart::antagonist_heat, agonist, &antagonist);
+  const auto other = sent(JointPart::antagonist_heat, agonist, &antagonist);
   DOUBLES_EQUAL(50.0, supercoil_joint_antagonist_coldest_c_decode(other.antagonist_coldest_c),
                 1e-9);
   DOUBLES_EQUAL(61.0, supercoil_joint_antagonist_hottest_c_decode(other.antagonist_hottest_c),
                 1e-9);
-  const auto its_power = told(JointPart::antagonist_power, agonist, &antagonist);
+  const auto its_power = sent(JointPart::antagonist_power, agonist, &antagonist);
   DOUBLES_EQUAL(1.5, supercoil_joint_antagonist_applied_w_decode(its_power.antagonist_applied_w),
                 1e-9);
   DOUBLES_EQUAL(
@@ -113,17 +113,17 @@ TEST(JointFrame, TheAngleUsesAVariableLever) {
   const control::Lever lever(-end_rad, end_rad, radii_m);
   agonist.position_m =
       static_cast<float>((0.015 - 0.5 * 0.004 / end_rad * end_rad / 3.0) * end_rad / 3.0);
-  const auto m = told(JointPart::motion, agonist, &antagonist, lever);
+  const auto m = sent(JointPart::motion, agonist, &antagonist, lever);
   DOUBLES_EQUAL(10.0, supercoil_joint_angle_deg_decode(m.angle_deg), 0.0005);
 }
 
 TEST(JointFrame, ReferenceAndErrorAreNotAvailableWithoutTracking) {
   agonist.mode = static_cast<std::uint8_t>(Mode::power);
   antagonist.mode = static_cast<std::uint8_t>(Mode::rest);
-  const auto motion = told(JointPart::motion, agonist, &antagonist);
+  const auto motion = sent(JointPart::motion, agonist, &antagonist);
   LONGS_EQUAL(angle_not_available, motion.reference_deg);
   LONGS_EQUAL(-32768, motion.error_deg);
-  const auto effort = told(JointPart::effort, agonist, &antagonist);
+  const auto effort = sent(JointPart::effort, agonist, &antagonist);
   LONGS_EQUAL(-131072, effort.effort_w);
   LONGS_EQUAL(262143, effort.co_contraction_w);
 }
@@ -131,7 +131,7 @@ TEST(JointFrame, ReferenceAndErrorAreNotAvailableWithoutTracking) {
 TEST(JointFrame, AMuscleAgainstASpringHasItsFourParts) {
   LONGS_EQUAL(4, joint_parts(false));
   LONGS_EQUAL(6, joint_parts(true));
-  const auto effort = told(JointPart::effort, agonist, nullptr);
+  const auto effort = sent(JointPart::effort, agonist, nullptr);
   DOUBLES_EQUAL(-1.234, supercoil_joint_effort_w_decode(effort.effort_w), 1e-9);
   LONGS_EQUAL(262143, effort.co_contraction_w);
   LONGS_EQUAL(0, effort.antagonist_limited);
@@ -150,40 +150,40 @@ TEST(JointFrame, NaNIsNotAvailableAndExtremesSaturate) {
     }
   };
   with(none);
-  auto motion = told(JointPart::motion, agonist, &antagonist);
+  auto motion = sent(JointPart::motion, agonist, &antagonist);
   LONGS_EQUAL(angle_not_available, motion.angle_deg);
   LONGS_EQUAL(angle_not_available, motion.reference_deg);
   LONGS_EQUAL(-32768, motion.error_deg);
-  LONGS_EQUAL(-131072, told(JointPart::effort, agonist, &antagonist).effort_w);
-  LONGS_EQUAL(262143, told(JointPart::effort, agonist, &antagonist).co_contraction_w);
-  LONGS_EQUAL(-32768, told(JointPart::agonist_heat, agonist, &antagonist).agonist_coldest_c);
-  LONGS_EQUAL(131071, told(JointPart::agonist_power, agonist, &antagonist).agonist_applied_w);
-  LONGS_EQUAL(-32768, told(JointPart::antagonist_heat, agonist, &antagonist).antagonist_hottest_c);
+  LONGS_EQUAL(-131072, sent(JointPart::effort, agonist, &antagonist).effort_w);
+  LONGS_EQUAL(262143, sent(JointPart::effort, agonist, &antagonist).co_contraction_w);
+  LONGS_EQUAL(-32768, sent(JointPart::agonist_heat, agonist, &antagonist).agonist_coldest_c);
+  LONGS_EQUAL(131071, sent(JointPart::agonist_power, agonist, &antagonist).agonist_applied_w);
+  LONGS_EQUAL(-32768, sent(JointPart::antagonist_heat, agonist, &antagonist).antagonist_hottest_c);
   LONGS_EQUAL(524287,
-              told(JointPart::antagonist_power, agonist, &antagonist).antagonist_resistance_ohm);
+              sent(JointPart::antagonist_power, agonist, &antagonist).antagonist_resistance_ohm);
   // The same before the first row of the antagonist.
-  LONGS_EQUAL(-32768, told(JointPart::antagonist_heat, agonist, nullptr).antagonist_coldest_c);
-  LONGS_EQUAL(131071, told(JointPart::antagonist_power, agonist, nullptr).antagonist_applied_w);
+  LONGS_EQUAL(-32768, sent(JointPart::antagonist_heat, agonist, nullptr).antagonist_coldest_c);
+  LONGS_EQUAL(131071, sent(JointPart::antagonist_power, agonist, nullptr).antagonist_applied_w);
   for (const float huge : {1e30F, endless}) {
     with(huge);
-    motion = told(JointPart::motion, agonist, &antagonist);
+    motion = sent(JointPart::motion, agonist, &antagonist);
     // No lever turns through an infinite arc.
     LONGS_EQUAL(huge == endless ? angle_not_available : 524287, motion.angle_deg);
     LONGS_EQUAL(huge == endless ? angle_not_available : 524287, motion.reference_deg);
-    LONGS_EQUAL(131071, told(JointPart::effort, agonist, &antagonist).effort_w);
-    LONGS_EQUAL(262142, told(JointPart::effort, agonist, &antagonist).co_contraction_w);
-    LONGS_EQUAL(32767, told(JointPart::agonist_heat, agonist, &antagonist).agonist_hottest_c);
-    const auto power = told(JointPart::agonist_power, agonist, &antagonist);
+    LONGS_EQUAL(131071, sent(JointPart::effort, agonist, &antagonist).effort_w);
+    LONGS_EQUAL(262142, sent(JointPart::effort, agonist, &antagonist).co_contraction_w);
+    LONGS_EQUAL(32767, sent(JointPart::agonist_heat, agonist, &antagonist).agonist_hottest_c);
+    const auto power = sent(JointPart::agonist_power, agonist, &antagonist);
     LONGS_EQUAL(131070, power.agonist_applied_w);
     LONGS_EQUAL(524286, power.agonist_resistance_ohm);
     with(-huge);
     LONGS_EQUAL(huge == endless ? angle_not_available : -524287,
-                told(JointPart::effort, agonist, &antagonist).angle_deg);
-    LONGS_EQUAL(-131071, told(JointPart::effort, agonist, &antagonist).effort_w);
-    LONGS_EQUAL(0, told(JointPart::effort, agonist, &antagonist).co_contraction_w);
-    LONGS_EQUAL(0, told(JointPart::agonist_power, agonist, &antagonist).agonist_applied_w);
+                sent(JointPart::effort, agonist, &antagonist).angle_deg);
+    LONGS_EQUAL(-131071, sent(JointPart::effort, agonist, &antagonist).effort_w);
+    LONGS_EQUAL(0, sent(JointPart::effort, agonist, &antagonist).co_contraction_w);
+    LONGS_EQUAL(0, sent(JointPart::agonist_power, agonist, &antagonist).agonist_applied_w);
   }
   agonist = agonist_row();
   agonist.model_m = at_deg(40.0);
-  LONGS_EQUAL(-32767, told(JointPart::motion, agonist, &antagonist).error_deg);
+  LONGS_EQUAL(-32767, sent(JointPart::motion, agonist, &antagonist).error_deg);
 }

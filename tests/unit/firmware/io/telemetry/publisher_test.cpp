@@ -64,11 +64,11 @@ TEST(Publisher, SendsTheNewestRowAtItsRateFromItsNode) {
 TEST(Publisher, ParametersTakeTurnsAndUnknownOnesAreOmitted) {
   Publisher publisher(only(Message::estimate, 1000.0), {1, ChannelSettings()}, timing, bus);
   int expected = 0;
-  const auto hear = [&](int from_ms, bool told, int all) {
+  const auto check_cycle = [&](int from_ms, bool reported, int all) {
     bus.sent.clear();
     for (int ms = from_ms; ms < from_ms + 30; ++ms) {
       Row row = row_at(ms * 1ms);
-      for (std::uint8_t place = 1; told && place <= 6; ++place) {
+      for (std::uint8_t place = 1; reported && place <= 6; ++place) {
         row.multiplexed_selector = place;
         row.multiplexed_value = 0.5F;
         publisher.offer(row);
@@ -82,10 +82,10 @@ TEST(Publisher, ParametersTakeTurnsAndUnknownOnesAreOmitted) {
       LONGS_EQUAL(expected, frame.data[0]);
     }
   };
-  hear(0, true, 14);
+  check_cycle(0, true, 14);
   CHECK(expected < 8);
-  hear(30, false, 8);
-  hear(60, true, 14);
+  check_cycle(30, false, 8);
+  check_cycle(60, true, 14);
 }
 
 TEST(Publisher, OnABusyBusQueuesDropsTheOldestAndCounts) {
@@ -169,8 +169,8 @@ TEST(Publisher, SendsTheJointsPartsInTurnFromTheAgonistsNode) {
   channels[2].joint = {.direction = 1, .lever = control::Lever(0.02), .other_channel_offset = -1};
   channels[1].joint = {.direction = -1, .lever = control::Lever(0.02), .other_channel_offset = 1};
   Publisher publisher(only(Message::joint, 1000.0), channels, timing, bus);
-  const auto publish_to = [&](int ms, std::initializer_list<std::uint8_t> told) {
-    for (const std::uint8_t channel : told) {
+  const auto publish_to = [&](int ms, std::initializer_list<std::uint8_t> reported) {
+    for (const std::uint8_t channel : reported) {
       Row row = row_at(ms * 1ms);
       row.channel = channel;
       row.position_m = 0.002F;

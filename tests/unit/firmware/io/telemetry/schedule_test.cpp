@@ -68,8 +68,8 @@ TEST(Schedule, HasNoBursts) {
     for (const int count : counts)
       sum += count;
     const double mean = sum / static_cast<double>(counts.size());
-    const int most = *std::max_element(counts.begin(), counts.end());
-    CHECK_TEXT(most <= mean + 3.0, std::to_string(most).c_str());
+    const int max = *std::max_element(counts.begin(), counts.end());
+    CHECK_TEXT(max <= mean + 3.0, std::to_string(max).c_str());
   }
 }
 

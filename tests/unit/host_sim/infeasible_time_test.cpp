@@ -63,20 +63,20 @@ TEST(InfeasibleTime, NamesThePrecedingEventWithAllItsChanges) {
 }
 
 TEST(InfeasibleTime, StartsAndEndsWithTheReference) {
-  const auto follow_asked = [&](LimitedBy limit, bool asked, double end_s) {
+  const auto follow_requested = [&](LimitedBy limit, bool requested, double end_s) {
     for (; time_s < end_s - 0.5 * step_s; time_s += step_s)
-      found.add(limit, asked, time_s);
+      found.add(limit, requested, time_s);
   };
   // At a limit, although the reference does not ask for it.
-  follow_asked(LimitedBy::minimum, false, 1.0);
+  follow_requested(LimitedBy::minimum, false, 1.0);
   CHECK_FALSE(found.found());
-  follow_asked(LimitedBy::nothing, true, 2.0);
+  follow_requested(LimitedBy::nothing, true, 2.0);
   CHECK_FALSE(found.found());
-  follow_asked(LimitedBy::maximum, true, 3.0);
+  follow_requested(LimitedBy::maximum, true, 3.0);
   // A gap due to noise.
-  follow_asked(LimitedBy::nothing, true, 3.1);
-  follow_asked(LimitedBy::maximum, true, 4.0);
-  follow_asked(LimitedBy::minimum, false, 5.0);
+  follow_requested(LimitedBy::nothing, true, 3.1);
+  follow_requested(LimitedBy::maximum, true, 4.0);
+  follow_requested(LimitedBy::minimum, false, 5.0);
   DOUBLES_EQUAL(1.0, found.first_s(), 1e-9);
   DOUBLES_EQUAL(3.0, found.first_duration_s(), 2.0 * step_s);
   CHECK_TRUE(found.first_ended());

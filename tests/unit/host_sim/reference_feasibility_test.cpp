@@ -58,10 +58,10 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsAsFeasibleAsReported) {
   CHECK_COMPARE(f->feasible_motion_ratio, <, 0.5);
   CHECK_COMPARE(f->feasible_slowing, >, 3.0);
   CHECK_COMPARE(f->feasible_slowing, <, 20.0);
-  const Reference asked = scenario.start.reference;
+  const Reference reference = scenario.start.reference;
   const auto with = [&](double amplitude_ratio, double slowing) {
     scenario.duration_s = 2000.0;
-    scenario.start.reference = asked;
+    scenario.start.reference = reference;
     scenario.start.reference.terms[0].amplitude *= amplitude_ratio;
     scenario.start.reference.terms[0].angular_frequency_rad_per_s /= slowing;
     return infeasible_ratio(scenario);
@@ -72,11 +72,11 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsAsFeasibleAsReported) {
   CHECK_COMPARE(with(1.05 * f->feasible_motion_ratio, 1.0), >, 5.0 * coming_up);
   CHECK_COMPARE(with(1.0, f->feasible_slowing), <, coming_up);
   CHECK_COMPARE(with(1.0, 0.9 * f->feasible_slowing), >, 2.0 * coming_up);
-  const std::string told = describe_reference(read(slow));
+  const std::string text = describe_reference(read(slow));
   STRCMP_CONTAINS(
       "0.224 of its motion about the middle is feasible, or all of it 7.99 times as slow",
-      told.c_str());
-  STRCMP_CONTAINS("with shape_reference = true", told.c_str());
+      text.c_str());
+  STRCMP_CONTAINS("with shape_reference = true", text.c_str());
   const Scenario shaped = read(slow + "shape_reference = true\n");
   STRCMP_CONTAINS("; it is shaped", describe_reference(shaped).c_str());
 }
@@ -88,7 +88,7 @@ TEST(ReferenceFeasibility, AgreesWithWhatARunFinds) {
       "muscle.thermal_mass_J_per_K = 0.5\nreference.angular_frequency_rad_per_s = 0.5\n"
       "[controller]\nkind = 'learned_ff'\nlearn = false\nshape_reference = true\n");
   const double found = infeasible_ratio_of_run(scenario);
-  printf("found %g, told %g\n", found, infeasible_ratio(scenario));
+  printf("found %g, predicted %g\n", found, infeasible_ratio(scenario));
   CHECK_COMPARE(found, >, 0.05);
   CHECK_COMPARE(infeasible_ratio(scenario), >, 0.5 * found);
   CHECK_COMPARE(infeasible_ratio(scenario), <, 1.5 * found);
@@ -108,7 +108,7 @@ TEST(ReferenceFeasibility, ReportsASetPointThatMayBecomeTooHotToHold) {
   CHECK(f->held_by == LimitedBy::temperature);
   DOUBLES_EQUAL(0.018, f->max_m, 1e-5);
   const double found = infeasible_ratio_of_run(high);
-  printf("found %g, told %g\n", found, f->infeasible_ratio);
+  printf("found %g, predicted %g\n", found, f->infeasible_ratio);
   DOUBLES_EQUAL(found, f->infeasible_ratio, 0.05);
   STRCMP_CONTAINS(
       "and the muscle does not catch up, when it may be so hot that it gets up to 0.98 W less "
@@ -148,7 +148,7 @@ TEST(ReferenceFeasibility, ReportsTheFaultOfASetPointBeyondTheHeldTravel) {
     while (!simulation.done())
       summary.add(simulation.step());
     CHECK(summary.ended_in() == Fault::controller_invalid);
-    printf("told %g, ended at %g s\n", f->invalid_s, summary.faults().front().time_s);
+    printf("predicted %g, ended at %g s\n", f->invalid_s, summary.faults().front().time_s);
     DOUBLES_EQUAL(summary.faults().front().time_s, f->invalid_s, 3.0);
     STRCMP_CONTAINS("; it ends in controller_invalid at about ",
                     describe_reference(scenario).c_str());
@@ -201,19 +201,19 @@ TEST(ReferenceFeasibility, ReportsWhatAnIdentifiedMuscleCannotProve) {
   CHECK(reference_feasibility(scenario)->limited_by == LimitedBy::unproven);
   const double found = infeasible_ratio_of_run(scenario);
   DOUBLES_EQUAL(found, infeasible_ratio(scenario), 0.05);
-  const std::string told = describe_reference(scenario);
+  const std::string text = describe_reference(scenario);
   STRCMP_CONTAINS("more power than its proof of response allows (limited_by unproven)",
-                  told.c_str());
-  STRCMP_CONTAINS("; the muscle holds ", told.c_str());
+                  text.c_str());
+  STRCMP_CONTAINS("; the muscle holds ", text.c_str());
 }
 
 TEST(ReferenceFeasibility, TooWeakAMuscleCannotEvenHoldTheMiddle) {
   const std::string weak = "force_per_kelvin_N_per_K = 0.0002\n";
-  const std::string told = describe_reference(read("[plant]\n" + weak + "[muscle]\n" + weak));
+  const std::string text = describe_reference(read("[plant]\n" + weak + "[muscle]\n" + weak));
   STRCMP_CONTAINS(
       "first at 0 s, and the muscle does not catch up, when it would have to be heated with up to",
-      told.c_str());
-  STRCMP_CONTAINS("not even its middle can be held", told.c_str());
+      text.c_str());
+  STRCMP_CONTAINS("not even its middle can be held", text.c_str());
 }
 
 /// A step of 15 mm through a fast model, held for long.

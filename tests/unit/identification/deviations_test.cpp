@@ -94,9 +94,9 @@ TEST(Deviations, ForWhiteNoiseAreThoseOfLeastSquares) {
   const Eigen::VectorXd at_best = Eigen::VectorXd::Zero(1);
   const Eigen::VectorXd wide = Eigen::VectorXd::Constant(1, 100.0);
   const Accuracy accuracy = accuracy_of(ones, residual, at_best, wide);
-  const double least = 2.0 / std::sqrt(5000.0);
+  const double min_deviation = 2.0 / std::sqrt(5000.0);
   const double deviation = std::sqrt(accuracy.covariance(0, 0));
-  CHECK(deviation > 0.95 * least && deviation < 2.5 * least);
+  CHECK(deviation > 0.95 * min_deviation && deviation < 2.5 * min_deviation);
   DOUBLES_EQUAL(2.0, accuracy.cross_validated, 0.05);
 }
 

@@ -49,10 +49,10 @@ TEST(ReadCsv, TakesUnitsFromNamesAndOptions) {
   DOUBLES_EQUAL(0.0015, named.position_m[0], 1e-15);
   DOUBLES_EQUAL(0.3, named.power_W[0], 1e-15);
   const Columns columns{{"clock", "ms", 1.0}, {"2", "um", -1.0}, {"heated", "", 2.5}};
-  const Recording told = read_well("clock,length,heated\n20,1500,1\n", columns);
-  DOUBLES_EQUAL(0.02, told.time_s[0], 1e-15);
-  DOUBLES_EQUAL(-0.0015, told.position_m[0], 1e-15);
-  DOUBLES_EQUAL(2.5, told.power_W[0], 1e-15);
+  const Recording recording = read_well("clock,length,heated\n20,1500,1\n", columns);
+  DOUBLES_EQUAL(0.02, recording.time_s[0], 1e-15);
+  DOUBLES_EQUAL(-0.0015, recording.position_m[0], 1e-15);
+  DOUBLES_EQUAL(2.5, recording.power_W[0], 1e-15);
 }
 
 TEST(ReadCsv, PrefersMeasuredPositionAndAppliedPower) {

@@ -16,7 +16,7 @@ namespace {
 using Kind = Distribution::Kind;
 
 /// Which of `parts` equal intervals the runs' points fall into.
-std::set<int> parts_reached(const Sampler& sampler, std::size_t dimension, int parts) {
+std::set<int> intervals_hit(const Sampler& sampler, std::size_t dimension, int parts) {
   std::set<int> reached;
   for (std::size_t run = 0; run < static_cast<std::size_t>(parts); ++run)
     reached.insert(static_cast<int>(sampler.point(run)[dimension] * parts));
@@ -81,13 +81,13 @@ TEST(Sampler, PointsAreInsideTheCube) {
 TEST(Sampler, LatinHypercubeHitsEachIntervalOfEachDimensionOnce) {
   const Sampler sampler(Sampling::latin_hypercube, 1, 4, 100);
   for (std::size_t dimension = 0; dimension < 4; ++dimension)
-    LONGS_EQUAL(100, parts_reached(sampler, dimension, 100).size());
+    LONGS_EQUAL(100, intervals_hit(sampler, dimension, 100).size());
 }
 
 TEST(Sampler, SobolHitsEachIntervalOfEachDimensionOnceInPowersOfTwo) {
   const Sampler sampler(Sampling::sobol, 1, 6, 1);
   for (std::size_t dimension = 0; dimension < 6; ++dimension)
-    LONGS_EQUAL(64, parts_reached(sampler, dimension, 64).size());
+    LONGS_EQUAL(64, intervals_hit(sampler, dimension, 64).size());
 }
 
 TEST(Sampler, SobolFillsThePlaneOfTheFirstTwoDimensions) {

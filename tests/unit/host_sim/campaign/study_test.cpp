@@ -199,7 +199,7 @@ TEST(Study, ListValuesKeepTheirType) {
   STRCMP_EQUAL("12", text_of(study.draws[1], 1.0).c_str());
 }
 
-TEST(Study, DrawsOfAGroupAreTakenTogether) {
+TEST(Study, DrawsOfAGroupAreCorrelated) {
   const auto correlation = [](const char* of_one) {
     const Study study = study_of(
         "[study]\nruns = 2000\nsampling = 'random'\n"

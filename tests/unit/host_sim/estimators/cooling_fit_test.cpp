@@ -51,9 +51,9 @@ Identified identify_preset(MusclePreset preset, double cooling_ratio, double max
   long ticks = 0;
   modes::Excitation excitation = begun();
   for (; !excitation.done() && static_cast<double>(ticks) * fit_step_s < max_s; ++ticks) {
-    const double seen_m = plant.position_m() + noise_m(random);
-    fit.step(seen_m, power_W);
-    power_W = excitation.step(seen_m, max_W);
+    const double measured_m = plant.position_m() + noise_m(random);
+    fit.step(measured_m, power_W);
+    power_W = excitation.step(measured_m, max_W);
     plant.step(power_W);
     sum_K += plant.temperature_rise_K();
   }

@@ -41,7 +41,7 @@ double max_error(const MuscleFilter& filter, const Bench& bench) {
   return (filter.theta().cwiseQuotient(bench.truth()) - Theta::Ones()).cwiseAbs().maxCoeff();
 }
 
-void check_sound(const MuscleFilter& filter) {
+void check_valid(const MuscleFilter& filter) {
   CHECK(filter.belief().mean.allFinite());
   // In units in which every variance is 1.
   const Covariance& p = filter.belief().covariance;
@@ -142,14 +142,14 @@ TEST(MuscleFilter, StaysValidWithoutMeasurementsAndWithoutMotion) {
     learn(filter, bench, 1.0);
     for (int i = 0; i < 500; ++i)
       filter.step(none, bench.next().power_W);
-    check_sound(filter);
+    check_valid(filter);
     for (int i = 0; i < 100; ++i)
       filter.step(bench.next().position_m, i % 2 == 0 ? none : INFINITY);
-    check_sound(filter);
+    check_valid(filter);
     MuscleFilter resting(predict, near_by(), tick_s);
     for (int i = 0; i < 20000; ++i)
       resting.step(0.0, 0.0);
-    check_sound(resting);
+    check_valid(resting);
     CHECK(resting.standard_deviations().maxCoeff() <= 0.1 + 1e-12);
   }
 }

@@ -56,10 +56,10 @@ struct LearningLoop {
       const double time_s = k * loop_step_s;
       if (k == std::llround(soft_from_s / loop_step_s)) soften(plant);
       constexpr double count_m = 0.040 / 65536;
-      const double seen_m =
+      const double measured_m =
           std::nearbyint((plant.position_m() + noise(source)) / count_m) * count_m;
       const auto out = law.step({.reference_m = reference_m(time_s),
-                                 .position_m = seen_m,
+                                 .position_m = measured_m,
                                  .applied_power_W = power_W,
                                  .limited = limited,
                                  .range = range});
@@ -97,7 +97,7 @@ struct LearningLoop {
   }
 };
 
-LearningLoop believed_cold(host_sim::MusclePreset preset) {
+LearningLoop loop_with_cold_model(host_sim::MusclePreset preset) {
   const host_sim::PresetMuscle muscle = host_sim::preset_muscle(preset);
   return {.parameters = muscle.parameters, .effects = muscle.effects};
 }
@@ -129,14 +129,14 @@ TEST(LearnedFeedforwardOnMuscles, LearningDoesNoHarmAfterAFirstHeatingLengthensT
 }
 
 TEST(LearnedFeedforwardOnMuscles, TracksARealMuscleBeforeAndAfterItSoftens) {
-  LearningLoop loop = believed_cold(host_sim::MusclePreset::real);
+  LearningLoop loop = loop_with_cold_model(host_sim::MusclePreset::real);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 7.0);
   loop.soft_from_s = 100.0;
   CHECK(loop.rms_um(100.0 + 6.0 * sine_period_s, 3.0 * sine_period_s) <= 5.5);
 }
 
 TEST(LearnedFeedforwardOnMuscles, TracksAHardMuscleBeforeAndAfterItSoftensWarmOrCold) {
-  LearningLoop loop = believed_cold(host_sim::MusclePreset::real_hard);
+  LearningLoop loop = loop_with_cold_model(host_sim::MusclePreset::real_hard);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 11.0);
   // At 116.8, 118.9 or 121 s the muscle is coldest, where a change shows no direction.
   for (const double soft_from_s : {100.0, 116.0, 116.8, 118.9, 121.0}) {
@@ -146,10 +146,10 @@ TEST(LearnedFeedforwardOnMuscles, TracksAHardMuscleBeforeAndAfterItSoftensWarmOr
 }
 
 TEST(LearnedFeedforwardOnMuscles, FindsThePeriodAndRepeatsTheLearnedPower) {
-  LearningLoop real = believed_cold(host_sim::MusclePreset::real);
+  LearningLoop real = loop_with_cold_model(host_sim::MusclePreset::real);
   real.find_period = true;
   CHECK(real.rms_um(10.0 * sine_period_s, 1.6 * sine_period_s) <= 2.5);
-  LearningLoop hard = believed_cold(host_sim::MusclePreset::real_hard);
+  LearningLoop hard = loop_with_cold_model(host_sim::MusclePreset::real_hard);
   hard.find_period = true;
   CHECK(hard.rms_um(10.0 * sine_period_s, 1.6 * sine_period_s) <= 4.0);
 }

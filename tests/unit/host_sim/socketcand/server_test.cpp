@@ -23,11 +23,11 @@ TEST_GROUP(SocketcandServer) {
   void connect() {
     client.connect({boost::asio::ip::address_v4::loopback(), server->port()});
   }
-  void say(const std::string& text) {
+  void send(const std::string& text) {
     boost::asio::write(client, boost::asio::buffer(text));
   }
   /// The text that has arrived after this many polls.
-  std::string hear(int polls) {
+  std::string receive(int polls) {
     for (int i = 0; i < polls; ++i)
       server->poll();
     std::string text(client.available(), ' ');
@@ -42,7 +42,7 @@ TEST(SocketcandServer, APollReadsAtMostOneBufferPerClient) {
   std::string flood;
   while (flood.size() < 32768)
     flood += "< send 1 0 >";
-  say("< open can0 >" + flood);
+  send("< open can0 >" + flood);
   server->poll();
   server->poll();
   CHECK(delivered <= 2 * 1024 / 12);
@@ -53,16 +53,16 @@ TEST(SocketcandServer, APollReadsAtMostOneBufferPerClient) {
 
 TEST(SocketcandServer, AnOkIsSentAloneAndFramesFollowWithTheNextWord) {
   connect();
-  say("< open can0 >< rawmode >");
-  STRCMP_EQUAL("< hi >< ok >< ok >", hear(4).c_str());
+  send("< open can0 >< rawmode >");
+  STRCMP_EQUAL("< hi >< ok >< ok >", receive(4).c_str());
   hal::CanFrame frame;
   frame.id = 0x123;
   server->send(frame, {});
-  STRCMP_EQUAL("", hear(4).c_str());
-  say("< echo >");
-  STRCMP_EQUAL("< frame 123 0000000000.000000  >< echo >", hear(4).c_str());
+  STRCMP_EQUAL("", receive(4).c_str());
+  send("< echo >");
+  STRCMP_EQUAL("< frame 123 0000000000.000000  >< echo >", receive(4).c_str());
   server->send(frame, {});
-  STRCMP_EQUAL("< frame 123 0000000000.000000  >", hear(4).c_str());
+  STRCMP_EQUAL("< frame 123 0000000000.000000  >", receive(4).c_str());
 }
 
 /// Independently of this machine's clock.
@@ -72,12 +72,13 @@ TEST(SocketcandServer, AClientsFrameIsStampedByTheBoardsClock) {
   other.connect({boost::asio::ip::address_v4::loopback(), server->port()});
   for (tcp::socket* each : {&client, &other})
     boost::asio::write(*each, boost::asio::buffer(std::string("< open can0 >< rawmode >< echo >")));
-  hear(8);
+  receive(8);
   hal::CanFrame frame;
   frame.id = 0x123;
   server->send(frame, std::chrono::seconds(7));
   boost::asio::write(other, boost::asio::buffer(std::string("< send 201 0 >")));
-  STRCMP_EQUAL("< frame 123 0000000007.000000  >< frame 201 0000000007.000000  >", hear(8).c_str());
+  STRCMP_EQUAL("< frame 123 0000000007.000000  >< frame 201 0000000007.000000  >",
+               receive(8).c_str());
 }
 
 /// Every attempt to accept fails at once then: a poll must not retry until one succeeds.

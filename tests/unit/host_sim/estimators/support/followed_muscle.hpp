@@ -63,9 +63,9 @@ struct FollowedMuscle {
     const control::LeastSquaresEstimator<double>& estimator;
   };
 
-  /// see(Tick) is called at each tick and returns whether to continue.
-  template <class See>
-  void run(double duration_s, See see) const {
+  /// on_tick(Tick) is called at each tick and returns whether to continue.
+  template <class OnTick>
+  void run(double duration_s, OnTick on_tick) const {
     control::LeastSquaresEstimator<double> estimator(least_squares(), step_s);
     control::Controller law(controller(), step_s);
     host_sim::Plant plant(parameters, effects, step_s);
@@ -84,18 +84,18 @@ struct FollowedMuscle {
         plant.set(changed, effects);
         pull_N = load_N;
       }
-      const double seen_m =
+      const double measured_m =
           std::nearbyint((plant.position_m() + noise(source)) / count_m) * count_m;
-      const double seen_W = seen_m / scale().dc_gain_m_per_W;
+      const double seen_W = measured_m / scale().dc_gain_m_per_W;
       estimator.step(seen_W, power_W);
-      law.learn(told(estimator));
+      law.learn(estimate_of(estimator));
       const auto out = law.step({.reference_m = reference.at(time_s),
-                                 .position_m = seen_m,
+                                 .position_m = measured_m,
                                  .applied_power_W = power_W,
                                  .limited = limited,
                                  .range = {0.0, max_W}});
       const double error_m = out.model_m - plant.position_m();
-      if (!see(Tick{time_s, seen_W, power_W, error_m, estimator})) return;
+      if (!on_tick(Tick{time_s, seen_W, power_W, error_m, estimator})) return;
       power_W = control::PowerRange{0.0, max_W}.clip(out.demanded_power_W);
       limited = power_W != out.demanded_power_W;
       const double counts = power_W / max_W * pwm_counts + carried;
@@ -138,7 +138,7 @@ struct FollowedMuscle {
     double part_ = 0.0;
   };
 
-  control::Estimate told(const control::LeastSquaresEstimator<double>& estimator) const {
+  control::Estimate estimate_of(const control::LeastSquaresEstimator<double>& estimator) const {
     return {.theta = estimator.parameters().head<4>().cwiseProduct(scale().nominal),
             .settled = estimator.settled(),
             .bias_W = estimator.parameters()[4]};

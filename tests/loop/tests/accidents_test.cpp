@@ -50,7 +50,7 @@ std::string constant(const std::string& position_m) {
 
 TEST_GROUP(Accidents){};
 
-TEST(Accidents, SensorsWireComesOffWhileFullPowerIsAskedFor) {
+TEST(Accidents, SensorWireComesOffAtFullPower) {
   const Aftermath by_power = aftermath_of(
       "simulation.duration_s = 60.0\ncontroller.kind = 'power'\n"
       "reference = {kind = 'power', offset_W = 4.5, amplitudes_W = [0.0], "
@@ -66,7 +66,7 @@ TEST(Accidents, SensorsWireComesOffWhileFullPowerIsAskedFor) {
   DOUBLES_EQUAL(20.005, by_position.fault_s, 0.005);
 }
 
-TEST(Accidents, OneOfThreeThreadsInParallelBreaksAndTheOthersGetItsShare) {
+TEST(Accidents, OneOfThreeParallelThreadsBreaksAndOverloadsTheOthers) {
   // Each gets a third of the power that is measured; once one breaks, the two left get a half each.
   for (const char* asked : {"kind = 'pi'", "kind = 'learned_ff'"}) {
     const Aftermath after =
@@ -78,7 +78,7 @@ TEST(Accidents, OneOfThreeThreadsInParallelBreaksAndTheOthersGetItsShare) {
   }
 }
 
-TEST(Accidents, DetachedSensorShowsFourKelvinTooLittleForEver) {
+TEST(Accidents, DetachedSensorReadsFourKelvinLowForever) {
   // The muscle moves by 0.54 mm per kelvin. At 1 K the sensor comes off and stays there; then 5 K
   // are asked for, which it will never show.
   for (const char* controller : {"pi", "mrac"}) {

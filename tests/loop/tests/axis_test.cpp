@@ -36,7 +36,7 @@ TEST_GROUP(Axis) {
   }
 };
 
-TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
+TEST(Axis, ReportsFrictionWhenLessThanHalfOfASmallMotionArrives) {
   for (const double ratio : {0.0, 0.3, 0.7, 1.2}) {
     settings.firmware.channels[0].response_ratio = ratio;
     Rig each(settings);
@@ -46,7 +46,7 @@ TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
 }
 
 /// And stores it again with whatever else is stored.
-TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
+TEST(Axis, UnexplainedRatioSurvivesARestart) {
   for (const double stored : {0.0, 0.25}) {
     settings.firmware.channels[0].unexplained_ratio = stored;
     rig_.reset();
@@ -59,7 +59,7 @@ TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
 }
 
 /// And publishes it, until another muscle is stored.
-TEST(Axis, StillKnowsAfterAStartHowSureIdentifyWas) {
+TEST(Axis, IdentifyDeviationsSurviveARestart) {
   const board::Identification stored{{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
   settings.firmware.channels[0].identification = stored;
   const Channel& channel = rig().loop.channel(0);
@@ -72,7 +72,7 @@ TEST(Axis, StillKnowsAfterAStartHowSureIdentifyWas) {
 }
 
 /// At once, not only at the next start. The muscle was believed to move half as far again.
-TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
+TEST(Axis, ExpectsTheMotionOfTheIdentifiedMuscle) {
   control::ThermalBounds& bounds = settings.firmware.channels[0].thermal.bounds;
   const control::PhysicalParameters& plant = settings.board.channels[0].plant;
   bounds.min_mass_J_per_K = bounds.max_mass_J_per_K = plant.thermal_mass_J_per_K;
@@ -93,7 +93,7 @@ TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
   DOUBLES_EQUAL(0.3, margin().limit / margin().measured, 0.03);
 }
 
-TEST(Axis, IsAtRestWhenItIsDisarmed) {
+TEST(Axis, RestsWhenDisarmed) {
   rig().heat(Task::position);
   rig().run(1.0);
   CHECK(rig().snapshot().mode == Mode::position);
@@ -104,7 +104,7 @@ TEST(Axis, IsAtRestWhenItIsDisarmed) {
   DOUBLES_EQUAL(0.0, rig().snapshot().reference, 0.0);
 }
 
-TEST(Axis, SaysThatAModeRunsAndThatItWasInterrupted) {
+TEST(Axis, ReportsAModeAsRunningThenInterrupted) {
   for (const auto& [task, mode] :
        {std::pair{Task::identify, Mode::identify}, std::pair{Task::calibrate, Mode::calibrate}}) {
     rig().heat(task);
@@ -119,7 +119,7 @@ TEST(Axis, SaysThatAModeRunsAndThatItWasInterrupted) {
   }
 }
 
-TEST(Axis, UsesTheControllerThatIsChosen) {
+TEST(Axis, UsesTheSelectedController) {
   LONGS_EQUAL(0, rig().snapshot().controller);
   CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
   LONGS_EQUAL(2, rig().snapshot().controller);
@@ -130,7 +130,7 @@ TEST(Axis, UsesTheControllerThatIsChosen) {
   LONGS_EQUAL(1, rig().snapshot().controller);
 }
 
-TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
+TEST(Axis, LaterUpdatesKeepEarlierResults) {
   rig().hold_power(2.0, 4.0);
   CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
   const auto scaled = update();
@@ -152,13 +152,13 @@ TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
   CHECK(update()->tuning == board::StoredTuning{});
 }
 
-TEST(Axis, WhatIsNoPlaceIsNotTuned) {
+TEST(Axis, RefusesInvalidTuningSlots) {
   for (const double place : {-1.0, 256.0, std::nan("")})
     CHECK(answer_to(Verb::tune, place) == Refusal::out_of_range);
   CHECK(answer_to(Verb::tune, 0.0) == Refusal::none);
 }
 
-TEST(Axis, WhatWasClearedIsNotStoredWithSomethingElse) {
+TEST(Axis, ClearedMuscleIsNotStoredWithTheTuning) {
   rig().hold_power(2.0, 4.0);
   CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
   CHECK(update()->has_muscle);
@@ -168,7 +168,7 @@ TEST(Axis, WhatWasClearedIsNotStoredWithSomethingElse) {
   CHECK_FALSE(update()->has_muscle);
 }
 
-TEST(Axis, BeginsWithTheControllerThatWasStored) {
+TEST(Axis, StartsWithTheStoredController) {
   for (const auto& [stored, chosen] : {std::pair{1.0, 1}, std::pair{2.0, 2}, std::pair{3.0, 0}}) {
     settings.firmware.channels[0].tuning.controller = stored;
     Rig each(settings);
@@ -177,7 +177,7 @@ TEST(Axis, BeginsWithTheControllerThatWasStored) {
   }
 }
 
-TEST(Axis, ForgetsTheHeatThatWasReadWithTheMuscle) {
+TEST(Axis, ClearingTheMuscleClearsTheSteadyHeatReading) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.senses.error_ratio = 0.02;
   channel.heat = {0.0, 0.0, 1.5 / 0.089, 1.0, 1.5, 1.5};
@@ -192,7 +192,7 @@ TEST(Axis, ForgetsTheHeatThatWasReadWithTheMuscle) {
 }
 
 /// The power from before the rest must not be carried over.
-TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
+TEST(Axis, SwitchesControllersRightAfterStartWithoutAJump) {
   rig().heat(Task::position);
   rig().run(10.0);
   rig().task = Task::nothing;
@@ -206,7 +206,7 @@ TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
   DOUBLES_EQUAL(before_W, rig().snapshot().demanded_W, 0.3);
 }
 
-TEST(Axis, KeepsAReadingWithThePowerThatItsSensesTold) {
+TEST(Axis, StoresASteadyHeatReadingWithTheMeasuredPower) {
   settings.firmware.channels[0].senses.error_ratio = 0.02;
   rig().hold_power(1.5, 24.0);
   CHECK(answer_to(Verb::compare_rise, rig().muscle().plant().temperature_rise_K()) ==
@@ -217,7 +217,7 @@ TEST(Axis, KeepsAReadingWithThePowerThatItsSensesTold) {
 }
 
 /// The time constant is that of the heat, whatever else identify finds.
-TEST(Axis, KeepsTheTimeConstantOfAMuscleThatIsNotTheConfiguredOne) {
+TEST(Axis, KeepsTheTimeConstantOfAnImplausibleMuscle) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.muscle.stiffness_N_per_m = 200.0;
   channel.thermal.mass_error_ratio = 0.03;
@@ -231,7 +231,7 @@ TEST(Axis, KeepsTheTimeConstantOfAMuscleThatIsNotTheConfiguredOne) {
 }
 
 /// Otherwise a muscle that hangs loose would look as if it had moved.
-TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
+TEST(Axis, ANewZeroDoesNotCountAsMotion) {
   settings.firmware.channels[0].supervision.proof_of_response = false;
   settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
   for (const double waited_s : {0.0, 4.0, 8.0, 12.0}) {
@@ -253,7 +253,7 @@ TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
 }
 
 /// identify does not wait for dithers that the sensor's noise would hide.
-TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
+TEST(Axis, SkipsSmallMotionsThatNoiseWouldHide) {
   settings.firmware.channels[0].response_ratio = 0.3;  // of an earlier muscle
   const auto identified_s = [&](double noise_rms_m) {
     settings.firmware.channels[0].supervision.position_noise_rms_m = noise_rms_m;
@@ -272,7 +272,7 @@ TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
 }
 
 /// Bounds that let a muscle cool faster than it does make it seem colder than it is.
-TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
+TEST(Axis, SlowCoolingRaisesTheHottestTemperature) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.thermal.bounds.min_transfer_W_per_K = 0.100;  // the muscle has 0.089
   channel.heater.temperature_coefficient_per_K = 0.0;   // otherwise the temperatures disagree
@@ -293,7 +293,7 @@ TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
 }
 
 /// Otherwise a muscle that hangs loose would look as if it had moved.
-TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
+TEST(Axis, ANewScaleDoesNotCountAsMotion) {
   settings.firmware.channels[0].supervision.proof_of_response = false;
   for (const double waited_s : {1.0, 5.0, 9.0, 13.0}) {
     rig_.reset();
@@ -312,7 +312,7 @@ TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
   }
 }
 
-TEST(Axis, TwoScalesInOneTickAreNoMotionEither) {
+TEST(Axis, TwoScalesInOneTickDoNotCountAsMotion) {
   rig().heat(Task::power);
   rig().run(10.0);
   const double before_m = moved_m();
@@ -326,7 +326,7 @@ TEST(Axis, TwoScalesInOneTickAreNoMotionEither) {
 }
 
 /// While a muscle rests it cools and its estimator is paused: that change of position is no motion.
-TEST(Axis, TheEstimatorBeginsWhereAMuscleThatHadCooledIs) {
+TEST(Axis, EstimatorRestartsCleanlyOnACooledMuscle) {
   const auto follow = [this](double position_m, double time_s) {
     CHECK_FALSE(rig().run_until(
         [&] {

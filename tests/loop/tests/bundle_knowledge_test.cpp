@@ -74,14 +74,14 @@ RigSettings compared_board() {
 
 TEST_GROUP_BASE(BundleKnowledge, BundleCase){};
 
-TEST(BundleKnowledge, IsProvenInTheTimeThatItsHottestMuscleHas) {
+TEST(BundleKnowledge, HottestMuscleSetsTheTimeToProveContact) {
   RigSettings settings = compared_board();
   const double usual_s = lost_contact_found_s(settings);
   settings.firmware.channels[last].thermal.bounds.min_transfer_W_per_K *= 0.7;
   CHECK_COMPARE(lost_contact_found_s(settings), <, usual_s - 0.1);
 }
 
-TEST(BundleKnowledge, IsProvenByTheWidestBoundsOfPower) {
+TEST(BundleKnowledge, WidestPowerBoundsSetTheTimeToProveContact) {
   RigSettings settings = compared_board();
   settings.firmware.channels[last].senses = {};
   const double one_s = lost_contact_found_s(settings);
@@ -89,7 +89,7 @@ TEST(BundleKnowledge, IsProvenByTheWidestBoundsOfPower) {
   DOUBLES_EQUAL(lost_contact_found_s(settings), one_s, 0.05);
 }
 
-TEST(BundleKnowledge, ItsZeroIsTakenWhenTheSlowestMuscleIsCold) {
+TEST(BundleKnowledge, ZeroIsTakenWhenTheSlowestMuscleIsCold) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.thermal.boot_rise_K = 20.0;  // otherwise it waits for a minute
@@ -121,7 +121,7 @@ TEST(BundleKnowledge, EachHeaterKeepsItsColdResistance) {
   DOUBLES_EQUAL(11.0, fresh.loop.channel(last).known(known_cold_resistance), 0.0);
 }
 
-TEST(BundleKnowledge, ANewScaleIsNoMotionOfAnyMuscle) {
+TEST(BundleKnowledge, ANewScaleDoesNotCountAsMotion) {
   arm();
   hold(Verb::power, 1.5, 45.0);
   CHECK(rig.answer_of(leader, Verb::scale, 2.0 * of(leader).position_m) == Refusal::none);
@@ -130,7 +130,7 @@ TEST(BundleKnowledge, ANewScaleIsNoMotionOfAnyMuscle) {
     CHECK_COMPARE(motion_of(rig, i).measured, <, 0.5e-3);
 }
 
-TEST(BundleKnowledge, WhatIdentifyFindsIsExpectedOfEveryMuscle) {
+TEST(BundleKnowledge, EveryMuscleExpectsWhatIdentifyFound) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.muscle.stiffness_N_per_m *= 0.7;
@@ -151,7 +151,7 @@ TEST(BundleKnowledge, WhatIdentifyFindsIsExpectedOfEveryMuscle) {
   }
 }
 
-TEST(BundleKnowledge, IdentifyAsksForNoMoreThanAHotMuscleMayHave) {
+TEST(BundleKnowledge, IdentifyRespectsTheDeratedLimitOfAHotMuscle) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.thermal.boot_rise_K = 20.0;  // otherwise it waits for a minute

@@ -24,7 +24,7 @@ TEST(Bundle, EveryHeaterGetsTheSamePower) {
   CHECK(all(State::active));
 }
 
-TEST(Bundle, FollowsAPositionWithEachTemperatureInItsInterval) {
+TEST(Bundle, FollowsAPositionWithTemperaturesInTheirIntervals) {
   arm();
   hold(Verb::position, 0.010, 20.0);
   DOUBLES_EQUAL(0.010, muscle_of(leader).position_m(), 50e-6);
@@ -51,7 +51,7 @@ TEST(Bundle, ArmsRestsAndCoolsAsOne) {
   CHECK(all(State::armed));
 }
 
-TEST(Bundle, IsArmedOnlyWhenEveryMuscleMayBe) {
+TEST(Bundle, ArmsOnlyWhenEveryMuscleMay) {
   rig.boot();
   muscle_of(last).current.set(host_sim::ConverterFaults{.silent = true});
   rig.run(0.1);
@@ -60,7 +60,7 @@ TEST(Bundle, IsArmedOnlyWhenEveryMuscleMayBe) {
   CHECK_FALSE(state_of(leader) == State::armed);
 }
 
-TEST(Bundle, OnlyTheLeaderTakesCommandsThatHeat) {
+TEST(Bundle, OnlyTheLeaderAcceptsHeatingCommands) {
   arm();
   for (const Verb verb : {Verb::power, Verb::position, Verb::identify, Verb::calibrate})
     CHECK(rig.answer_of(follower, verb) == Refusal::wrong_state);
@@ -76,7 +76,7 @@ TEST(Bundle, OnlyTheLeaderTakesCommandsThatHeat) {
   CHECK(rig.fault() == Fault::command_timeout);
 }
 
-TEST(Bundle, NoMuscleGetsMoreThanTheWeakestMayHave) {
+TEST(Bundle, TheLowestPowerLimitAppliesToEveryMuscle) {
   arm();
   rig.loop.channel(last).allow_power(1.5);
   hold(Verb::power, 2.5, 2.0);
@@ -98,7 +98,7 @@ TEST(Bundle, NoMuscleGetsMoreThanTheWeakestMayHave) {
     DOUBLES_EQUAL(1.0, peak_W, 0.03);
 }
 
-TEST(Bundle, ControllersCountOnWhatTheWeakestCanGive) {
+TEST(Bundle, AntiWindupUsesTheLowestPowerLimit) {
   const auto demanded_W = [](std::uint8_t limited, std::uint8_t also) {
     Rig fresh(bundle_board());
     fresh.boot();
@@ -179,7 +179,7 @@ TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
   }
 }
 
-TEST(Bundle, TheLeaderTellsThatAnotherMuscleWasNotCalibrated) {
+TEST(Bundle, LeaderReportsAnotherMusclesFailedCalibration) {
   arm();
   CHECK(rig.answer_of(leader, Verb::calibrate) == Refusal::none);
   CHECK(rig.run_until(
@@ -205,7 +205,7 @@ TEST(Bundle, TheLeaderTellsThatAnotherMuscleWasNotCalibrated) {
   CHECK(of(last).result == ModeResult::none);
 }
 
-TEST(Bundle, AnEndedCalibrateIsNotToldAsFound) {
+TEST(Bundle, InterruptedCalibrateIsNotReportedAsFound) {
   const auto calibrates_second = [](Rig& fresh) {
     fresh.boot();
     fresh.arm();
@@ -234,7 +234,7 @@ TEST(Bundle, AnEndedCalibrateIsNotToldAsFound) {
   CHECK(broken.snapshot().result == ModeResult::interrupted);
 }
 
-TEST(Bundle, IdentifyAsksForNoMoreThanTheWeakestMayHave) {
+TEST(Bundle, IdentifyRespectsTheLowestPowerLimit) {
   arm();
   rig.loop.channel(last).allow_power(2.0);
   CHECK(rig.answer_of(leader, Verb::identify) == Refusal::none);
@@ -251,7 +251,7 @@ TEST(Bundle, IdentifyAsksForNoMoreThanTheWeakestMayHave) {
   CHECK_COMPARE(asked_W, >, 1.5);
 }
 
-TEST(Bundle, ADitherThatOneOfThemCannotFollowIsNone) {
+TEST(Bundle, DitherStaysBelowTheLowestPowerLimit) {
   arm();
   rig.loop.channel(last).allow_power(1.5);
   rig.run(0.01);
@@ -273,7 +273,7 @@ TEST(Bundle, ADitherThatOneOfThemCannotFollowIsNone) {
   CHECK(of(leader).limited_by != LimitedBy::unproven);
 }
 
-TEST(Bundle, IdentifiesItAsOneMuscle) {
+TEST(Bundle, IdentifiesTheBundleAsOneMuscle) {
   arm();
   CHECK(measures_to_the_end(Verb::identify, 400.0));
   CHECK(of(leader).result == ModeResult::found);
@@ -294,7 +294,7 @@ TEST(Bundle, IdentifiesItAsOneMuscle) {
   CHECK_FALSE(rig.interval_missed);
 }
 
-TEST(Bundle, AScaleOfTheSensorIsOneForAll) {
+TEST(Bundle, OneSensorScaleAppliesToEveryMuscle) {
   arm();
   hold(Verb::power, 1.5, 10.0);
   CHECK(rig.answer_of(leader, Verb::scale, 2.0 * of(leader).position_m) == Refusal::none);
@@ -308,7 +308,7 @@ TEST(Bundle, AScaleOfTheSensorIsOneForAll) {
   CHECK(all(State::active));
 }
 
-TEST(Bundle, TheSensesOfEachMuscleAreComparedWhileAllGetOnePower) {
+TEST(Bundle, ComparesEachMusclesSensesAtOneCommonPower) {
   constexpr double current_gain = 0.9;  // measured over true
   constexpr double supply_V = 12.0;
   RigSettings settings = bundle_board();
@@ -341,7 +341,7 @@ TEST(Bundle, TheSensesOfEachMuscleAreComparedWhileAllGetOnePower) {
   CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
 }
 
-TEST(Bundle, OneMotionTellsNothingOfOneMusclesCooling) {
+TEST(Bundle, SharedMotionDoesNotYieldATimeConstant) {
   RigSettings settings = bundle_board();
   for (ChannelSettings& channel : settings.firmware.channels) {
     channel.thermal.mass_error_ratio = 0.1;

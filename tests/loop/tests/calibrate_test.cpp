@@ -21,7 +21,7 @@ TEST_GROUP(Calibrate) {
   board::LearnedUpdate update;
 };
 
-TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {
+TEST(Calibrate, FindsTheColdResistanceAndKeepsIt) {
   rig.boot();
   rig.arm();
   rig.run(0.5);

@@ -17,7 +17,7 @@ TEST_GROUP(NodesOnCan) {
 };
 
 /// Each hears what the other sends, as on one pair of wires.
-TEST(NodesOnCan, TwoBoardsWithOneNodeBothGoColdAndNameIt) {
+TEST(NodesOnCan, TwoBoardsWithTheSameNodeBothReportNodeConflict) {
   CanRig twin;
   rig.start(master);
   twin.run(16.0);
@@ -52,7 +52,7 @@ TEST(NodesOnCan, TwoBoardsWithOneNodeBothGoColdAndNameIt) {
   CHECK(rig.fault() == Fault::none);
 }
 
-TEST(NodesOnCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
+TEST(NodesOnCan, ABoardDoesNotStartIfItsNodeIsAlreadyInUse) {
   hal::CanFrame heartbeat;
   heartbeat.id = SUPERCOIL_STATUS_FRAME_ID + 1;  // of its second channel
   heartbeat.length = SUPERCOIL_STATUS_LENGTH;
@@ -68,7 +68,7 @@ TEST(NodesOnCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
 }
 
 /// Nothing on the bus shows that two sessions belong to one master.
-TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
+TEST(NodesOnCan, EachNodeOfAJointHasItsOwnLease) {
   CanRig joint(joint_board());
   Master antagonist_master;
   antagonist_master.node = 2;
@@ -103,7 +103,7 @@ TEST(NodesOnCan, EachNodeOfAJointHasALeaseOfItsOwn) {
 }
 
 /// A listener to one node of a joint learns about the other muscle as well.
-TEST(NodesOnCan, TheAgonistsNodeTellsTheJointAndBothHeaters) {
+TEST(NodesOnCan, AgonistNodePublishesTheJointAndBothHeaters) {
   CanRig joint(joint_board());
   const auto seconds = [&](int count) {
     for (int i = 0; i < 10 * count; ++i) {
@@ -156,7 +156,7 @@ TEST(NodesOnCan, TheAgonistsNodeTellsTheJointAndBothHeaters) {
   CHECK(antagonist_now.hottest_C > agonist_now.hottest_C + 2.0);
 }
 
-TEST(NodesOnCan, WithoutAJointNobodyTellsOne) {
+TEST(NodesOnCan, NoJointFramesWithoutAJoint) {
   rig.run(1.0);
   LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID]);
   LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);

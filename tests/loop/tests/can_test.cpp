@@ -32,7 +32,7 @@ TEST_GROUP(OverCan) {
   }
 };
 
-TEST(OverCan, AMasterArmsMovesAndLetsGo) {
+TEST(OverCan, CommandExpiresWhenTheMasterFallsSilent) {
   rig.start(master);
   CHECK(rig.state() == State::active);
   hold(20.0);
@@ -63,14 +63,14 @@ TEST(OverCan, ASecondMasterIsRefusedAndMayStop) {
   DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
 }
 
-TEST(OverCan, TheMasterGetsTheLoopsRefusal) {
+TEST(OverCan, MasterReceivesTheLoopsRefusal) {
   rig.start(master);
   CHECK(rig.command(master, Verb::position, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
 }
 
-TEST(OverCan, EachNodeTellsOfItsOwnMuscle) {
+TEST(OverCan, EachNodeReportsItsOwnMuscle) {
   for (const unsigned place : {0U, 1U}) {
     const auto asking = static_cast<std::uint16_t>(SUPERCOIL_MUSCLE_READ_FRAME_ID + place);
     rig.bus.deliver({asking, 1, {known_cold_resistance}, {}});
@@ -80,7 +80,7 @@ TEST(OverCan, EachNodeTellsOfItsOwnMuscle) {
   }
 }
 
-TEST(OverCan, EachNodeTellsItsProgramOnceASecondWhileTheLoopRuns) {
+TEST(OverCan, EachNodeSendsItsProgramVersionOncePerSecond) {
   rig.run(10.0);
   DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID], 1);
   DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID + 1], 1);
@@ -96,7 +96,7 @@ TEST(OverCan, EachNodeTellsItsProgramOnceASecondWhileTheLoopRuns) {
 }
 
 /// Asking needs no lease; once calibrate has found something, that is what the board reports.
-TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
+TEST(OverCan, ReportsKnownMuscleQuantities) {
   const ChannelSettings& channel = rig.settings.firmware.channels[0];
   rig.run(1.0);
   DOUBLES_EQUAL(channel.muscle.thermal_mass_J_per_K, rig.muscle(0), 1e-6);
@@ -157,7 +157,7 @@ TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {
   LONGS_EQUAL(0, rig.refused_values.size());
 }
 
-TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {
+TEST(OverCan, CommandsThatOverflowTheQueueAreStillAnswered) {
   rig.run(0.1);
   rig.claim(master);
   // A program on the board itself has filled the loop's ring.
@@ -189,7 +189,7 @@ TEST(OverCan, TenDamagedCommandsAreAFault) {
   CHECK(rig.fault() == Fault::command_damaged);
 }
 
-TEST(OverCan, ABusThatIsLostIsAFaultAndItsComingBackIsNot) {
+TEST(OverCan, BusLossIsAFaultAndItsRecoveryIsNot) {
   rig.start(master);
   for (const hal::CanState lost : {hal::CanState::bus_off, hal::CanState::down}) {
     rig.bus.link = lost;
@@ -216,7 +216,7 @@ TEST(OverCan, AnErrorPassiveBusIsAFaultAfterASecond) {
   CHECK(rig.fault() == Fault::bus_error_passive);
 }
 
-TEST(OverCan, ABusyBusCostsOldFramesAndNothingElse) {
+TEST(OverCan, ABusyBusOnlyDropsOldFrames) {
   rig.start(master);
   rig.bus.refuses = true;
   rig.run(0.24);
@@ -288,7 +288,7 @@ TEST(OverCan, AClientOfVersion3IsRefusedAndCanStillDisarm) {
   CHECK(rig.state() == State::disarmed);
 }
 
-TEST(OverCan, ARecordedSessionGetsNoLeaseAndNoHeat) {
+TEST(OverCan, AReplayedSessionGetsNoLeaseAndNoHeat) {
   std::vector<hal::CanFrame> recorded;
   Master recording = master;
   rig.run(16.0);

@@ -9,7 +9,7 @@ using namespace supercoil::test;
 
 TEST_GROUP_BASE(BundleGroup, BundleCase){};
 
-TEST(BundleGroup, HeatsOnlyOnceEveryMuscleIsProbed) {
+TEST(BundleGroup, HeatsOnlyAfterEveryMuscleWasProbed) {
   RigSettings settings = bundle_board();
   settings.firmware.channels[last].heater.probe_s = 0.5;
   Rig fresh(settings);
@@ -22,7 +22,7 @@ TEST(BundleGroup, HeatsOnlyOnceEveryMuscleIsProbed) {
   CHECK(fresh.answer_of(leader, Verb::power, 1.0) == Refusal::none);
 }
 
-TEST(BundleGroup, WhereTheLeaderIsNotCalibratedNoOtherIs) {
+TEST(BundleGroup, CalibrateStopsAtAFailureOfTheLeader) {
   arm();
   rig.before_tick = [&] {
     host_sim::MuscleChannelSettings pulled = muscle_of(leader).settings();
@@ -41,7 +41,7 @@ TEST(BundleGroup, WhereTheLeaderIsNotCalibratedNoOtherIs) {
 TEST_GROUP_BASE(JointGroup, JointCase){};
 
 /// The joint's limit does not apply to a muscle that is driven alone.
-TEST(JointGroup, AMuscleThatPullsAloneGetsWhatItIsAskedFor) {
+TEST(JointGroup, AMuscleDrivenAloneIgnoresTheCoContractionLimit) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = 0.8;
   Rig fresh(settings);
@@ -53,7 +53,7 @@ TEST(JointGroup, AMuscleThatPullsAloneGetsWhatItIsAskedFor) {
   DOUBLES_EQUAL(1.5, fresh.loop.channel(antagonist).snapshot().applied_W, 0.02);
 }
 
-TEST(JointGroup, PullsWithAllThatAWeakAntagonistMayHave) {
+TEST(JointGroup, CoContractionIsClippedToTheAntagonistsLimit) {
   constexpr double max_W = 0.4;
   RigSettings settings = joint_board();
   settings.firmware.joints[0].co_contraction_W = 1.0;

@@ -29,7 +29,7 @@ TEST_GROUP(Channel) {
   }
 };
 
-TEST(Channel, ShowsNothingBeforeItsFirstTick) {
+TEST(Channel, SnapshotIsZeroBeforeTheFirstTick) {
   const Snapshot& s = rig.snapshot();
   for (const double value :
        {s.oscillation_period_s, s.reference, s.model_m, s.position_m, s.demanded_W, s.applied_W,
@@ -41,7 +41,7 @@ TEST(Channel, ShowsNothingBeforeItsFirstTick) {
   CHECK(s.state == State::disarmed && s.mode == Mode::rest && s.fault == Fault::none);
 }
 
-TEST(Channel, TellsTheMarginOfEveryDetectorWithin55Ticks) {
+TEST(Channel, PublishesEveryDetectorsMarginWithin55Ticks) {
   rig.boot();
   std::set<Fault> told;
   for (int i = 0; i < 55; ++i) {
@@ -55,7 +55,7 @@ TEST(Channel, TellsTheMarginOfEveryDetectorWithin55Ticks) {
   UNSIGNED_LONGS_EQUAL(all_faults().size(), told.size());
 }
 
-TEST(Channel, TellsByHowMuchTheBoardsFaultWasPassed) {
+TEST(Channel, PublishesTheMarginOfABoardFault) {
   heat(1.0);
   rig.board.set_supply_V(9.0);
   CHECK(rig.run_until([&] { return rig.fault() == Fault::under_voltage; }, 1.0));
@@ -65,7 +65,7 @@ TEST(Channel, TellsByHowMuchTheBoardsFaultWasPassed) {
   CHECK_COMPARE(s.margin.measured, <, s.margin.limit);
 }
 
-TEST(Channel, TellsByHowMuchAFaultOfTheBusWasPassed) {
+TEST(Channel, PublishesTheMarginOfABusFault) {
   rig.boot();
   rig.arm();
   // Reported for each channel, but judged once for the whole board.
@@ -77,7 +77,7 @@ TEST(Channel, TellsByHowMuchAFaultOfTheBusWasPassed) {
   DOUBLES_EQUAL(s.margin.limit, s.margin.measured, 0.01);
 }
 
-TEST(Channel, OnlyAnObeyedCommandEndsARowOfDamagedOnes) {
+TEST(Channel, OnlyAnAcceptedCommandResetsTheDamagedCount) {
   heat(1.0);
   for (int i = 0; i < 3; ++i) {
     damage_in_a_row(9);
@@ -94,7 +94,7 @@ TEST(Channel, OnlyAnObeyedCommandEndsARowOfDamagedOnes) {
   CHECK(rig.fault() == Fault::command_damaged);
 }
 
-TEST(Channel, KeepsToTheRangeOfPowerThatItIsGiven) {
+TEST(Channel, KeepsToItsPowerRange) {
   heat(3.0);
   DOUBLES_EQUAL(3.0, rig.snapshot().applied_W, 0.01);
   rig.loop.channel(Rig::tested).set_power_range(0.2, 1.0);

@@ -32,13 +32,13 @@ TEST(Commands, ABoardBootsDisarmedWithPowerOff) {
   }
 }
 
-TEST(Commands, NothingIsArmedBeforeTheSelfTestHasPassed) {
+TEST(Commands, ArmIsRefusedBeforeTheSelfTestPasses) {
   rig.run(0.01);
   CHECK(answer_to(Verb::arm) == Refusal::not_ready);
   CHECK(rig.state() == State::disarmed);
 }
 
-TEST(Commands, AMuscleThatIsColdAtBootWaitsForTheSelfTestAllTheSame) {
+TEST(Commands, ArmIsRefusedBeforeTheSelfTestEvenForAColdMuscle) {
   RigSettings settings = rough_board();
   for (ChannelSettings& channel : settings.firmware.channels)
     channel.thermal.boot_rise_K = 0.0;
@@ -55,7 +55,7 @@ TEST(Commands, AMuscleThatIsColdAtBootWaitsForTheSelfTestAllTheSame) {
   CHECK(cold.state() == State::armed);
 }
 
-TEST(Commands, NothingIsArmedWhileTheMuscleMayBeHotFromBefore) {
+TEST(Commands, ArmIsRefusedWhileTheMuscleMayStillBeHot) {
   rig.run_until([&] { return rig.loop.self_test().passed(); }, 2.0);
   const double full_power_to_C = rough_board().firmware.channels[0].limiter.derate_from_C;
   CHECK(rig.snapshot().hottest_C > full_power_to_C);
@@ -79,7 +79,7 @@ TEST(Commands, HeatingWhileTheProbeRunsIsRefusedAsBusy) {
   CHECK(answer_to(Verb::position, 0.01) == Refusal::busy);
 }
 
-TEST(Commands, AreRefusedInAStateThatDoesNotAllowThem) {
+TEST(Commands, AreRefusedInTheWrongState) {
   rig.boot();
   for (const Verb verb :
        {Verb::position, Verb::power, Verb::identify, Verb::renew, Verb::rest, Verb::reset}) {
@@ -88,7 +88,7 @@ TEST(Commands, AreRefusedInAStateThatDoesNotAllowThem) {
   }
 }
 
-TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
+TEST(Commands, WithAnInvalidOrOutOfRangeValueAreRefused) {
   arm();
   for (const double wrong : {std::nan(""), 0.026, -0.1, std::numeric_limits<double>::infinity()}) {
     CHECK(answer_to(Verb::position, wrong) == Refusal::out_of_range);
@@ -102,7 +102,7 @@ TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
   CHECK(rig.state() == State::armed);
 }
 
-TEST(Commands, WithAValueThatMeansNothingAreRefused) {
+TEST(Commands, WithAnUnexpectedValueAreRefused) {
   rig.boot();
   for (const Verb verb :
        {Verb::arm, Verb::reset, Verb::renew, Verb::rest, Verb::identify, Verb::calibrate}) {
@@ -117,7 +117,7 @@ TEST(Commands, WithAValueThatMeansNothingAreRefused) {
   CHECK(rig.state() == State::disarmed);
 }
 
-TEST(Commands, AResetWithAValueResetsNoBoard) {
+TEST(Commands, ResetWithAValueDoesNotResetTheBoard) {
   rig.boot();
   rig.board.set_supply_V(5.0);
   rig.run(0.1);
@@ -130,7 +130,7 @@ TEST(Commands, AResetWithAValueResetsNoBoard) {
   CHECK(rig.loop.board_fault() == Fault::none);
 }
 
-TEST(Commands, ToAChannelThatIsNotThereAreRefused) {
+TEST(Commands, ToAMissingChannelAreRefused) {
   rig.boot();
   const auto channels = static_cast<std::uint8_t>(rig.loop.channels());
   for (const std::uint8_t none : {channels, std::uint8_t{7}, std::uint8_t{255}}) {
@@ -141,7 +141,7 @@ TEST(Commands, ToAChannelThatIsNotThereAreRefused) {
   }
 }
 
-TEST(Commands, ThatAreNotRenewedExpire) {
+TEST(Commands, ExpireWithoutRenewal) {
   arm();
   rig.heat(Task::position);
   rig.run(1.0);
@@ -154,7 +154,7 @@ TEST(Commands, ThatAreNotRenewedExpire) {
   DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
 }
 
-TEST(Commands, RenewKeepsTheLastOneInForce) {
+TEST(Commands, RenewKeepsTheLastCommandActive) {
   arm();
   rig.heat(Task::power);
   rig.task = Task::nothing;
@@ -166,7 +166,7 @@ TEST(Commands, RenewKeepsTheLastOneInForce) {
   DOUBLES_EQUAL(1.8, rig.snapshot().applied_W, 0.01);
 }
 
-TEST(Commands, ARefusedIdentifyTakesNoRenewalBack) {
+TEST(Commands, ARefusedIdentifyDoesNotCancelTheRenewal) {
   arm();
   rig.heat(Task::position);
   rig.run(0.1);
@@ -178,7 +178,7 @@ TEST(Commands, ARefusedIdentifyTakesNoRenewalBack) {
   CHECK(rig.state() == State::active);
 }
 
-TEST(Commands, DisarmIsObeyedFromEverywhere) {
+TEST(Commands, DisarmIsAcceptedWhileActive) {
   arm();
   rig.heat(Task::position);
   rig.run(1.0);
@@ -190,7 +190,7 @@ TEST(Commands, DisarmIsObeyedFromEverywhere) {
   CHECK_FALSE(rig.muscle().enable.high());
 }
 
-TEST(Commands, ARefusedResetSaysWhy) {
+TEST(Commands, ARefusedResetReportsTheReason) {
   rig.boot();
   rig.board.stop_circuit.level.high = false;
   rig.run(0.01);
@@ -202,7 +202,7 @@ TEST(Commands, ARefusedResetSaysWhy) {
   CHECK(rig.state() == State::disarmed);
 }
 
-TEST(Commands, AStopCircuitThatCannotBeReadIsAPressedOne) {
+TEST(Commands, AnUnreadableStopCircuitCountsAsPressed) {
   arm();
   rig.board.stop_circuit.level = {true, hal::Status::gone};
   rig.run(0.002);
@@ -229,14 +229,14 @@ TEST(Commands, ScaleIsRefusedWhileAControllerFollowsAPosition) {
   CHECK(answer_to(Verb::scale, 0.005) == Refusal::wrong_state);
 }
 
-TEST(Commands, ScaleIsRefusedWhileThereIsNoPosition) {
+TEST(Commands, ScaleIsRefusedWithoutAPosition) {
   rig.boot();
   rig.muscle().position.set(host_sim::ConverterFaults{.silent = true});
   rig.run(0.1);
   CHECK(answer_to(Verb::scale, 0.005) == Refusal::not_ready);
 }
 
-TEST(Commands, PeriodsThatAreLeftOutCountForACommandThatExpires) {
+TEST(Commands, SkippedPeriodsCountTowardsTheCommandTimeout) {
   arm();
   rig.heat(Task::power);
   rig.run(1.0);
@@ -251,7 +251,7 @@ TEST(Commands, PeriodsThatAreLeftOutCountForACommandThatExpires) {
   DOUBLES_EQUAL(0.25, rig.time_s() - silent_since_s, 0.02);
 }
 
-TEST(Commands, AreAllAnsweredThatTheRingTakes) {
+TEST(Commands, EveryQueuedCommandIsAnswered) {
   rig.boot();
   long taken = 0;
   while (rig.loop.send({Rig::tested, Verb::disarm}))

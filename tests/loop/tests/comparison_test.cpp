@@ -180,7 +180,7 @@ TEST(Comparison, ReadingsFromBeforeADisarmAreForgotten) {
   check_nothing_changed();
 }
 
-TEST(Comparison, AsksForASteadyPower) {
+TEST(Comparison, RequiresASteadyPower) {
   start();
   check(Refusal::wrong_state, ask(Verb::compare_supply, supply_V));
   hold(0.5, 0.6);
@@ -192,7 +192,7 @@ TEST(Comparison, AsksForASteadyPower) {
   check_nothing_changed();
 }
 
-TEST(Comparison, IsForgottenWhenAskedTo) {
+TEST(Comparison, IsForgottenOnRequest) {
   start();
   for (const double power_W : {0.5, 1.0}) {
     hold(power_W);
@@ -209,7 +209,7 @@ TEST(Comparison, IsForgottenWhenAskedTo) {
   DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
 }
 
-TEST(Comparison, TellsTheProofAtOnceHowFarThePowerIsKnown) {
+TEST(Comparison, UpdatesThePowerBoundsOfTheProofImmediately) {
   settings.firmware.channels[0].muscle_identified = true;
   test::Rig known(settings);
   known.boot();
@@ -243,7 +243,7 @@ TEST(Comparison, TellsTheProofAtOnceHowFarThePowerIsKnown) {
   CHECK_COMPARE(forgotten_W, <, 1.6);
 }
 
-TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
+TEST(Comparison, CorrectsTheCalibratedResistance) {
   // As calibrate found it through senses that read 0.9 and 0.8 of the truth.
   const double reported_Ohm = 10.0 * supply_gain / current_gain;
   settings.firmware.channels[0].calibration.cold_resistance_Ohm = reported_Ohm;
@@ -273,7 +273,7 @@ TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
   CHECK_FALSE(calibrated.interval_missed);
 }
 
-TEST(Comparison, IsMadeOverCanToo) {
+TEST(Comparison, WorksOverCan) {
   test::CanRig can(lying_board());
   test::Master master;
   can.run(16.0);
@@ -296,7 +296,7 @@ TEST(Comparison, IsMadeOverCanToo) {
 }
 
 /// A resistance that compared senses calibrated becomes what they would report uncompared.
-TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
+TEST(Comparison, ForgettingRestoresTheUncorrectedResistance) {
   settings.firmware.channels[0].senses = {1.0 / supply_gain, 1.0 / current_gain, 0.03, 0.0};
   settings.firmware.channels[0].calibration.cold_resistance_Ohm = 10.4;
   settings.firmware.channels[0].has_muscle = true;
@@ -310,7 +310,7 @@ TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
 
 /// At low power, pulses measure the heater's resistance, and the meter may be read at any moment
 /// between two of them.
-TEST(Comparison, OfLittlePowerIsNotDisturbedByProbes) {
+TEST(Comparison, AtLowPowerIsNotDisturbedByProbes) {
   start();
   for (int i = 0; i < 12; ++i) {
     hold(0.1, 3.0 + 0.45 * i);
@@ -329,7 +329,7 @@ TEST(Comparison, OfLittlePowerIsNotDisturbedByProbes) {
   }
 }
 
-TEST(Comparison, LetsTheMeterBeReadWithoutAPulse) {
+TEST(Comparison, SuspendsProbesUntilBothMetersAreRead) {
   start();
   hold(0.1, 6.0);
   check(Refusal::none, ask(Verb::compare_supply, supply_V));
@@ -345,7 +345,7 @@ TEST(Comparison, LetsTheMeterBeReadWithoutAPulse) {
 }
 
 /// The heater of a comparison that was abandoned is probed again.
-TEST(Comparison, ThatDoesNotGoOnLetsTheHeaterBeProbed) {
+TEST(Comparison, AbandonedComparisonLetsProbesResume) {
   start();
   hold(0.1, 6.0);
   check(Refusal::none, ask(Verb::compare_supply, supply_V));

@@ -35,7 +35,7 @@ bool deviates(const Snapshot& s) {
 
 TEST_GROUP(PublishedEstimate){};
 
-TEST(PublishedEstimate, OfLeastSquaresHasItsBiasAndDeviationsAndThatOfNoneHasNothing) {
+TEST(PublishedEstimate, LeastSquaresHasBiasAndDeviationsAndNoneHasNothing) {
   const Scenario scenario = of_estimators(
       "[estimator]\nkind = 'least_squares'\ntrusted_error = 100.0\n[[event]]\nat_s = "
       "15.0\nestimator.kind = 'none'\n");
@@ -63,7 +63,7 @@ TEST(PublishedEstimate, OfLeastSquaresHasItsBiasAndDeviationsAndThatOfNoneHasNot
   CHECK_FALSE(simulation.estimate().has_value());
 }
 
-TEST(PublishedEstimate, OfTheGradientLawHasNeitherBiasNorDeviations) {
+TEST(PublishedEstimate, GradientLawHasNeitherBiasNorDeviations) {
   const Scenario scenario = of_estimators("[estimator]\nkind = 'gradient'\n");
   Simulation simulation(scenario);
   while (!simulation.done()) {

@@ -74,7 +74,7 @@ TEST(Heat, IsContainedInEveryBuiltInScenario) {
   }
 }
 
-TEST(Heat, IsContainedWhenTheMuscleChangesUnderway) {
+TEST(Heat, IsContainedWhenTheMuscleChangesMidRun) {
   const std::string event = "[[event]]\nat_s = 60.0\n";
   check_contained("gamma halved", read(sine + event + "plant.force_per_kelvin_N_per_K = 0.0043\n"));
   check_contained("load mass doubled", read(sine + event + "plant.moving_mass_kg = 0.18\n"));
@@ -91,7 +91,7 @@ TEST(Heat, IsContainedWhenTheMuscleChangesUnderway) {
   check_contained("stiffness 16 -> 12", read(sine + event + "plant.stiffness_N_per_m = 12.0\n"));
 }
 
-TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
+TEST(Heat, StaysBelowTheLimitAtExcessiveDemand) {
   const std::string greedy =
       "simulation.duration_s = 120.0\npower.max_W = 14.0\ncontroller.kind = 'power'\n"
       "reference = {kind = 'power', offset_W = 14.0, amplitudes_W = [0.0], "
@@ -102,7 +102,7 @@ TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
                                 "heat_transfer_W_per_K = 0.089\n"));
 }
 
-TEST(Heat, OfMaxPowerHeldIndefinitelyIsNotAFaultWithoutABudget) {
+TEST(Heat, MaxPowerIsAFaultOnlyWithAnEnergyBudget) {
   // docs/safety.md states both times.
   const std::string held =
       "simulation.duration_s = 300.0\ncontroller.kind = 'power'\n"
@@ -128,7 +128,7 @@ TEST(Heat, OfMaxPowerHeldIndefinitelyIsNotAFaultWithoutABudget) {
   DOUBLES_EQUAL(132.0, rig.time_s() - start_s, 3.0);
 }
 
-TEST(Heat, OfASenseThatReadsTooLittleCurrentIsCutBeforeItGrows) {
+TEST(Heat, IsCutWhenTheCurrentSenseReadsTooLow) {
   // The sense's gain falls to a third: unnoticed, the power stage would give three times as much.
   test::RigSettings settings = test::rough_board();
   settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
@@ -143,7 +143,7 @@ TEST(Heat, OfASenseThatReadsTooLittleCurrentIsCutBeforeItGrows) {
   CHECK(rig.fault() == Fault::resistance_drift);
 }
 
-TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
+TEST(Heat, IsContainedAfterEveryHeaterFault) {
   for (const char* faults : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
     check_contained(faults, read(sine + std::string("[[event]]\nat_s = 60.0\ninjected_fault.") +
                                  faults + " = true\n"));
@@ -205,7 +205,7 @@ Heat heat_of_power(const LyingSenses& senses, double power_W) {
 
 }  // namespace
 
-TEST(Heat, IsContainedByABoardWhoseSensesWereNeverCompared) {
+TEST(Heat, IsContainedWithUncomparedSenses) {
   // Wrong by less than resistance_drift notices, in the direction that heats more.
   struct Lie {
     const char* what;
@@ -222,7 +222,7 @@ TEST(Heat, IsContainedByABoardWhoseSensesWereNeverCompared) {
   }
 }
 
-TEST(Heat, OfComparedSensesComesNearerToTheLimit) {
+TEST(Heat, ComparedSensesAllowHotterOperation) {
   const Heat wide = heat_of_power({}, 11.0);
   const Heat narrow = heat_of_power({.compared = true}, 11.0);
   printf("hottest %.1f C, compared %.1f C\n", wide.hottest_C, narrow.hottest_C);
@@ -231,7 +231,7 @@ TEST(Heat, OfComparedSensesComesNearerToTheLimit) {
   CHECK_COMPARE(narrow.hottest_C, <, trip_C);
 }
 
-TEST(Heat, IsContainedInAirThatIsMeasuredAndNotAsConfigured) {
+TEST(Heat, IsContainedInMeasuredAirThatDiffersFromTheConfigured) {
   const std::string measured =
       "simulation.duration_s = 150.0\ncontroller.kind = 'pi'\nplant.air_acts = true\n"
       "ambient.sensor_error_K = 1.5\nambient.sensor_offset_K = ";
@@ -252,7 +252,7 @@ TEST(Heat, IsContainedInAirThatIsMeasuredAndNotAsConfigured) {
   CHECK_COMPARE(blind.outside_ticks, >, 0);
 }
 
-TEST(Heat, CountsFromTheConfiguredAirWhileItsSensorIsSilent) {
+TEST(Heat, FallsBackToTheConfiguredAirWhenItsSensorIsSilent) {
   RigSettings s = rough_board(1000.0);
   s.board.air = host_sim::ConverterSettings{.low = -60.0, .high = 140.0};
   s.firmware.air.scaling = {s.board.air->per_count(), s.board.air->low};

@@ -21,21 +21,21 @@ TEST_GROUP(Heater) {
   }
 };
 
-TEST(Heater, TellsByWhichGainsItCorrectsItsSensesAndNotSinceWhen) {
+TEST(Heater, ReportsSenseGainsWithoutTheirDate) {
   CHECK(Rig(settings).loop.channel(0).senses() == board::SenseComparison{});
   settings.firmware.channels[0].senses = {1.02, 0.98, 0.03, 1.7e9};
   const board::SenseComparison without_date{1.02, 0.98, 0.03, 0.0};
   CHECK(Rig(settings).loop.channel(0).senses() == without_date);
 }
 
-TEST(Heater, WritesItsDutyInTheFirstTickWhateverWasThereBefore) {
+TEST(Heater, FirstTickOverwritesAnyPreviousDuty) {
   Rig rig(settings);
   CHECK(rig.muscle().pwm.set(5) == hal::Status::ok);
   rig.run_ticks(1);
   LONGS_EQUAL(0, rig.muscle().pwm.read_back());
 }
 
-TEST(Heater, TellsHowOldItsResistanceIs) {
+TEST(Heater, ReportsTheAgeOfItsResistance) {
   Rig rig(settings);
   arm(rig);
   const double age_s = rig.snapshot().resistance_age_s;
@@ -45,7 +45,7 @@ TEST(Heater, TellsHowOldItsResistanceIs) {
   CHECK(rig.state() == State::armed);
 }
 
-TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
+TEST(Heater, ADelayedCurrentIsNotAShortWithATwoTickDebounce) {
   // As with a converter on a bus. Probes end with a falling duty, after which no current flows.
   const auto fault_with = [](double short_ticks) {
     RigSettings slow = rough_board(100.0);
@@ -68,7 +68,7 @@ TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
 }
 
 /// firmware/io/config/examples/raspberry-pi-pwm-ads1115.toml: 0.67 A are 6.8 mA after 50 ms.
-TEST(Heater, IsNotStuckOnWhileASlowSenseStillShowsFullPower) {
+TEST(Heater, SlowSenseAfterFullPowerIsNotStuckOn) {
   RigSettings slow = rough_board(100.0);
   ChannelSettings& channel = slow.firmware.channels[0];
   slow.board.channels[0].sense_filter_s = channel.heater.sense_filter_s = 0.010;
@@ -83,7 +83,7 @@ TEST(Heater, IsNotStuckOnWhileASlowSenseStillShowsFullPower) {
   }
 }
 
-TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {
+TEST(Heater, AnOldResistanceOfACooledMuscleIsNotJudged) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.supervision.resistance_ratio = 0.05;
   channel.heater.probe_every_s = 60.0;
@@ -96,7 +96,7 @@ TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {
   CHECK_COMPARE(rig.snapshot().resistance_Ohm, >, 10.8);
 }
 
-TEST(Heater, ASensorMustShowItsNoiseOnlyWhereTheMuscleMayBeWarm) {
+TEST(Heater, AFrozenSensorIsAFaultOnlyIfTheMuscleMayBeWarm) {
   for (const auto& [boot_rise_K, fault] :
        {std::pair{3.0, Fault::none}, std::pair{20.0, Fault::sensor_frozen}}) {
     for (ChannelSettings& channel : settings.firmware.channels)
@@ -110,7 +110,7 @@ TEST(Heater, ASensorMustShowItsNoiseOnlyWhereTheMuscleMayBeWarm) {
 }
 
 /// A duty's rounding error is made up for in the next tick, but not after a rest.
-TEST(Heater, OwesNothingOfTheLastPowerAfterARest) {
+TEST(Heater, RestClearsTheDutyRemainder) {
   settings.board.supply.noise_rms = 0.0;
   settings.board.channels[0].current.noise_rms = 0.0;
   Rig rig(settings);
@@ -129,7 +129,7 @@ TEST(Heater, OwesNothingOfTheLastPowerAfterARest) {
   }
 }
 
-TEST(Heater, AnEnableLineThatCannotBeSetIsAFaultOfTheBoard) {
+TEST(Heater, AFailedEnableLineIsABoardFault) {
   Rig rig(settings);
   rig.boot();
   rig.muscle().enable.refuses = hal::Status::io_error;
@@ -140,7 +140,7 @@ TEST(Heater, AnEnableLineThatCannotBeSetIsAFaultOfTheBoard) {
 }
 
 /// As a hot end that was known to be below it once, and is above where derating begins.
-TEST(Heater, HeatThatDeratingDoesNotHoldIsAFault) {
+TEST(Heater, OverTemperatureDespiteDeratingIsAFault) {
   ChannelSettings& channel = settings.firmware.channels[0];
   channel.thermal.boot_rise_K = 20.0;
   channel.limiter.derate_from_C = 60.0;

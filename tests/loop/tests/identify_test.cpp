@@ -38,7 +38,7 @@ bool is_linear(const MuscleKind& kind) {
 
 TEST_GROUP(Identify){};
 
-TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
+TEST(Identify, FindsEveryMuscleWithinTravelAndTemperatureLimits) {
   for (const MuscleKind& kind : muscle_kinds) {
     for (int seed = 1; seed <= seeds(); ++seed) {
       const Identified run = run_identify(kind, seed);
@@ -57,7 +57,7 @@ TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
 }
 
 /// Nine strokes of a muscle with a time constant of 20 s take 570 s.
-TEST(Identify, EndsOnceASlowMuscleIsFound) {
+TEST(Identify, EndsWhenASlowMuscleIsFound) {
   for (const MuscleKind& kind : muscle_kinds) {
     if (kind.name != "slow, 20 s") continue;
     const Identified run = run_identify(kind, 1);
@@ -69,7 +69,7 @@ TEST(Identify, EndsOnceASlowMuscleIsFound) {
 }
 
 /// Seven strokes of 3 mm leave θ2 and θ4 of such a muscle uncertain; fifteen do not.
-TEST(Identify, GoesOnWhereTheFirstStrokesLeaveTheMuscleUncertain) {
+TEST(Identify, ContinuesWhileTheMuscleIsUncertain) {
   const auto scenario = host_sim::parse_scenario(
       "simulation.seed = 12\nsimulation.duration_s = 300.0\noperator.action = 'identify'\n"
       "plant.preset = 'real'\nsensor.position.noise_rms_m = 5.2e-6\npower.pwm_bits = 12\n"
@@ -86,7 +86,7 @@ TEST(Identify, GoesOnWhereTheFirstStrokesLeaveTheMuscleUncertain) {
   CHECK_COMPARE(took_s, >, 70.0);
 }
 
-TEST(Identify, LearnedFeedforwardFollowsWhatWasFound) {
+TEST(Identify, LearnedFeedforwardTracksAfterIdentify) {
   for (const std::string_view name : {"real", "stiff", "lightly damped"}) {
     for (const MuscleKind& kind : muscle_kinds) {
       if (kind.name != name) continue;

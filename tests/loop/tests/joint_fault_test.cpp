@@ -11,7 +11,7 @@ using namespace supercoil::test;
 
 TEST_GROUP_BASE(JointFault, JointCase){};
 
-TEST(JointFault, WithoutCommandsBothGoColdAtTheTimeout) {
+TEST(JointFault, CommandTimeoutSwitchesBothOff) {
   arm();
   hold(0.002, 1.0);
   rig.run(0.24);
@@ -22,7 +22,7 @@ TEST(JointFault, WithoutCommandsBothGoColdAtTheTimeout) {
   CHECK(fault_of(antagonist) == Fault::command_timeout);
 }
 
-TEST(JointFault, AFaultOfEitherChannelCoolsBothInTheSameTickAndBothTellIt) {
+TEST(JointFault, AFaultOfEitherChannelSwitchesBothOffInTheSameTick) {
   using Inject = std::function<void(host_sim::MuscleChannel&, bool)>;
   const std::vector<std::pair<Fault, Inject>> cases{
       {Fault::heater_open, [](host_sim::MuscleChannel& m, bool on) { m.faults.wire_open = on; }},
@@ -71,7 +71,7 @@ TEST(JointFault, AFaultOfEitherChannelCoolsBothInTheSameTickAndBothTellIt) {
   CHECK_FALSE(rig.interval_missed);
 }
 
-TEST(JointFault, ATornMuscleIsFoundAtOnceAndBothAreCold) {
+TEST(JointFault, ATornMuscleIsFoundAtOnce) {
   for (const std::uint8_t torn : {agonist, antagonist}) {
     Rig fresh{joint_board()};
     fresh.boot();
@@ -88,7 +88,7 @@ TEST(JointFault, ATornMuscleIsFoundAtOnceAndBothAreCold) {
 }
 
 /// Its end stops lie within its travel: nothing is out of range, and nothing follows.
-TEST(JointFault, AMuscleThatMovesNothingIsFoundWithinTwoSecondsWhereTheJointStaysInItsTravel) {
+TEST(JointFault, ALooseMuscleIsFoundWithinTwoSeconds) {
   using Inject = std::function<void(host_sim::MuscleFaults&)>;
   const std::vector<Inject> ways{[](host_sim::MuscleFaults& f) { f.torn = true; },
                                  [](host_sim::MuscleFaults& f) { f.slack_m = 0.2; }};
@@ -121,7 +121,7 @@ TEST(JointFault, ASensorWithTheWrongSignIsFoundAtTheFirstMotion) {
   }
 }
 
-TEST(JointFault, IdentifyTellsThatHeatMovesTheJointTheOtherWay) {
+TEST(JointFault, IdentifyReportsBackwardMotion) {
   rig.board.channel(agonist).position.set(host_sim::ConverterFaults{.gain = -1.0});
   arm();
   CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
@@ -141,7 +141,7 @@ TEST(JointFault, IdentifyTellsThatHeatMovesTheJointTheOtherWay) {
 }
 
 /// The motion expected of one muscle is subtracted in the other one's detectors.
-TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
+TEST(JointFault, IdentifyRestartsBothMusclesWindows) {
   RigSettings settings = joint_board();
   settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 1.4;
   Rig fresh(settings);
@@ -158,7 +158,7 @@ TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
 
 /// A load that comes at once is not a loose muscle, whether the muscle can hold it or is drawn out
 /// at the most power that it may have.
-TEST(JointFault, ALoadThatMovesItIsNoLooseMuscle) {
+TEST(JointFault, AMovingLoadIsNotALooseMuscle) {
   double limited_s = 0.0;
   for (const double load_Nm : {-0.0008, 0.0008, -0.004, 0.004}) {
     Rig fresh(known_joint(0.8));
@@ -177,7 +177,7 @@ TEST(JointFault, ALoadThatMovesItIsNoLooseMuscle) {
   CHECK_COMPARE(limited_s, >, 5.0);
 }
 
-TEST(JointFault, AnAntagonistWhoseCurrentCannotBeReadMakesBothSafe) {
+TEST(JointFault, AnUnreadableAntagonistCurrentIsAFaultOfBoth) {
   arm();
   hold(0.002, 1.0);
   rig.board.channel(antagonist)

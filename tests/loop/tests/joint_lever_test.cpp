@@ -27,7 +27,7 @@ RigSettings with_lever_table(RigSettings settings) {
 
 TEST_GROUP(JointLever){};
 
-TEST(JointLever, TurnsToTheAngleAlsoWhereItsLeverDependsOnIt) {
+TEST(JointLever, TurnsToTheAngleWithALeverTable) {
   Rig turned(with_lever_table(joint_board()));
   begin(turned);
   const host_sim::JointPlant& plant = turned.board.joint(0).plant();
@@ -45,7 +45,7 @@ TEST(JointLever, TurnsToTheAngleAlsoWhereItsLeverDependsOnIt) {
 }
 
 /// A sensor whose zero is 10 degrees away reads arcs from another place of the table.
-TEST(JointLever, FindsItsZeroWhereverTheLeverOfTheTableIs) {
+TEST(JointLever, FindsItsZeroAwayFromTheTablesReference) {
   RigSettings settings = with_lever_table(joint_board());
   const double away_m = 10.0 * degree_m;
   settings.firmware.channels[agonist].position.scaling.offset += away_m;
@@ -60,7 +60,7 @@ TEST(JointLever, FindsItsZeroWhereverTheLeverOfTheTableIs) {
 }
 
 /// The antagonist pulls at two thirds of the agonist's lever, and is described as it moves there.
-TEST(JointLever, EachMuscleMayPullAtALeverOfItsOwn) {
+TEST(JointLever, EachMuscleMayHaveItsOwnLever) {
   const auto scenario = host_sim::parse_scenario(
       "simulation.duration_s = 400.0\noperator.action = 'none'\ncontroller.kind = 'pi'\n"
       "[joint]\nantagonist_lever_m = 0.010\n"

@@ -11,7 +11,7 @@ using namespace supercoil::test;
 
 TEST_GROUP_BASE(JointPull, JointCase){};
 
-TEST(JointPull, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
+TEST(JointPull, AntagonistPowerSetsTheCoContractionWithoutTurningTheJoint) {
   arm();
   hold(5.0 * degree_m, 60.0);
   const host_sim::JointPlant& plant = rig.board.joint(0).plant();
@@ -37,7 +37,7 @@ TEST(JointPull, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
 }
 
 /// The limit is in watts of the agonist; the ratio of gains converts them to the antagonist's.
-TEST(JointPull, PullsNoHarderThanTheLimitOfTheJoint) {
+TEST(JointPull, RespectsTheCoContractionLimit) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = 1.2;
   settings.firmware.channels[antagonist].muscle.force_per_kelvin_N_per_K *= 1.25;
@@ -58,7 +58,7 @@ TEST(JointPull, PullsNoHarderThanTheLimitOfTheJoint) {
 }
 
 /// Two muscles that are driven by themselves pull against each other with the smaller power.
-TEST(JointPull, PullsNoHarderThanTheLimitWhereEachMuscleIsDrivenByItself) {
+TEST(JointPull, RespectsTheLimitWithMusclesDrivenSeparately) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = 1.2;
   const double gain_ratio = settings.firmware.channels[antagonist].muscle.dc_gain_m_per_W() /
@@ -80,7 +80,7 @@ TEST(JointPull, PullsNoHarderThanTheLimitWhereEachMuscleIsDrivenByItself) {
 
 /// A commanded power may exceed the limit once the muscles are known better: here the agonist moves
 /// less than was believed, so the antagonist's watts count for more.
-TEST(JointPull, PullsNoHarderOnceTheMusclesAreKnownBetter) {
+TEST(JointPull, RespectsTheLimitAfterNewEstimates) {
   constexpr double max_W = 1.2;
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = max_W;
@@ -120,7 +120,7 @@ TEST(JointPull, PullsNoHarderOnceTheMusclesAreKnownBetter) {
   CHECK_COMPARE(applied_W, >, 0.9 * max_W / gain_ratio());
 }
 
-TEST(JointPull, ItsLimitFollowsWhatIsLearnedOfTheAntagonistAlone) {
+TEST(JointPull, LimitFollowsWhatIsLearnedOfTheAntagonist) {
   constexpr double max_W = 1.2;
   RigSettings settings = joint_board();
   settings.firmware.joints[0].max_co_contraction_W = max_W;
@@ -145,7 +145,7 @@ TEST(JointPull, ItsLimitFollowsWhatIsLearnedOfTheAntagonistAlone) {
   CHECK(fresh.answer_of(antagonist, Verb::power, 0.98 * max_W / gain_ratio()) == Refusal::none);
 }
 
-TEST(JointPull, PullsAgainstItselfForMinutesWithoutAFault) {
+TEST(JointPull, CoContractsForMinutesWithoutAFault) {
   for (const bool known : {false, true}) {
     RigSettings settings = known_joint(3.0);
     for (ChannelSettings& channel : settings.firmware.channels)
@@ -158,7 +158,7 @@ TEST(JointPull, PullsAgainstItselfForMinutesWithoutAFault) {
 }
 
 /// The other muscle makes up for what a hot one may not give: nothing stays limited.
-TEST(JointPull, PullsLessWhereOneMuscleIsAsHotAsItMayBe) {
+TEST(JointPull, ReducesCoContractionWhenOneMuscleIsDerated) {
   RigSettings settings = joint_board();
   settings.firmware.joints[0].co_contraction_W = 3.0;
   settings.firmware.channels[agonist].thermal.boot_rise_K = 20.0;  // otherwise it waits a minute
@@ -171,7 +171,7 @@ TEST(JointPull, PullsLessWhereOneMuscleIsAsHotAsItMayBe) {
   CHECK(fresh.snapshot().limited_by == LimitedBy::nothing);
 }
 
-TEST(JointPull, BeginsEachTimeWithoutCoContraction) {
+TEST(JointPull, StartsEachTimeWithoutCoContraction) {
   arm();
   hold(0.0, 60.0);
   CHECK_COMPARE(of(antagonist).applied_W, >, 0.5);

@@ -60,7 +60,7 @@ TEST_GROUP_BASE(JointSlack, JointCase) {
 };
 
 /// The muscle on the side to which the load turns the joint gets no power.
-TEST(JointSlack, TellsWhichMuscleALoadLeavesWithoutPull) {
+TEST(JointSlack, ReportsTheMuscleThatALoadSlackens) {
   for (const double way : {1.0, -1.0}) {
     const Held loaded = held(loose_joint(0.0, true), way * 4e-3, way * 0.25);
     const std::size_t loose = way > 0.0 ? agonist : antagonist;
@@ -76,7 +76,7 @@ TEST(JointSlack, TellsWhichMuscleALoadLeavesWithoutPull) {
   }
 }
 
-TEST(JointSlack, IsNotToldWherePretensionIsNotKnown) {
+TEST(JointSlack, IsNotReportedWithoutAKnownPretension) {
   const Held loaded = held(loose_joint(0.0, false), 4e-3, 0.25);
   DOUBLES_EQUAL(0.0, loaded.pull_N[agonist], 0.0);
   CHECK_FALSE(loaded.told[agonist] || loaded.told[antagonist]);

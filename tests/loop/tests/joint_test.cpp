@@ -29,7 +29,7 @@ TEST(Joint, ArmsRestsAndCoolsAsOne) {
   CHECK(both(State::armed));
 }
 
-TEST(Joint, IsArmedOnlyWhenBothMusclesMayBe) {
+TEST(Joint, ArmsOnlyWhenBothMusclesMay) {
   rig.boot();
   rig.board.channel(antagonist).current.set(host_sim::ConverterFaults{.silent = true});
   rig.run(0.1);
@@ -38,7 +38,7 @@ TEST(Joint, IsArmedOnlyWhenBothMusclesMayBe) {
   CHECK_FALSE(state_of(agonist) == State::armed);
 }
 
-TEST(Joint, FollowsBothWaysAndEachTemperatureStaysInItsInterval) {
+TEST(Joint, FollowsBothWaysWithTemperaturesInTheirIntervals) {
   arm();
   double squares = 0.0;
   double count = 0.0;
@@ -65,7 +65,7 @@ TEST(Joint, SettlesAtSetPointsOfBothSigns) {
   CHECK_FALSE(rig.interval_missed);
 }
 
-TEST(Joint, ItsAgonistMayBeTheLaterChannel) {
+TEST(Joint, AgonistMayBeTheLaterChannel) {
   RigSettings settings = joint_board();
   JointSettings& joint = settings.firmware.joints[0];
   std::swap(joint.agonist, joint.antagonist);
@@ -85,7 +85,7 @@ TEST(Joint, ItsAgonistMayBeTheLaterChannel) {
   CHECK_FALSE(turned.interval_missed);
 }
 
-TEST(Joint, GoesNoFurtherBackThanTheAntagonistMayContract) {
+TEST(Joint, RangeIsLimitedByBothMusclesTravel) {
   RigSettings settings = joint_board();
   settings.firmware.channels[antagonist].supervision.max_travel_m = 0.005;
   Rig narrow(settings);
@@ -96,7 +96,7 @@ TEST(Joint, GoesNoFurtherBackThanTheAntagonistMayContract) {
   CHECK(narrow.answer_of(agonist, Verb::position, 0.0081) == Refusal::out_of_range);
 }
 
-TEST(Joint, AntagonistIsNotCommandedByItselfWhileItIsLed) {
+TEST(Joint, AntagonistRefusesCommandsOfItsOwn) {
   arm();
   CHECK(rig.answer_of(antagonist, Verb::position, 0.001) == Refusal::wrong_state);
   hold(0.002, 0.5);
@@ -107,7 +107,7 @@ TEST(Joint, AntagonistIsNotCommandedByItselfWhileItIsLed) {
   CHECK(both(State::active));
 }
 
-TEST(Joint, TakesNoScaleForOneOfTheMusclesThatReadItsSensor) {
+TEST(Joint, RefusesAScaleForASharedSensor) {
   arm();
   hold(0.002, 0.5);
   CHECK(rig.answer_of(agonist, Verb::rest) == Refusal::none);
@@ -140,7 +140,7 @@ TEST(Joint, OneMuscleMayBeDrivenAlone) {
   CHECK(of(agonist).mode == Mode::power && state_of(antagonist) == State::armed);
 }
 
-TEST(Joint, WaitsForTheOtherMuscleThatMayBeHotFromBefore) {
+TEST(Joint, ArmWaitsUntilTheOtherMuscleIsSurelyCold) {
   RigSettings settings = joint_board();
   settings.firmware.channels[agonist].thermal.boot_rise_K = 20.0;
   Rig fresh(settings);
@@ -150,7 +150,7 @@ TEST(Joint, WaitsForTheOtherMuscleThatMayBeHotFromBefore) {
   CHECK(fresh.state() == State::disarmed);
 }
 
-TEST(Joint, ItsZeroIsTakenWhenBothMusclesAreCold) {
+TEST(Joint, ZeroIsTakenWhenBothMusclesAreCold) {
   arm();
   rig.run(60.0);  // the probe's heat is gone from the agonist
   for (int i = 0; i < 100; ++i) {
@@ -164,7 +164,7 @@ TEST(Joint, ItsZeroIsTakenWhenBothMusclesAreCold) {
 }
 
 /// Two muscles may cool against each other.
-TEST(Joint, ThatItIsStillDoesNotTellThatItsMusclesAreCold) {
+TEST(Joint, StandingStillDoesNotProveThatTheMusclesAreCold) {
   const RigSettings settings = known_joint(3.0);
   Rig fresh(settings);
   begin(fresh);
@@ -179,7 +179,7 @@ TEST(Joint, ThatItIsStillDoesNotTellThatItsMusclesAreCold) {
 }
 
 /// Its law learns of either heater's limit, and does not wind up.
-TEST(Joint, ComesBackAtOnceFromWhatItsAntagonistCannotReach) {
+TEST(Joint, ReturnsWithoutWindupFromAnUnreachableAngle) {
   RigSettings settings = joint_board();
   settings.firmware.channels[antagonist].limiter.max_W = 1.0;
   Rig fresh(settings);
@@ -195,7 +195,7 @@ TEST(Joint, ComesBackAtOnceFromWhatItsAntagonistCannotReach) {
 }
 
 /// A knot is judged by what both muscles together can do.
-TEST(Joint, PlaysATrajectoryThatTakesTheAntagonist) {
+TEST(Joint, AcceptsATrajectoryThatNeedsTheAntagonist) {
   arm();
   hold(0.0, 5.0);
   const auto knot = [](double after_s, double position_m) {
@@ -237,7 +237,7 @@ TEST(Joint, IdentifiesEachMuscleInTheJoint) {
   CHECK_FALSE(rig.interval_missed);
 }
 
-TEST(Joint, IdentifyOfTheAgonistGoesOnWithTheAntagonist) {
+TEST(Joint, IdentifyOfTheAgonistContinuesWithTheAntagonist) {
   arm();
   CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
   float progress = 0.0F;
@@ -264,7 +264,7 @@ TEST(Joint, IdentifyOfTheAgonistGoesOnWithTheAntagonist) {
   CHECK_COMPARE(rig.time_s() - agonist_s, >, 20.0);
 }
 
-TEST(Joint, NeitherMuscleIsHeatedBesideOneThatIsMeasured) {
+TEST(Joint, RefusesPowerWhileTheOtherMuscleIsMeasured) {
   arm();
   CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
   CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::busy);
@@ -273,14 +273,14 @@ TEST(Joint, NeitherMuscleIsHeatedBesideOneThatIsMeasured) {
   CHECK(rig.answer_of(agonist, Verb::power, 1.0) == Refusal::busy);
 }
 
-TEST(Joint, CalibrateOfTheAgonistGoesOnWithTheAntagonist) {
+TEST(Joint, CalibrateOfTheAgonistContinuesWithTheAntagonist) {
   arm();
   CHECK(measures_to_the_end(rig, Verb::calibrate, 200.0));
   for (const std::uint8_t channel : {agonist, antagonist})
     CHECK(of(channel).result == ModeResult::found);
 }
 
-TEST(Joint, WhatGoesOnWithTheAntagonistEndsWithTheAgonist) {
+TEST(Joint, EndingEitherMuscleEndsIdentify) {
   const auto identify_antagonist = [&] {
     CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
     CHECK(rig.run_until(

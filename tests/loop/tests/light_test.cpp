@@ -26,7 +26,7 @@ TEST(Light, IsOffWhileNothingIsArmed) {
   CHECK_FALSE(lit());
 }
 
-TEST(Light, IsOnWhileAMuscleIsArmedAndBlinksWhileOneIsActive) {
+TEST(Light, IsOnWhenArmedAndBlinksWhenActive) {
   rig.boot();
   rig.arm();
   rig.run(0.5);
@@ -39,7 +39,7 @@ TEST(Light, IsOnWhileAMuscleIsArmedAndBlinksWhileOneIsActive) {
   LONGS_EQUAL(4, edges());
 }
 
-TEST(Light, BlinksForOneActiveMuscleOfTwo) {
+TEST(Light, BlinksWhenOneOfTwoMusclesIsActive) {
   rig.boot();
   rig.start_neighbour();
   rig.run(1.0);

@@ -11,7 +11,7 @@ TEST_GROUP(Loop) {
   RigSettings settings = rough_board();
 };
 
-TEST(Loop, GivesItsSelfTestTheTimeThatTheSlowestSenseNeeds) {
+TEST(Loop, SelfTestDurationFollowsTheSlowestSense) {
   const double decay_s = settings.firmware.supervision.charge_pump_decay_s;
   const auto duration_s = [&](double filter_s) {
     settings.firmware.channels[1].heater.sense_filter_s = filter_s;
@@ -24,7 +24,7 @@ TEST(Loop, GivesItsSelfTestTheTimeThatTheSlowestSenseNeeds) {
   DOUBLES_EQUAL(decay_s + 3.0 * 0.1 + 2.0 * 0.16, duration_s(0.02), 1e-12);
 }
 
-TEST(Loop, FindsAnEnableLineThatDoesNotCutByAProbesCurrent) {
+TEST(Loop, SelfTestFindsAnEnableLineThatDoesNotCut) {
   for (const std::size_t broken : {0U, 1U}) {
     Rig rig(settings);
     rig.board.channel(broken).faults.enable_stuck_on = true;
@@ -34,7 +34,7 @@ TEST(Loop, FindsAnEnableLineThatDoesNotCutByAProbesCurrent) {
   }
 }
 
-TEST(Loop, TellsWhichCutFailedTheSelfTest) {
+TEST(Loop, ReportsWhichCutOffFailedTheSelfTest) {
   for (const bool pump_stuck : {true, false}) {
     Rig rig(settings);
     rig.board.pump.stuck_closed = pump_stuck;
@@ -46,7 +46,7 @@ TEST(Loop, TellsWhichCutFailedTheSelfTest) {
   }
 }
 
-TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
+TEST(Loop, CommandRingHolds256) {
   Rig rig(settings);
   int taken = 0;
   while (rig.loop.send({Rig::tested, Verb::disarm}))
@@ -54,7 +54,7 @@ TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
   LONGS_EQUAL(256, taken);
 }
 
-TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
+TEST(Loop, SelfTestFindsALeakageCurrent) {
   constexpr double leak_A = 0.006;  // less than half of a probe's current
   for (const double off_current_A : {0.05, 0.003}) {
     RigSettings leaking = rough_board();
@@ -67,7 +67,7 @@ TEST(Loop, FindsInItsSelfTestWhatAChannelMayNotShowWhileItIsOff) {
 }
 
 /// Noise could hide a probe's current, so nothing would be proven.
-TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
+TEST(Loop, SelfTestFailsWithASenseThatIsAllNoise) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RigSettings noisy = rough_board();
     noisy.board.seed = seed;
@@ -83,7 +83,7 @@ TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
   }
 }
 
-TEST(Loop, FeedsTheWatchdogOnceInEveryTickWhateverTheBoardDoes) {
+TEST(Loop, FeedsTheWatchdogOncePerTickEvenInAFault) {
   Rig rig(settings);
   const auto feeds_in = [&](int ticks) {
     const std::int64_t before = rig.board.watchdog.fed;
@@ -112,7 +112,7 @@ TEST(Loop, NeedsNeitherAWatchdogNorALight) {
 }
 
 /// The loop never answers such a command, so nothing may wait for the answer.
-TEST(Loop, WhatItsRingDoesNotTakeIsOverForTheTuner) {
+TEST(Loop, ACommandThatDoesNotFitDoesNotBlockTheTuner) {
   Rig rig(settings);
   while (rig.loop.send({Rig::tested, Verb::disarm}))
     continue;
@@ -121,7 +121,7 @@ TEST(Loop, WhatItsRingDoesNotTakeIsOverForTheTuner) {
   CHECK(rig.answer_to(Verb::store, store_tuning) == Refusal::none);
 }
 
-TEST(Loop, AnswersWithTheCommandAsItWasGiven) {
+TEST(Loop, AnswersCarryTheOriginalCommand) {
   Rig rig(settings);
   const Command given{Rig::neighbour, Verb::position, 0.0125, Source::can, 4711};
   CHECK(rig.loop.send(given));
@@ -137,7 +137,7 @@ TEST(Loop, AnswersWithTheCommandAsItWasGiven) {
 }
 
 /// So that a flood of them makes no tick late; the rest waits.
-TEST(Loop, ObeysSixtyFourCommandsInATick) {
+TEST(Loop, HandlesUpTo64CommandsPerTick) {
   Rig rig(settings);
   for (int i = 0; i < 100; ++i)
     CHECK(rig.loop.send({Rig::tested, Verb::disarm}));
@@ -153,7 +153,7 @@ TEST(Loop, ObeysSixtyFourCommandsInATick) {
 }
 
 /// Converters have their first values by then.
-TEST(Loop, JudgesItsBoardAfterATenthOfASecond) {
+TEST(Loop, StartsJudgingTheBoardAfter100Milliseconds) {
   settings.board.supply_V = 10.0;
   Rig rig(settings);
   rig.run_ticks(100);
@@ -163,7 +163,7 @@ TEST(Loop, JudgesItsBoardAfterATenthOfASecond) {
 }
 
 /// The largest of each kind until it is taken.
-TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
+TEST(Loop, ReportsWakeUpLatenessAndExecutionTime) {
   Rig rig(settings);
   CHECK(rig.loop.timing().late_ns == LoopTiming::none);
   CHECK(rig.loop.timing().execution_ns == LoopTiming::none);
@@ -184,7 +184,7 @@ TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
 }
 
 /// The thermal model takes a step for each period left out, up to a max number.
-TEST(Loop, ComesBackFromAStallHoweverManyPeriodsItTook) {
+TEST(Loop, SurvivesAStallOfAnyLength) {
   Rig rig(settings);
   rig.boot();
   const hal::Time now = rig.board.now();
@@ -193,7 +193,7 @@ TEST(Loop, ComesBackFromAStallHoweverManyPeriodsItTook) {
   CHECK_COMPARE(rig.snapshot().hottest_C, <, 200.0);
 }
 
-TEST(Loop, CountsTheRowsThatNobodyTakes) {
+TEST(Loop, CountsLostRows) {
   host_sim::SimulatedBoard board(settings.board);
   supercoil::Loop loop(settings.firmware, board.devices());
   Executive executive(loop, board, settings.firmware.rate_Hz);

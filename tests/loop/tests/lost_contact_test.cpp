@@ -149,7 +149,7 @@ void check_found(const LostContact& muscle, double hottest_C) {
 
 TEST_GROUP(LostContact){};
 
-TEST(LostContact, IsFoundThoughTheChannelIsArmedAnewEvery12Seconds) {
+TEST(LostContact, IsFoundDespiteRearmingEvery12Seconds) {
   LostContact muscle(deaf_board(false));
   muscle.start(Verb::power, always(2.9));  // 154 °C in the end
   muscle.run(10.0);
@@ -158,7 +158,7 @@ TEST(LostContact, IsFoundThoughTheChannelIsArmedAnewEvery12Seconds) {
   check_found(muscle, 160.0);
 }
 
-TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsArmedAnew) {
+TEST(LostContact, IsFoundDespiteRearmingAnIdentifiedMuscle) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::power, always(4.0));  // 24 mm; the limit is 25 mm
   muscle.run(5.0);
@@ -167,7 +167,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsArmedAnew) {
   check_found(muscle, 120.0);
 }
 
-TEST(LostContact, OfAnIdentifiedMuscleIsFoundThoughItRestsAgainAndAgain) {
+TEST(LostContact, IsFoundDespiteRepeatedRests) {
   for (const auto& [heated_s, rests_s] : {std::pair(1.0, 0.1), {0.5, 0.05}}) {
     LostContact muscle(deaf_board(true));
     muscle.start(Verb::power, always(4.0));
@@ -181,7 +181,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundThoughItRestsAgainAndAgain) {
 }
 
 /// The heating always ends before a dither does.
-TEST(LostContact, OfASlowMuscleThatRestsAgainAndAgainIsFoundOrItIsHeldToTheSafePower) {
+TEST(LostContact, IsFoundOrLimitedForASlowMuscleThatRestsRepeatedly) {
   LostContact muscle(slow_board());
   muscle.start(Verb::power, always(4.0));
   run_resting(muscle, 5.0, 0.1, 100.0);
@@ -192,7 +192,7 @@ TEST(LostContact, OfASlowMuscleThatRestsAgainAndAgainIsFoundOrItIsHeldToTheSafeP
   CHECK(muscle.rig.fault() == Fault::heater_not_responding || muscle.limited);
 }
 
-TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsHeldAtAPower) {
+TEST(LostContact, IsFoundAtConstantPower) {
   for (const double power_W : {1.5, 3.0, 4.0}) {
     for (const double moment_s : {15.0, 15.3, 15.6}) {
       LostContact muscle(deaf_board(true));
@@ -205,7 +205,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsHeldAtAPower) {
   }
 }
 
-TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItHoldsAPosition) {
+TEST(LostContact, IsFoundAtAConstantPosition) {
   for (const double controller : {0.0, 1.0, 2.0}) {
     for (const double position_m : {0.010, 0.020}) {
       LostContact muscle(deaf_board(true));
@@ -219,7 +219,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItHoldsAPosition) {
   }
 }
 
-TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
+TEST(LostContact, IsFoundInASlowRamp) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::power, [](double t) { return std::min(4.0, 0.04 * t); });
   muscle.run(20.0);
@@ -228,7 +228,7 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
   check_found(muscle, 120.0);
 }
 
-TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
+TEST(LostContact, IsNotReportedWhenIdentifyMeasuredTheFriction) {
   // As if all of a small motion arrived: the proof fails, power is cut to zero, then limited.
   LostContact unmeasured(rubbing_board(0.002, 0.0));
   unmeasured.start(Verb::power, always(1.5));
@@ -247,7 +247,7 @@ TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
   check_found(measured, 120.0);
 }
 
-TEST(LostContact, WhereFrictionSwallowsADitherIsNotAskedForAtTheSafePower) {
+TEST(LostContact, NoDitherAtTheSafePowerWhenFrictionHidesIt) {
   LostContact muscle(rubbing_board(0.01, 0.001));
   muscle.start(Verb::power, always(3.0));
   muscle.run(60.0);
@@ -259,7 +259,7 @@ TEST(LostContact, WhereFrictionSwallowsADitherIsNotAskedForAtTheSafePower) {
   LONGS_EQUAL(0, muscle.dithers);
 }
 
-TEST(LostContact, IsAlsoThatOfABlockedMuscle) {
+TEST(LostContact, IsFoundForABlockedMuscle) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::position, always(0.015));
   muscle.run(15.0);
@@ -268,7 +268,7 @@ TEST(LostContact, IsAlsoThatOfABlockedMuscle) {
   check_found(muscle, 120.0);
 }
 
-TEST(LostContact, RowsSayThatTheProofIsOff) {
+TEST(LostContact, RowsReportThatTheProofIsOff) {
   for (const bool wanted : {true, false}) {
     test::RigSettings settings = deaf_board(true);
     settings.firmware.channels[Rig::tested].supervision.proof_of_response = wanted;
@@ -277,7 +277,7 @@ TEST(LostContact, RowsSayThatTheProofIsOff) {
   }
 }
 
-TEST(LostContact, IsNoneWhereAMuscleIsWrappedAndItsPositionShowsIt) {
+TEST(LostContact, IsNotReportedForAWrappedMuscle) {
   LostContact held(deaf_board(true));
   held.start(Verb::position, always(0.018));
   held.run(15.0);
@@ -294,7 +294,7 @@ TEST(LostContact, IsNoneWhereAMuscleIsWrappedAndItsPositionShowsIt) {
   CHECK_COMPARE(driven.hottest_C, <, 160.0);
 }
 
-TEST(LostContact, IsNoneWhileALivingMuscleIsHeldInADraught) {
+TEST(LostContact, IsNotReportedInADraught) {
   for (const double controller : {0.0, 1.0, 2.0}) {
     LostContact muscle(deaf_board(true));
     muscle.rig.send(Verb::controller, controller);
@@ -312,7 +312,7 @@ TEST(LostContact, IsNoneWhileALivingMuscleIsHeldInADraught) {
 
 /// The jump of a still position by a new scale is not a response. Without the proof the muscle
 /// would reach 148 °C meanwhile.
-TEST(LostContact, IsNotHiddenByScalesThatAreTold) {
+TEST(LostContact, IsNotHiddenByScaleCommands) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::power, always(3.0));
   muscle.run(20.0);
@@ -327,7 +327,7 @@ TEST(LostContact, IsNotHiddenByScalesThatAreTold) {
   CHECK_COMPARE(muscle.hottest_C, <, 120.0);
 }
 
-TEST(LostContact, IsProvenByTheMotionOfASineWithoutADither) {
+TEST(LostContact, SineMotionProvesContactWithoutADither) {
   LostContact muscle(deaf_board(true));
   muscle.rig.send(Verb::controller, 2.0);
   muscle.start(Verb::position, [](double t) { return 0.011 + 0.009 * std::sin(0.25 * t); });
@@ -337,7 +337,7 @@ TEST(LostContact, IsProvenByTheMotionOfASineWithoutADither) {
   CHECK_FALSE(muscle.limited);
 }
 
-TEST(LostContact, OfASlowMuscleIsFoundWhileItIsHeldAtAPower) {
+TEST(LostContact, IsFoundForASlowMuscleAtConstantPower) {
   for (const double power_W : {2.0, 3.0, 4.0}) {
     for (const double moment_s : {100.0, 101.7, 103.3}) {
       LostContact muscle(slow_board());
@@ -352,7 +352,7 @@ TEST(LostContact, OfASlowMuscleIsFoundWhileItIsHeldAtAPower) {
   }
 }
 
-TEST(LostContact, OfASlowMuscleIsNoneInADraughtAndFoundWhileItHoldsAPosition) {
+TEST(LostContact, IsFoundForASlowMuscleAndNotConfusedWithADraught) {
   for (const double controller : {0.0, 1.0, 2.0}) {
     LostContact muscle(slow_board());
     muscle.rig.send(Verb::controller, controller);
@@ -370,7 +370,7 @@ TEST(LostContact, OfASlowMuscleIsNoneInADraughtAndFoundWhileItHoldsAPosition) {
   }
 }
 
-TEST(LostContact, IsNoneWhereASlowMuscleIsHeldForLong) {
+TEST(LostContact, IsNotReportedForASlowMuscleHeldForMinutes) {
   LostContact muscle(slow_board());
   muscle.start(Verb::power, always(2.5));
   muscle.run(400.0);

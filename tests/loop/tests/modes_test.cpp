@@ -72,7 +72,7 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
   }
 }
 
-TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
+TEST(Modes, DerivedGainsUseTheIdentifiedMuscle) {
   const Ending ended = ending(
       identify +
       "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 83.0\noperator.action = 'track'\n");
@@ -84,7 +84,7 @@ TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
   DOUBLES_EQUAL(8.0 * 322.09, ended.proportional_W_per_m, 0.05 * 8.0 * 322.09);
 }
 
-TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
+TEST(Modes, IdentifyMeasuresTheResponseRatioOfSmallMotions) {
   const Ending smooth = ending(identify);
   CHECK(smooth.learned.has_value());
   DOUBLES_EQUAL(1.0, smooth.learned->response_ratio, 0.06);
@@ -107,7 +107,7 @@ TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
 }
 
 /// The first strokes do not fit one muscle, so shorter ones follow: they find the present muscle.
-TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
+TEST(Modes, IdentifyFindsTheMuscleAfterAChange) {
   for (const int at_s : {20, 28, 36, 44}) {
     const Ending ended = ending(identify + "[[event]]\nat_s = " + std::to_string(at_s) +
                                 "\nplant.stiffness_N_per_m = 11.0\n");
@@ -126,7 +126,7 @@ TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
   }
 }
 
-TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesAgainAndAgain) {
+TEST(Modes, IdentifyStoresNothingWhenTheMuscleKeepsChanging) {
   for (const int at_s : {20, 28, 36, 44}) {
     std::string events;
     for (int i = 0; i < 30; ++i) {
@@ -138,7 +138,7 @@ TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesAgainAndAgain) {
 }
 
 /// A time constant of 270 s: after the full strokes there is no time for enough shorter ones.
-TEST(Modes, APoorFitIsToldAlsoWhereShorterStrokesTellNothing) {
+TEST(Modes, PoorFitIsReportedEvenIfShorterStrokesDoNotHelp) {
   const Ending ended = check_nothing(
       "poor_fit",
       "simulation.duration_s = 2600.0\noperator.action = 'identify'\n[plant]\n"
@@ -146,7 +146,7 @@ TEST(Modes, APoorFitIsToldAlsoWhereShorterStrokesTellNothing) {
   STRCMP_CONTAINS("theta3_uncertain", ended.notes.c_str());
 }
 
-TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
+TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsImplausible) {
   const Ending ended = check_nothing("implausible",
                                      "simulation.duration_s = 85.0\noperator.action = 'identify'\n"
                                      "[muscle]\nstiffness_N_per_m = 200.0\n");
@@ -162,7 +162,7 @@ TEST(Modes, IdentifyFindsTheMuscleThroughNoise) {
     DOUBLES_EQUAL(truth[i], found[i], 0.08 * truth[i]);
 }
 
-TEST(Modes, WhatIsNotKnownOfTheThermalMassStaysAsBelieved) {
+TEST(Modes, IdentifyKeepsTheConfiguredTheta1WhenItIsUncertain) {
   const Ending ended =
       ending(identify + "[sensor.position]\nnoise_rms_m = 4e-3\nresolution_bits = 10\n");
   STRCMP_EQUAL("found", ended.result.c_str());
@@ -208,7 +208,7 @@ TEST(Modes, CalibrateFindsZeroAndColdResistance) {
 
 /// Except for a heater whose resistance tells its temperature, or a sensor with too few steps to
 /// show a motion of half a millimetre.
-TEST(Modes, TheZeroOfAStillMuscleIsTakenBeforeItMustBeCold) {
+TEST(Modes, AStillMuscleNeedNotBeColdForItsZero) {
   const auto hottest_C = [](const std::string& plant) {
     const auto scenario = parse_scenario(calibrate + "[plant]\n" + plant, "modes.toml");
     if (!scenario) FAIL(config::to_text(scenario.error()).c_str());

@@ -28,7 +28,7 @@ void check_cools(Rig& rig, Fault expected) {
 
 TEST_GROUP(NotANumber){};
 
-TEST(NotANumber, FromAController) {
+TEST(NotANumber, FromAControllerIsAFault) {
   for (const double gain : {std::nan(""), std::numeric_limits<double>::max()}) {
     RigSettings settings = rough_board();
     settings.firmware.channels[0].controllers[0].pi.proportional_W_per_m = gain;
@@ -46,7 +46,7 @@ TEST(NotANumber, FromAController) {
   }
 }
 
-TEST(NotANumber, FromAScalingThatIsNone) {
+TEST(NotANumber, FromAScalingIsAFault) {
   struct Spoilt {
     void (*spoil)(RigSettings&);
     Fault expected;

@@ -24,7 +24,7 @@ TEST_GROUP(Senses) {
   Rig rig{rough_board()};
 };
 
-TEST(Senses, TheSelfTestLooksAtTheCurrentOfEveryChannel) {
+TEST(Senses, SelfTestChecksTheCurrentOfEveryChannel) {
   for (const std::size_t broken : {0U, 1U}) {
     Rig each(rough_board());
     each.board.channel(broken).faults.switch_stuck_on = true;
@@ -35,7 +35,7 @@ TEST(Senses, TheSelfTestLooksAtTheCurrentOfEveryChannel) {
   }
 }
 
-TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
+TEST(Senses, SelfTestWaitsForTheFirstCurrentOfEveryChannel) {
   for (const std::size_t late : {0U, 1U}) {
     Rig each(rough_board());
     each.board.channel(late).current.set({.status = hal::Status::not_ready});
@@ -52,7 +52,7 @@ TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
   }
 }
 
-TEST(Senses, AProbeFindsABrokenWireFromFourTimesTheColdResistanceOn) {
+TEST(Senses, AProbeReportsAnOpenHeaterAboveFourTimesTheColdResistance) {
   for (const double times : {3.3, 4.7}) {
     RigSettings settings = rough_board();
     settings.board.channels[0].resistance_Ohm *= times;
@@ -82,7 +82,7 @@ TEST(Senses, APositionOutOfRangeIsNotUsed) {
   CHECK(rig.last_refusal == Refusal::none);
 }
 
-TEST(Senses, PowerIsReportedWhenItActsAndNotWhenItIsSet) {
+TEST(Senses, ReportedPowerIncludesThePwmDelay) {
   constexpr int delay_ticks = 7;
   RigSettings settings = rough_board();
   settings.firmware.channels[0].heater.delay_s = delay_ticks * settings.firmware.step_s();
@@ -103,7 +103,7 @@ TEST(Senses, PowerIsReportedWhenItActsAndNotWhenItIsSet) {
   DOUBLES_EQUAL(late.muscle().true_power_W(), late.snapshot().applied_W, 0.1);
 }
 
-TEST(Senses, PeriodsThatAreLeftOutCountForTheTemperatureToo) {
+TEST(Senses, SkippedPeriodsCountInTheTemperature) {
   Rig slow(rough_board());
   for (Rig* each : {&rig, &slow})
     each->run(0.5);
@@ -117,7 +117,7 @@ TEST(Senses, PeriodsThatAreLeftOutCountForTheTemperatureToo) {
   DOUBLES_EQUAL(rig.snapshot().hottest_C, slow.snapshot().hottest_C, 0.1);
 }
 
-TEST(Senses, PeriodsThatAreLeftOutAreHeatedByAllThatMayHaveActed) {
+TEST(Senses, SkippedPeriodsAssumeTheHighestPossiblePower) {
   Rig slow(rough_board());
   for (Rig* each : {&rig, &slow}) {
     each->boot();

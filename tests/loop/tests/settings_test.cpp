@@ -54,7 +54,7 @@ TEST_GROUP(Settings) {
   }
 };
 
-TEST(Settings, AreReadByEverybody) {
+TEST(Settings, AreReadableWithoutALease) {
   rig.run(0.1);
   DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
   DOUBLES_EQUAL(100.0, read(position_rate), 0.0);
@@ -66,7 +66,7 @@ TEST(Settings, AreReadByEverybody) {
   CHECK(refusal_in(rig.ask_setting(read_frame(telemetry::run_settings))) == Refusal::out_of_range);
 }
 
-TEST(Settings, AreWrittenUnderTheLeaseOnly) {
+TEST(Settings, AreWritableOnlyUnderTheLease) {
   rig.run(0.1);
   CHECK(write(max_power, 1.0F) == Refusal::no_lease);
   CHECK(rig.claim(master) == Refusal::none);
@@ -80,7 +80,7 @@ TEST(Settings, AreWrittenUnderTheLeaseOnly) {
   DOUBLES_EQUAL(1.0, read(max_power), 0.0);
 }
 
-TEST(Settings, ShareTheSequenceOfCommands) {
+TEST(Settings, ShareTheCommandCounter) {
   rig.run(0.1);
   rig.claim(master);
   const hal::CanFrame once = master.setting(max_power, 1.0F);
@@ -90,7 +90,7 @@ TEST(Settings, ShareTheSequenceOfCommands) {
   CHECK(write(max_power, 2.0F) == Refusal::none);
 }
 
-TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
+TEST(Settings, MaxPowerTakesEffectAtOnceAndCannotExceedTheConfigured) {
   rig.start(master);
   CHECK(rig.command(master, Verb::power, 2.0F) == Refusal::none);
   rig.run(0.1);
@@ -114,7 +114,7 @@ TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
   DOUBLES_EQUAL(configured_W, read(max_power), 0.0);
 }
 
-TEST(Settings, TheConfiguredPowerIsObeyedThoughAsAFloatItIsALittleMore) {
+TEST(Settings, TheConfiguredPowerIsAcceptedDespiteFloatRounding) {
   RigSettings settings = rough_board();
   settings.firmware.channels[0].limiter.max_W = 2.15;
   CanRig small(settings);
@@ -124,7 +124,7 @@ TEST(Settings, TheConfiguredPowerIsObeyedThoughAsAFloatItIsALittleMore) {
   DOUBLES_EQUAL(2.15, small.loop.channel(0).max_power_W(), 0.0);
 }
 
-TEST(Settings, AMessageComesAsOftenAsItIsWritten) {
+TEST(Settings, AMessageIsSentAtItsWrittenRate) {
   rig.run(0.1);
   rig.claim(master);
   CHECK(write(position_rate, 20.0F) == Refusal::none);
@@ -139,7 +139,7 @@ TEST(Settings, AMessageComesAsOftenAsItIsWritten) {
   LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_MEASUREMENT_FRAME_ID]);
 }
 
-TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
+TEST(Settings, RatesCannotSilenceTheHeartbeatOrOverloadTheBus) {
   rig.run(0.1);
   rig.claim(master);
   constexpr std::uint8_t heartbeat = rate_of(telemetry::Message::status);
@@ -155,7 +155,7 @@ TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
   CHECK(telemetry::bus_load(rig.link.publisher().rates_Hz(), rig.can.bit_rate) <= rig.can.max_load);
 }
 
-TEST(Settings, TheSensesAreOnlyRead) {
+TEST(Settings, SenseGainsAreReadOnly) {
   rig.run(0.1);
   rig.claim(master);
   for (std::uint8_t i = telemetry::supply_gain; i < telemetry::run_settings; ++i) {
@@ -165,7 +165,7 @@ TEST(Settings, TheSensesAreOnlyRead) {
   }
 }
 
-TEST(Settings, DamagedWritesAreNotObeyedAndCount) {
+TEST(Settings, DamagedWritesAreIgnoredAndCounted) {
   rig.run(16.0);
   rig.claim(master);
   for (int bit = 0; bit < 64; ++bit) {
@@ -178,7 +178,7 @@ TEST(Settings, DamagedWritesAreNotObeyedAndCount) {
   CHECK(rig.fault() == Fault::command_damaged);
 }
 
-TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
+TEST(Settings, LearnedMuscleIsStoredOnlyWhenTrustedAndClearedAnyTime) {
   rig.start(master);
   CHECK(rig.command(master, Verb::store, 1.0F) == Refusal::not_ready);
   CHECK(rig.command(master, Verb::store, 0.5F) == Refusal::out_of_range);

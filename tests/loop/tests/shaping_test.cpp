@@ -89,7 +89,7 @@ double believed_held_m(const std::string& conditions, bool identified = false) {
 
 TEST_GROUP(Shaping){};
 
-TEST(Shaping, MuscleKeepsToAShapedFallAndItIsSaidWhy) {
+TEST(Shaping, MuscleFollowsAShapedFallLimitedByCooling) {
   const Fall plain = fall("");
   LONGS_EQUAL(0, plain.cooling);
   CHECK(plain.lacking > 500);
@@ -100,7 +100,7 @@ TEST(Shaping, MuscleKeepsToAShapedFallAndItIsSaidWhy) {
 }
 
 /// The model goes there for as long as the heat allows, and then returns to what can be held.
-TEST(Shaping, MuscleStaysWhereItIsHeldForGoodAndItIsSaidWhy) {
+TEST(Shaping, ReferenceIsLimitedToWhatTheTemperatureAllows) {
   const Held held = held_at(0.027, "");
   CHECK(held.fault == Fault::none);
   CHECK(held.by == LimitedBy::temperature);
@@ -109,7 +109,7 @@ TEST(Shaping, MuscleStaysWhereItIsHeldForGoodAndItIsSaidWhy) {
   CHECK(held.furthest_m < 0.1e-3);
 }
 
-TEST(Shaping, IdentifiedMuscleStaysWhereItCanProveThatItAnswers) {
+TEST(Shaping, ReferenceIsLimitedToWhatTheProofAllows) {
   const std::string noisy =
       "thermal.power_ratio = [0.75, 1.0]\nsensor.position.noise_rms_m = 100e-6\n";
   const Held held = held_at(0.011, noisy, true);
@@ -120,7 +120,7 @@ TEST(Shaping, IdentifiedMuscleStaysWhereItCanProveThatItAnswers) {
 }
 
 /// A muscle that does not do what its model does is not the reference's fault, and is still found.
-TEST(Shaping, MuscleThatIsWeakerThanItIsKnownIsStillFoundOut) {
+TEST(Shaping, AWeakerMuscleThanConfiguredIsStillDetected) {
   const Held held = held_at(
       0.027, "plant.force_per_kelvin_N_per_K = 0.0077\nmuscle.force_per_kelvin_N_per_K = 0.0086\n");
   CHECK(held.fault == Fault::controller_invalid);

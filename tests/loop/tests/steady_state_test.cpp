@@ -45,7 +45,7 @@ TEST_GROUP(SteadyHeatRead) {
   }
 };
 
-TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
+TEST(SteadyHeatRead, NarrowsTheIntervalAndIsStored) {
   rig().hold_power(1.5, 24.0);
   const double wide_K = width_K();
   check(Refusal::none, read(true_rise_K() + 0.9));
@@ -70,7 +70,7 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
 }
 
 /// The reading was taken with the senses as they were corrected at that time.
-TEST(SteadyHeatRead, IsForgottenWhereTheSensesAreComparedAnew) {
+TEST(SteadyHeatRead, IsForgottenWhenTheSensesAreComparedAgain) {
   rig().hold_power(1.5, 24.0);
   check(Refusal::none, read(true_rise_K()));
   CHECK(update()->heat.has_reading());
@@ -87,7 +87,7 @@ TEST(SteadyHeatRead, IsForgottenWhereTheSensesAreComparedAnew) {
 }
 
 /// The reading was taken at a power that compared senses reported.
-TEST(SteadyHeatRead, NarrowsNothingWhereTheSensesAreNotCompared) {
+TEST(SteadyHeatRead, NarrowsNothingWithUncomparedSenses) {
   settings.firmware.channels[0].senses = {};
   const auto hottest_C = [&](const board::ThermalFacts& heat) {
     settings.firmware.channels[0].heat = heat;
@@ -103,7 +103,7 @@ TEST(SteadyHeatRead, NarrowsNothingWhereTheSensesAreNotCompared) {
   DOUBLES_EQUAL(hottest_C({}), hottest_C(read), 0.5);
 }
 
-TEST(SteadyHeatRead, IsRefusedWhereTheMuscleMayNotBeInSteadyHeat) {
+TEST(SteadyHeatRead, IsRefusedUnlessTheMuscleIsInSteadyHeat) {
   check(Refusal::wrong_state, read(20.0));
   rig().hold_power(1.0, 24.0);
   rig().hold_power(1.5, 20.0);
@@ -123,7 +123,7 @@ TEST(SteadyHeatRead, NeedsComparedSenses) {
   check(Refusal::not_ready, read(true_rise_K()));
 }
 
-TEST(SteadyHeatRead, IsForgottenOnDemandAndWithTheComparisonOfTheSenses) {
+TEST(SteadyHeatRead, IsForgottenOnRequestAndWithTheSenseComparison) {
   for (const Verb verb : {Verb::compare_rise, Verb::compare_supply, Verb::store}) {
     rig_.reset();
     rig().hold_power(1.5, 24.0);

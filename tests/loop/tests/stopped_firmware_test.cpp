@@ -17,7 +17,7 @@ constexpr hal::Duration decay = std::chrono::milliseconds(20);
 TEST_GROUP(StoppedFirmware){};
 TEST_GROUP(SelfTestPower){};
 
-TEST(StoppedFirmware, BetweenAnyTwoTicksLeavesTheSupplyOpenWithinTheDecay) {
+TEST(StoppedFirmware, BetweenAnyTwoTicksOpensTheSupplyWithinTheDecay) {
   for (const SituationName& s : situations) {
     for (int after = 0; after < 25; ++after) {
       Rig rig(rough_board());
@@ -45,7 +45,7 @@ TEST(StoppedFirmware, DuringTheSelfTestLeavesTheSupplyOpen) {
   }
 }
 
-TEST(StoppedFirmware, ThatGoesOnAfterAStallHasAFaultAndDoesNotHeat) {
+TEST(StoppedFirmware, ThatResumesAfterAStallHasAFaultAndDoesNotHeat) {
   // After seconds the muscle has cooled, which only a firmware that counts them knows.
   for (const double stall_s : {0.05, 0.5, 5.0}) {
     Rig rig(rough_board());
@@ -61,7 +61,7 @@ TEST(StoppedFirmware, ThatGoesOnAfterAStallHasAFaultAndDoesNotHeat) {
   }
 }
 
-TEST(StoppedFirmware, ForFewerPeriodsThanAreToleratedKeepsTheTemperatureInItsInterval) {
+TEST(StoppedFirmware, ForToleratedOverrunsKeepsTheTemperatureInItsInterval) {
   for (const double boot_rise_K : {135.0, 0.5}) {
     RigSettings settings = rough_board();
     settings.firmware.channels[0].thermal.boot_rise_K = boot_rise_K;
@@ -81,7 +81,7 @@ TEST(StoppedFirmware, ForFewerPeriodsThanAreToleratedKeepsTheTemperatureInItsInt
   }
 }
 
-TEST(SelfTestPower, IsNoMoreThanAProbesOnABoardThatDoesNotCut) {
+TEST(SelfTestPower, IsAtMostAProbesPowerWhenTheCutOffFails) {
   for (const bool pump_stuck : {true, false}) {
     const RigSettings settings = rough_board();
     const HeaterSettings& heater = settings.firmware.channels[0].heater;

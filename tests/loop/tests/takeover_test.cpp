@@ -127,7 +127,7 @@ TEST(Takeover, FromOpenLoopDoesNotJerkTheMuscle) {
 }
 
 /// Gains derived from the muscle use the one that is known when the controller starts.
-TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
+TEST(Takeover, StoredMuscleTakesEffectAtTheNextStart) {
   RigSettings settings = rough_board();
   ChannelSettings& channel = settings.firmware.channels[Rig::tested];
   channel.controllers.resize(1);

@@ -134,7 +134,7 @@ TEST(TrajectoryOverCan, IsPlayedFollowedAndHeldAtItsEnd) {
 }
 
 // However slow a reference model is: that of PI needs 4 s for a step.
-TEST(TrajectoryOverCan, LeadsTheReferenceModelFromKnotToKnot) {
+TEST(TrajectoryOverCan, ReferenceModelFollowsTheKnots) {
   CHECK(knot(master, 0.0, 0.005) == Refusal::none);
   CHECK(knot(master, 1.0, 0.0055, 0.001) == Refusal::none);
   CHECK(knot(master, 1.0, 0.006) == Refusal::none);
@@ -151,7 +151,7 @@ TEST(TrajectoryOverCan, LeadsTheReferenceModelFromKnotToKnot) {
   DOUBLES_EQUAL(reference_m(), rig.loop.channel(0).snapshot().model_m, 15e-6);
 }
 
-TEST(TrajectoryOverCan, TwoChannelsStartInTheTickThatOneSyncTells) {
+TEST(TrajectoryOverCan, TwoChannelsStartInTheSameTickAfterASync) {
   load(master);
   load(second, 0.005, 0.0055);
   for (Master* who : {&master, &second})
@@ -170,7 +170,7 @@ TEST(TrajectoryOverCan, TwoChannelsStartInTheTickThatOneSyncTells) {
   DOUBLES_EQUAL((reference_m() - 0.005) / 0.001, (reference_m(1) - 0.005) / 0.0005, 1e-6);
 }
 
-TEST(TrajectoryOverCan, StartsBySyncThatCameBefore) {
+TEST(TrajectoryOverCan, StartsByAnEarlierSync) {
   load(master);
   rig.bus.deliver(sync_frame(200, 50.0));
   renew(0.1);
@@ -178,7 +178,7 @@ TEST(TrajectoryOverCan, StartsBySyncThatCameBefore) {
   CHECK(state() == PlaybackState::waiting);
 }
 
-TEST(TrajectoryOverCan, ASyncOfAnEarlierProgramStartsNothing) {
+TEST(TrajectoryOverCan, AStaleSyncDoesNotStartPlayback) {
   load(master);
   load(second);
   rig.bus.deliver(sync_frame(200, 50.0));
@@ -199,7 +199,7 @@ TEST(TrajectoryOverCan, ASyncOfAnEarlierProgramStartsNothing) {
   CHECK(state(1) == PlaybackState::playing);
 }
 
-TEST(TrajectoryOverCan, AnotherPlayIsInPlaceOfOneThatWaits) {
+TEST(TrajectoryOverCan, ANewPlayReplacesAWaitingOne) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_sync, 9, 0.05)) == Refusal::none);
   CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
@@ -231,7 +231,7 @@ TEST(TrajectoryOverCan, FollowsTheMastersClock) {
   DOUBLES_EQUAL(9.0 + 0.008, (reference_m() - first_m) / velocity, 0.0002);
 }
 
-TEST(TrajectoryOverCan, AMasterThatDiesInTheMiddleLetsTheMuscleCool) {
+TEST(TrajectoryOverCan, PlaybackStopsWhenTheMasterFallsSilent) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_once, 0, 0.0)) == Refusal::out_of_range);
   CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
@@ -241,7 +241,7 @@ TEST(TrajectoryOverCan, AMasterThatDiesInTheMiddleLetsTheMuscleCool) {
   CHECK(state() == PlaybackState::empty);
 }
 
-TEST(TrajectoryOverCan, KnotsAloneKeepItGoingAndWithoutThemItRestsAfterASecond) {
+TEST(TrajectoryOverCan, KnotsRenewThePlaybackAndItRestsASecondAfterTheLastKnot) {
   CHECK(knot(master, 0.0, 0.005) == Refusal::none);
   double position_m = 0.005;
   for (int i = 0; i < 3; ++i)
@@ -265,7 +265,7 @@ TEST(TrajectoryOverCan, KnotsAloneKeepItGoingAndWithoutThemItRestsAfterASecond) 
   CHECK(state() == PlaybackState::empty);
 }
 
-TEST(TrajectoryOverCan, AnotherCommandForgetsIt) {
+TEST(TrajectoryOverCan, AnotherCommandDiscardsIt) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
   renew(0.5);
@@ -282,7 +282,7 @@ TEST(TrajectoryOverCan, AnotherCommandForgetsIt) {
   CHECK(knot(second, 0.0, 0.005) == Refusal::wrong_state);
 }
 
-TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
+TEST(TrajectoryOverCan, NeedsTheLeaseTheSessionAndTheCounter) {
   const hal::CanFrame first = knot_frame(master, 0.0, 0.005);
   CHECK(ask(master, first) == Refusal::none);
   CHECK(ask(master, first) == Refusal::wrong_counter);
@@ -295,7 +295,7 @@ TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
   CHECK(ask(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
 }
 
-TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
+TEST(TrajectoryOverCan, KnotsOfAReplacedMasterAreHarmless) {
   load(master);
   Master replaced = master;
   CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::release_value) == Refusal::none);
@@ -314,7 +314,7 @@ TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
   load(master);
 }
 
-TEST(TrajectoryOverCan, NoDamageOfAFrameIsObeyed) {
+TEST(TrajectoryOverCan, DamagedFramesAreIgnored) {
   load(master);
   const hal::CanFrame good = knot_frame(master, 1.0, 0.005);
   for (unsigned bit = 0; bit < 64; ++bit) {
@@ -337,7 +337,7 @@ TEST(TrajectoryOverCan, NoDamageOfAFrameIsObeyed) {
   CHECK(rig.fault() == Fault::none);
 }
 
-TEST(TrajectoryOverCan, SyncMovesNothingByItself) {
+TEST(TrajectoryOverCan, SyncAloneMovesNothing) {
   for (int i = 0; i < 300; ++i)
     rig.bus.deliver(sync_frame(static_cast<std::uint8_t>(i), 1e6 * (i % 7)));
   renew(0.5);
@@ -354,7 +354,7 @@ TEST(TrajectoryOverCan, SyncMovesNothingByItself) {
   CHECK(reference_m() - before_m < 0.0002);
 }
 
-TEST(TrajectoryOverCan, SyncIsNobodysCommand) {
+TEST(TrajectoryOverCan, SyncDoesNotCountAsACommand) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   rig.bus.deliver(sync_frame(1, 50.0));
@@ -377,7 +377,7 @@ TEST(TrajectoryOverCan, SyncIsNobodysCommand) {
   CHECK(rig.fault() == Fault::command_damaged);
 }
 
-TEST(TrajectoryOverCan, AStartKeepsNoMuscleHot) {
+TEST(TrajectoryOverCan, AStartDoesNotRenewTheCommand) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   CHECK(rig.command(master, Verb::renew) == Refusal::none);
@@ -388,7 +388,7 @@ TEST(TrajectoryOverCan, AStartKeepsNoMuscleHot) {
   CHECK(rig.fault() == Fault::command_timeout);
 }
 
-TEST(TrajectoryOverCan, AStartThatWaitsIsNotTheNextTrajectorys) {
+TEST(TrajectoryOverCan, AWaitingStartDoesNotApplyToTheNextTrajectory) {
   load(master);
   CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);

@@ -81,7 +81,7 @@ TEST_GROUP(TuningOverCan) {
   }
 };
 
-TEST(TuningOverCan, WhatIsPreparedIsUsedWhenItIsTakenOver) {
+TEST(TuningOverCan, PreparedValuesAreUsedAfterTune) {
   rig.run(1.0);
   rig.claim(master);
   const auto value = [&](TuningSet set) { return rig.read(pi_place, "proportional_W_per_m", set); };
@@ -100,7 +100,7 @@ TEST(TuningOverCan, WhatIsPreparedIsUsedWhenItIsTakenOver) {
   DOUBLES_EQUAL(configured, value(TuningSet::in_use), 0.0);
 }
 
-TEST(TuningOverCan, AControllerAtWorkTakesItsGainsOverWithoutAJump) {
+TEST(TuningOverCan, ARunningControllerChangesItsGainsWithoutAJump) {
   rig.start(master);
   rig.command(master, Verb::controller, pi_place);
   follow(30.0);
@@ -122,7 +122,7 @@ TEST(TuningOverCan, AControllerAtWorkTakesItsGainsOverWithoutAJump) {
   CHECK(rig.state() == State::active);
 }
 
-TEST(TuningOverCan, TheLawItselfCanBeExchanged) {
+TEST(TuningOverCan, TheControlLawCanBeReplaced) {
   rig.start(master);
   CHECK(rig.write(master, pi_place, "kind", 5.0F) == Refusal::none);
   CHECK(rig.write(master, pi_place, "bandwidth_rad_per_s", 6.1F) == Refusal::none);
@@ -137,7 +137,7 @@ TEST(TuningOverCan, TheLawItselfCanBeExchanged) {
   DOUBLES_EQUAL(0.012, rig.loop.channel(0).snapshot().position_m, 5e-4);
 }
 
-TEST(TuningOverCan, WhatDoesNotWorkIsRefusedAndChangesNothing) {
+TEST(TuningOverCan, UnusableValuesAreRefusedAndChangeNothing) {
   rig.run(1.0);
   rig.claim(master);
   CHECK(rig.write(master, pi_place, "proportional_W_per_m", -1.0F) == Refusal::out_of_range);
@@ -177,7 +177,7 @@ TEST(TuningOverCan, WritingNeedsTheLeaseAndReadingDoesNot) {
   DOUBLES_EQUAL(1.0, rig.read(pi_place, "kind", TuningSet::prepared), 0.0);
 }
 
-TEST(TuningOverCan, WhatIsStoredIsUsedAtTheNextStart) {
+TEST(TuningOverCan, StoredValuesAreUsedAtTheNextStart) {
   rig.run(1.0);
   rig.claim(master);
   CHECK(rig.write(master, pi_place, "integral_W_per_m_s", 700.0F) == Refusal::none);
@@ -208,7 +208,7 @@ TEST(TuningOverCan, WhatIsStoredIsUsedAtTheNextStart) {
   CHECK(next.stored().tuning == board::StoredTuning{});
 }
 
-TEST(TuningOverCan, AnEstimatorBeginsAnewWithItsNewValues) {
+TEST(TuningOverCan, AnEstimatorRestartsWithItsNewValues) {
   rig.start(master);
   follow(30.0);
   const auto theta = [&] { return rig.loop.channel(0).snapshot().theta; };
@@ -236,7 +236,7 @@ TEST(TuningOverCan, AnEstimatorBeginsAnewWithItsNewValues) {
   LONGS_EQUAL(1, channel.configured_estimators.size());
 }
 
-TEST(TuningOverCan, AnEstimatorBecomesAnother) {
+TEST(TuningOverCan, AnEstimatorCanBeReplaced) {
   rig.run(1.0);
   rig.claim(master);
   CHECK(rig.write(master, estimator_place, "kind", 2.0F) == Refusal::none);

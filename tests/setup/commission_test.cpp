@@ -28,7 +28,7 @@ Commissioned commissioned(unsigned seed) {
 TEST_GROUP(Commission){};
 
 /// A quick one, a slow one, and three that are not linear, one of which shows little of θ2.
-TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
+TEST(Commission, TracksAsPromisedFromAHalfWrongDescription) {
   for (const unsigned seed : {30U, 37U, 66U, 45U, 73U}) {
     const HeldOut muscle = held_out_muscle(seed, error);
     const Commissioned c = commission(muscle);
@@ -43,7 +43,7 @@ TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
 }
 
 /// A linear model explains too little of their full strokes.
-TEST(Commission, AMuscleFarFromLinearFollowsAsPromisedAfterShorterStrokes) {
+TEST(Commission, ANonlinearMuscleTracksAsPromisedAfterShorterStrokes) {
   for (const unsigned seed : {1035U, 1097U, 1191U}) {
     const Commissioned c = commission(held_out_muscle(seed, error));
     STRCMP_EQUAL("", c.refused.c_str());
@@ -54,14 +54,14 @@ TEST(Commission, AMuscleFarFromLinearFollowsAsPromisedAfterShorterStrokes) {
 }
 
 /// Full strokes leave its theta3 uncertain, however often they are repeated.
-TEST(Commission, AMuscleThatStaysUncertainFollowsAsPromisedAfterShorterStrokes) {
+TEST(Commission, AnUncertainMuscleTracksAsPromisedAfterShorterStrokes) {
   const Commissioned c = commissioned(1043);
   STRCMP_EQUAL("", c.refused.c_str());
   CHECK(c.error_m <= c.promised_m);
 }
 
 /// The strokes that found it agree within a few percent; the full ones say otherwise.
-TEST(Commission, WhatShorterStrokesFoundIsAsUncertainAsTheFullOnesMakeIt) {
+TEST(Commission, ShorterStrokesKeepTheUncertaintyOfTheFullOnes) {
   HeldOutBoard board(held_out_muscle(1097, error), "learned_ff", 0.02);
   Nobody nobody;
   operating::Commission steps = board.steps(nobody);
@@ -72,7 +72,7 @@ TEST(Commission, WhatShorterStrokesFoundIsAsUncertainAsTheFullOnesMakeIt) {
 }
 
 /// Short strokes of such a muscle show a time constant that is too short.
-TEST(Commission, HowFastItCoolsIsLearnedOfItsFullStrokesAlone) {
+TEST(Commission, TimeConstantIsLearnedFromFullStrokesOnly) {
   const auto learned_s = [](const std::string& event) {
     HeldOut muscle = held_out_muscle(1097, error);
     muscle.scenario += event;
@@ -89,7 +89,7 @@ TEST(Commission, HowFastItCoolsIsLearnedOfItsFullStrokesAlone) {
                 learned_s("[[event]]\nat_s = 90.0\nplant.heat_transfer_W_per_K = 0.2\n"), 0.0);
 }
 
-TEST(Commission, WhatIsSaidOfTheFirstMotionIsWhatIsPlanned) {
+TEST(Commission, DescriptionOfTheFirstMotionMatchesThePlan) {
   Feasibility feasibility{};
   feasibility.travel_m = 1.0;
   const FirstMotion motion = plan_first_motion(feasibility, 0.0);
@@ -100,7 +100,7 @@ TEST(Commission, WhatIsSaidOfTheFirstMotionIsWhatIsPlanned) {
 }
 
 /// A fiftieth of the supply's power moves it by millimetres.
-TEST(Commission, AMuscleFollowsAsPromisedThroughACoarsePwm) {
+TEST(Commission, TracksAsPromisedWithACoarsePwm) {
   HeldOut muscle = held_out_muscle(36, 0.1);
   const Commissioned fine = commission(muscle);
   muscle.board = {{"pwm.steps", "50", ""}, {"heater.error_feedback", "false", ""}};
@@ -113,21 +113,21 @@ TEST(Commission, AMuscleFollowsAsPromisedThroughACoarsePwm) {
   DOUBLES_EQUAL(fine.promised_m, fed_back.promised_m, 0.1e-6);
 }
 
-TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {
+TEST(Commission, NothingIsPromisedForAnUntestedControlLaw) {
   const Commissioned c = commission(held_out_muscle(24, error), "adaptive_ff");
   STRCMP_EQUAL("", c.refused.c_str());
   CHECK(std::isnan(c.promised_m));
   CHECK(c.error_m > 0.0);
 }
 
-TEST(Commission, AMuscleThatIsNoneOfItsModelsIsRefusedWithItsReason) {
+TEST(Commission, AMuscleThatFitsNoModelIsRefusedWithTheReason) {
   const Commissioned c = commissioned(69);
   STRCMP_CONTAINS("identify ended: poor_fit", c.refused.c_str());
   STRCMP_CONTAINS("; docs/troubleshooting.md says what to do", c.refused.c_str());
   CHECK(c.fault == Fault::none);
 }
 
-TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
+TEST(Commission, AFaultDuringIdentifyIsReportedWithItsPage) {
   HeldOut muscle = held_out_muscle(24, error);
   muscle.scenario += "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n";
   const Commissioned c = commission(muscle);
@@ -138,7 +138,7 @@ TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
 }
 
 /// A time constant of 56 s, and senses never compared with a meter: a motion of some 20 um.
-TEST(Commission, AMotionThatStandingStillWouldFollowAsWellIsSaid) {
+TEST(Commission, ReportsAMotionTooSmallToShowTracking) {
   for (const bool small : {true, false}) {
     HeldOutBoard board(small ? held_out_muscle(2002, error, 5.0) : held_out_muscle(24, error),
                        "learned_ff", small ? 0.0 : 0.02);
@@ -157,7 +157,7 @@ TEST(Commission, AMotionThatStandingStillWouldFollowAsWellIsSaid) {
 }
 
 /// Time constants of 29, 30, 40 and 58 s; the second one is not linear.
-TEST(Commission, ASlowMuscleFollowsWithinTenMinutesOrFifteenTimeConstants) {
+TEST(Commission, ASlowMuscleTracksWithinTenMinutesOrFifteenTimeConstants) {
   for (const unsigned seed : {2018U, 2031U, 2028U, 2038U}) {
     constexpr double slower = 5.0;
     const HeldOut muscle = held_out_muscle(seed, error, slower);

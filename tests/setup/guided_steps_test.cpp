@@ -117,7 +117,7 @@ return board.link().time_s();
 }
 ;
 
-TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
+TEST(GuidedSteps, MeterReadingsNarrowThePowerBounds) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   Person person(board.link());
   const auto found = board.steps(person).compare_senses();
@@ -133,7 +133,7 @@ TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
   STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
 }
 
-TEST(GuidedSteps, AScriptTellsWhatTheMeterShowsAtBothPowers) {
+TEST(GuidedSteps, AScriptGivesTheMeterReadingsAtBothPowers) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   const double power_W =
       0.8 * operating::plan_comparison("1", board.channel(), board.settings()).power_W;
@@ -145,7 +145,7 @@ TEST(GuidedSteps, AScriptTellsWhatTheMeterShowsAtBothPowers) {
   DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
 }
 
-TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
+TEST(GuidedSteps, AnImpossibleScriptedReadingIsRefusedWithItsRange) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   const double most_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
   const auto refused = [&](const operating::ScriptedAnswers& script) {
@@ -163,7 +163,7 @@ TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
                   refused(meter_readings(most_W, 30.0)).c_str());
 }
 
-TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
+TEST(GuidedSteps, AFaultThatPreventsArmingIsReportedWithItsReset) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   leave_a_command_to_expire(board);
   Person person(board.link());
@@ -179,7 +179,7 @@ TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
   CHECK(board.steps(person).calibrate().has_value());
 }
 
-TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
+TEST(GuidedSteps, AnEarlierFaultIsReportedAndResetOnConfirmation) {
   const std::string told =
       "channel 1: fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: ";
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
@@ -208,20 +208,20 @@ TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
   }
 }
 
-TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
+TEST(GuidedSteps, AContradictoryReadingChangesNothing) {
   ends_with("contradicts the others", [](Person& person) { person.second_reading_ratio = 1.25; });
 }
 
-TEST(GuidedSteps, NobodyIsWaitedForLongerThanFiveMinutesWhileTheMuscleIsHeated) {
+TEST(GuidedSteps, HeatingEndsAfterFiveMinutesWithoutAnAnswer) {
   CHECK(ends_with("no answer within 5 minutes",
                   [](Person& person) { person.reads_looks = 10000; }) < 330.0);
 }
 
-TEST(GuidedSteps, WhoeverIsTiredOfItEndsTheHeating) {
+TEST(GuidedSteps, AnInterruptionEndsTheHeating) {
   CHECK(ends_with("interrupted", [](Person& person) { person.tired = true; }) < 30.0);
 }
 
-TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {
+TEST(GuidedSteps, ASecondKnownPositionGivesTheScale) {
   HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
   Person person(board.link());
   operating::Commission steps = board.steps(person);
@@ -236,7 +236,7 @@ TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {
   STRCMP_CONTAINS("scale of the position: ", person.told().c_str());
 }
 
-TEST(GuidedSteps, AScriptTellsWhereTheEndIsHeld) {
+TEST(GuidedSteps, AScriptGivesTheSecondPosition) {
   HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
   operating::ScriptedAnswers script("answers.toml");
   script.add("scale", "place_mm", {1e6});
@@ -253,7 +253,7 @@ TEST(GuidedSteps, AScriptTellsWhereTheEndIsHeld) {
   DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
 }
 
-TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
+TEST(GuidedSteps, AnImplausibleScaleIsRefused) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   Person person(board.link());
   person.place_mm = 5.0;  // the muscle rests at its zero
@@ -263,7 +263,7 @@ TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
                   found.error().text().c_str());
 }
 
-TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
+TEST(GuidedSteps, TheRecommendedControllerIsAppliedStoredAndTracksAsPromised) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "adaptive_ff", 0.02);
   Person person(board.link());
   person.gains = 1.0;
@@ -303,7 +303,7 @@ TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
   DOUBLES_EQUAL(board.link().time_s() - begin_s, told_s, 3.0);
 }
 
-TEST(GuidedSteps, AControllerThatIsKeptStaysAsItIs) {
+TEST(GuidedSteps, DecliningTheRecommendedControllerChangesNothing) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "adaptive_ff", 0.02);
   Person person(board.link());
   person.gains = 0.0;
@@ -317,7 +317,7 @@ TEST(GuidedSteps, AControllerThatIsKeptStaysAsItIs) {
     DOUBLES_EQUAL(adaptive_ff, tuned(board, "kind", set), 0.0);
 }
 
-TEST(GuidedSteps, NobodyIsAskedAboutAControllerThatSuitsAlready) {
+TEST(GuidedSteps, NoQuestionIfTheRecommendedControllerIsInUse) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   Person person(board.link());
   const auto found = board.steps(person).gains();
@@ -327,7 +327,7 @@ TEST(GuidedSteps, NobodyIsAskedAboutAControllerThatSuitsAlready) {
   STRCMP_CONTAINS("it is in use already", person.told().c_str());
 }
 
-TEST(GuidedSteps, ARecommendedControllerThatCannotRunIsNotOffered) {
+TEST(GuidedSteps, AnUnsuitableRecommendedControllerIsNotOffered) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   Person person(board.link());
   auto now = operating::channel_now(board.link(), "1", board.channel());

@@ -64,7 +64,7 @@ KnownMuscle known_of(const PhysicalParameters& muscle) {
 
 TEST_GROUP(Identified){};
 
-TEST(Identified, EachParameterIsAsSureAsManyMusclesOfSuchAThetaShow) {
+TEST(Identified, DeviationsMatchAMonteCarloSample) {
   const PhysicalParameters muscle;
   const std::array<double, 4> ratios{0.004, 0.01, 0.003, 0.005};
   for (const bool scaled : {false, true}) {
@@ -82,7 +82,7 @@ TEST(Identified, EachParameterIsAsSureAsManyMusclesOfSuchAThetaShow) {
   }
 }
 
-TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
+TEST(Identified, ShowsValuesWithDeviationsAndTheConfiguredValues) {
   ChannelSettings configured;
   PhysicalParameters muscle = configured.muscle;
   muscle.stiffness_N_per_m *= 1.1;
@@ -122,7 +122,7 @@ TEST(Identified, WhatWasFoundStandsWithItsDeviationBesideWhatIsConfigured) {
   CHECK_TRUE(later["stiffness_N_per_m_deviation_ratio"].is_null());
 }
 
-TEST(Identified, AResultThatTheFilesBoundsExcludeIsSaidInOneLine) {
+TEST(Identified, WarnsOfAResultOutsideTheConfiguredBounds) {
   ChannelSettings configured;
   configured.thermal.bounds = {0.1, 0.2, 0.05, 0.12};
   PhysicalParameters muscle = configured.muscle;
@@ -137,7 +137,7 @@ TEST(Identified, AResultThatTheFilesBoundsExcludeIsSaidInOneLine) {
       listener.take().c_str());
 }
 
-TEST(Identified, ABoardThatIdentifiedTellsItOfItself) {
+TEST(Identified, ReportsWhatTheBoardIdentified) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   Listener listener;
   operating::Commission steps = board.steps(listener);

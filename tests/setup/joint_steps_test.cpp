@@ -61,7 +61,7 @@ TEST_GROUP(JointSteps) {
   operating::Commission steps{link, "1", *scenario.board, 0, listener};
 };
 
-TEST(JointSteps, BothMusclesAreMeasuredAndToldAndTheJointFollows) {
+TEST(JointSteps, MeasuresBothMusclesAndTheJointTracks) {
   const auto calibrated = steps.calibrate();
   CHECK_TRUE(calibrated.has_value());
   DOUBLES_EQUAL(10.0, (*calibrated)["cold_resistance_Ohm"].get<double>(), 0.05);
@@ -84,7 +84,7 @@ TEST(JointSteps, BothMusclesAreMeasuredAndToldAndTheJointFollows) {
   CHECK(link.fault() == Fault::none);
 }
 
-TEST(JointSteps, WhoeverIsArmedWaitsForTheSlowerMuscle) {
+TEST(JointSteps, CalibrateWaitsForTheSlowerMuscleToCool) {
   for (const std::size_t slow : {0U, 1U}) {
     const host_sim::Scenario slow_scenario = scenario_on(example(slow));
     host_sim::Simulation slow_simulation{slow_scenario};
@@ -97,7 +97,7 @@ TEST(JointSteps, WhoeverIsArmedWaitsForTheSlowerMuscle) {
   }
 }
 
-TEST(JointSteps, TheAntagonistAloneIsMeasuredByItself) {
+TEST(JointSteps, TheAntagonistCanBeMeasuredAlone) {
   operating::Commission antagonist{link, "2", *scenario.board, 1, listener};
   const auto calibrated = antagonist.calibrate();
   CHECK_TRUE(calibrated.has_value());

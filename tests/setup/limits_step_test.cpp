@@ -80,7 +80,7 @@ TEST_GROUP(LimitsStep) {
   }
 };
 
-TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
+TEST(LimitsStep, AnAnswerReleasesAtOnceAndTheLimitKeepsAMargin) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.002);
   STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
@@ -92,7 +92,7 @@ TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   CHECK(watcher->truth_m() < 0.0019);
 }
 
-TEST(LimitsStep, AScriptLetsGoWhereItSays) {
+TEST(LimitsStep, AScriptGivesTheReleasePosition) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   operating::ScriptedAnswers script("answers.toml");
   script.add("limits", "stop_mm", {2.0});
@@ -106,7 +106,7 @@ TEST(LimitsStep, AScriptLetsGoWhereItSays) {
   STRCMP_EQUAL("disarmed", board->link().status("1")->state.c_str());
 }
 
-TEST(LimitsStep, AScriptedPlaceThatIsNoneIsRefusedBeforeItPulls) {
+TEST(LimitsStep, AnInvalidScriptedPositionIsRefusedBeforeHeating) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   for (const double stop_mm : {1.4, 1e3 * board->channel().supervision.max_travel_m}) {
     operating::ScriptedAnswers script("answers.toml");
@@ -120,7 +120,7 @@ TEST(LimitsStep, AScriptedPlaceThatIsNoneIsRefusedBeforeItPulls) {
   CHECK(board->simulation().plant().temperature_rise_K() < 0.5);
 }
 
-TEST(LimitsStep, ABoardThatWasNeverCalibratedIsSaid) {
+TEST(LimitsStep, WarnsIfTheBoardWasNeverCalibrated) {
   CHECK_TRUE(found(held_out_muscle(24, 0.3), 0.002).has_value());
   STRCMP_CONTAINS("warning: this board was never calibrated", watcher->told.c_str());
   CHECK_TRUE(board->steps(*watcher).calibrate().has_value());
@@ -129,7 +129,7 @@ TEST(LimitsStep, ABoardThatWasNeverCalibratedIsSaid) {
   CHECK_TRUE(watcher->told.find("never calibrated") == std::string::npos);
 }
 
-TEST(LimitsStep, AMuscleThatTouchesSomethingIsLetGoByItself) {
+TEST(LimitsStep, AMuscleThatTouchesSomethingIsReleasedAutomatically) {
   for (const unsigned seed : {24U, 37U, 66U, 45U, 73U}) {
     const auto limits = found(muscle_with(seed, "ceiling_m = 0.002"), INFINITY);
     STRCMP_EQUAL("", limits ? "" : limits.error().text().c_str());
@@ -138,7 +138,7 @@ TEST(LimitsStep, AMuscleThatTouchesSomethingIsLetGoByItself) {
   }
 }
 
-TEST(LimitsStep, NothingIsTouchedByAMuscleThatSlowsDownOnItsWay) {
+TEST(LimitsStep, ASlowingMuscleIsNotMistakenForContact) {
   const HeldOut cooled_better_when_hot = muscle_with(24, "convection_ratio = 1.0");
   for (const HeldOut& muscle : {cooled_better_when_hot, held_out_muscle(37, 0.3),
                                 held_out_muscle(45, 0.3), held_out_muscle(73, 0.3)}) {
@@ -149,14 +149,14 @@ TEST(LimitsStep, NothingIsTouchedByAMuscleThatSlowsDownOnItsWay) {
   }
 }
 
-TEST(LimitsStep, APlaceThatLeavesNoTravelIsRefused) {
+TEST(LimitsStep, APositionThatLeavesNoTravelIsRefused) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.0012);
   CHECK_FALSE(limits.has_value());
   STRCMP_CONTAINS("leaves no travel, less than 1 mm; nothing changed",
                   limits.error().text().c_str());
 }
 
-TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
+TEST(LimitsStep, ReleasingWithoutALimitChangesNothing) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.002, 0.0);
   CHECK(limits.has_value() && !limits->contains(travel_key));
   STRCMP_CONTAINS("let go at 2.0", watcher->told.c_str());
@@ -169,7 +169,7 @@ class DeafLink final : public SimulatedLink {
   Result<double> position_m(const std::string&) override { return NAN; }
 };
 
-TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
+TEST(LimitsStep, AnAnswerBeforeTheFirstPositionChangesNothing) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   watcher.emplace(*board);
   watcher->answers_at_m = -1.0;  // at once
@@ -198,7 +198,7 @@ TEST(LimitsStep, AnInterruptionEndsTheHeating) {
 }
 
 /// Equal steps of power, of which the later ones bring `ratio` of the first ones' motion.
-TEST(LimitsStep, AStallIsWhatBringsLessThanAFifth) {
+TEST(LimitsStep, AStepOfLessThanAFifthIsAStall) {
   constexpr double noise_m = 10e-6;
   const auto stalls = [](double ratio, double first_m) {
     operating::StallWatch watch(0.1, noise_m);

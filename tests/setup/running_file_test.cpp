@@ -61,7 +61,7 @@ std::string with(const std::string& text, const std::string& kind, std::size_t a
 
 TEST_GROUP(RunningFile){};
 
-TEST(RunningFile, EachKeyThatTheBoardTellsOtherwiseIsNamedWithBothValues) {
+TEST(RunningFile, NamesEveryDifferingKeyWithBothValues) {
   const std::string text = text_of("raspberry-pi-pwm-ads1115.toml");
   RunningBoard board(text, "");
   STRCMP_EQUAL("", board.differences(text).c_str());
@@ -84,7 +84,7 @@ TEST(RunningFile, EachKeyThatTheBoardTellsOtherwiseIsNamedWithBothValues) {
       board.differences(with(text, "channel", 0, "heater.cold_resistance_Ohm", "11")).c_str());
 }
 
-TEST(RunningFile, WhatTheBoardLearnedOrABusRoundsIsNoDifference) {
+TEST(RunningFile, IgnoresLearnedValuesAndBusRounding) {
   const config::BoardConfig config = config_of(text_of("raspberry-pi-pwm-ads1115.toml"));
   RunningBoard board(text_of("raspberry-pi-pwm-ads1115.toml"), "");
   KnownMuscle known = board.link.muscle("1").value();
@@ -100,7 +100,7 @@ TEST(RunningFile, WhatTheBoardLearnedOrABusRoundsIsNoDifference) {
   STRCMP_CONTAINS("limits.max_travel_m = 0.025 (the board: none)", untold[0].c_str());
 }
 
-TEST(RunningFile, OfAJointBothMusclesAreCompared) {
+TEST(RunningFile, ComparesBothMusclesOfAJoint) {
   const std::string text = text_of("joint-as5600-ads1115.toml");
   RunningBoard board(text, "[joint]\n");
   STRCMP_EQUAL("", board.differences(text).c_str());

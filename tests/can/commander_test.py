@@ -106,11 +106,11 @@ class Commander:
         return refusal
 
 
-class FromThePageAlone(unittest.TestCase):
-    def test_its_checksum_has_the_check_value(self):
+class CommanderFromDocumentation(unittest.TestCase):
+    def test_checksum_has_the_check_value(self):
         self.assertEqual(crc8h2f(b"123456789"), int(re.search(r"`123456789` it is (0x\w\w)", PAGE)[1], 16))
 
-    def test_its_session_is_what_its_tables_and_rules_say(self):
+    def test_example_session_matches_the_documented_rules(self):
         counter, session = 0, 0x1234
         for sender, what, identifier, data in rows("A session"):
             with self.subTest(what):

@@ -18,7 +18,7 @@ POWER_W = 1.0
 STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
 
 
-def right_answers():
+def correct_readings():
     return [text for power_W in (POWER_W / 2, POWER_W) for text in (f"{SUPPLY_V}", f"{power_W / SUPPLY_V:.5f}")]
 
 
@@ -45,7 +45,7 @@ class CompareSenses(unittest.TestCase):
                 return done
         self.fail(f"the machine is too busy: {done.stderr}")
 
-    def goes_by(self):
+    def sense_gains(self):
         told = {}
         for line in self.supercoil("setting", "1", "--json").stdout.splitlines():
             setting = json.loads(line)
@@ -53,17 +53,17 @@ class CompareSenses(unittest.TestCase):
         return told["supply_gain"], told["current_gain"], told["sense_error_ratio"]
 
     def assert_nothing_changed(self):
-        self.assertEqual(self.goes_by(), (1.0, 1.0, 0.0))
+        self.assertEqual(self.sense_gains(), (1.0, 1.0, 0.0))
         self.assert_cold()
 
     def assert_cold(self):
         self.assertRegex(self.supercoil("command", "state").stdout, "node 1: (disarmed|fault)")
 
-    def test_right_answers_narrow_the_bounds_and_leave_the_channel_disarmed(self):
-        done = self.doctor(right_answers(), "--json")
+    def test_correct_readings_narrow_the_bounds(self):
+        done = self.doctor(correct_readings(), "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         found = json.loads(done.stdout)
-        supply_gain, current_gain, error_ratio = self.goes_by()
+        supply_gain, current_gain, error_ratio = self.sense_gains()
         self.assertAlmostEqual(supply_gain, 1.0, delta=0.01)
         self.assertAlmostEqual(current_gain, 1.0, delta=0.02)
         self.assertGreaterEqual(error_ratio, 0.0199)
@@ -72,16 +72,16 @@ class CompareSenses(unittest.TestCase):
         self.assertIn("the true power is 0.9", found["bounds"])
         self.assert_cold()
 
-    def test_a_reading_that_contradicts_the_others_is_refused_by_the_board(self):
-        answers = right_answers()
+    def test_a_contradictory_reading_is_refused(self):
+        answers = correct_readings()
         answers[3] = f"{1.1 * float(answers[3]):.5f}"
         done = self.doctor(answers)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("refused: out_of_range. This reading contradicts the others", done.stderr)
         self.assert_nothing_changed()
 
-    def test_nonsense_is_asked_for_again_with_what_is_allowed(self):
-        answers = right_answers()
+    def test_invalid_readings_are_requested_again_with_the_range(self):
+        answers = correct_readings()
         swapped = answers[1]
         done = self.doctor(["twelve", swapped, *answers])
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -91,8 +91,8 @@ class CompareSenses(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("no allowed answer in 3 tries: volts at the supply terminals", done.stderr)
 
-    def test_half_of_the_answers_change_nothing(self):
-        done = self.doctor(right_answers()[:2])
+    def test_missing_readings_change_nothing(self):
+        done = self.doctor(correct_readings()[:2])
         self.assertEqual(done.returncode, 1)
         self.assertIn("no answer: the input has ended", done.stderr)
         self.assert_nothing_changed()
@@ -113,7 +113,7 @@ class CompareSenses(unittest.TestCase):
         self.assertEqual(doctor.returncode, 1)
         self.assert_nothing_changed()
 
-    def test_a_board_that_runs_another_file_is_not_heated(self):
+    def test_a_board_with_another_file_is_not_heated(self):
         other = self.path / "board.toml"
         other.write_text(EXAMPLE.read_text().replace("max_W = 4.5", "max_W = 3.5", 1))
         done = self.supercoil("doctor", "--compare-senses", "--config", other, "--json", input="")
@@ -126,7 +126,7 @@ class CompareSenses(unittest.TestCase):
         self.assertNotIn("volts", done.stderr)
         self.assert_nothing_changed()
 
-    def test_a_power_must_come_from_somewhere(self):
+    def test_requires_a_readable_file_and_a_valid_channel(self):
         done = self.supercoil("doctor", "--compare-senses", "--config", "/no/board.toml", "--json")
         self.assertEqual(done.returncode, 2)
         self.assertIn("/no/board.toml", done.stderr)

@@ -28,7 +28,7 @@ class Dbc(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout, DBC.read_text())
 
-    def test_every_node_has_every_message_with_all_that_is_said_of_it(self):
+    def test_every_node_has_every_message_with_its_attributes(self):
         nodes = [1, 2, 5, 63]
         alone = cantools.database.load_file(DBC)
         bus = cantools.database.load_string(dbc("--nodes", "1,2,5,63").stdout, "dbc")
@@ -44,7 +44,7 @@ class Dbc(unittest.TestCase):
                 self.assertEqual([signal_of(s) for s in derived.signals], [signal_of(s) for s in message.signals])
         self.assertEqual(bus.dbc.attributes["ProtocolVersion"].value, alone.dbc.attributes["ProtocolVersion"].value)
 
-    def test_for_strict_readers_sed_takes_the_names_of_negative_values_and_nothing_else(self):
+    def test_documented_sed_removes_only_names_of_negative_values(self):
         command, = re.findall(r"^  supercoil dbc \| (sed .*) >strict.dbc$", PAGE.read_text(), re.M)
         strict = subprocess.run(["bash", "-c", command], input=dbc().stdout, capture_output=True, text=True,
                                 check=True).stdout
@@ -69,7 +69,7 @@ class Dbc(unittest.TestCase):
             self.assertEqual(path.read_text(), dbc("--nodes", "3").stdout)
             self.assertEqual([p.name for p in pathlib.Path(folder).iterdir()], ["bus.dbc"])
 
-    def test_nodes_that_there_are_not_are_wrong_input(self):
+    def test_invalid_nodes_are_rejected(self):
         for nodes, said in (("0", "1 to 63"), ("64", "1 to 63"), ("2,5,2", "2 is named twice"), ("x", "x")):
             done = dbc("--nodes", nodes)
             self.assertEqual((done.returncode, done.stdout), (2, ""))

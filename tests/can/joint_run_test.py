@@ -44,7 +44,7 @@ def run(scenario):
         return trace, frames
 
 
-class OfTwoMuscles(unittest.TestCase):
+class TwoMuscles(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.trace, cls.frames = run(SCENARIO)
@@ -58,13 +58,13 @@ class OfTwoMuscles(unittest.TestCase):
         nearest = min(abs(value - truth) for truth in truths)
         self.assertLessEqual(nearest, 0.5 * signal.scale + 1e-5 * abs(truths[0]) + 1e-6, f"tick {tick}: {signal.name} = {value}: {truths}")
 
-    def test_one_node_tells_it_one_part_after_the_other(self):
+    def test_only_the_agonists_node_sends_all_parts_in_turn(self):
         self.assertEqual([tick for tick, identifier, _ in self.frames if identifier == JOINT.frame_id + 1], [])
         self.assertAlmostEqual(len(self.told), 50 * DURATION_S, delta=1)
         parts = [told["part"].value for _, told in self.told]
         self.assertEqual(parts, [(parts[0] + i) % 6 for i in range(len(parts))])
 
-    def test_what_is_decoded_is_what_the_trace_has(self):
+    def test_decoded_values_match_the_trace(self):
         seen = set()
         for tick, told in self.told:
             self.assert_shows("angle_deg", told["angle_deg"], tick)
@@ -73,7 +73,7 @@ class OfTwoMuscles(unittest.TestCase):
                 seen.add(name)
         self.assertEqual(seen, COLUMNS.keys())
 
-    def test_what_the_trace_has_not_is_that_of_both_nodes(self):
+    def test_values_outside_the_trace_match_both_nodes(self):
         newest, seen = {}, set()
         for _, identifier, data in self.frames:
             if identifier == JOINT.frame_id:
@@ -92,15 +92,15 @@ class OfTwoMuscles(unittest.TestCase):
                         newest[message, node] = layout.decode(data)
         self.assertEqual(len(seen), 3)
 
-    def test_the_error_is_the_angle_less_that_of_the_model(self):
+    def test_error_is_the_angle_minus_the_model_angle(self):
         for tick, told in self.told:
             if "error_deg" in told:
                 model_deg = [math.degrees(float(self.trace[at]["model_m"]) / LEVER_M) for at in (tick, max(0, tick - 1))]
                 self.assertLess(min(abs(told["angle_deg"] - model - told["error_deg"]) for model in model_deg), 0.001, tick)
 
 
-class OfOneMuscle(unittest.TestCase):
-    def test_against_a_spring_it_has_four_parts(self):
+class OneMuscle(unittest.TestCase):
+    def test_a_spring_joint_has_four_parts(self):
         _, frames = run(SCENARIO + 'opposed_by = "spring"\n')
         told = [JOINT.decode(data) for _, identifier, data in frames if identifier == JOINT.frame_id]
         self.assertAlmostEqual(len(told), 50 * DURATION_S, delta=1)

@@ -59,7 +59,7 @@ class Log(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return list(csv.DictReader(done.stdout.splitlines()))
 
-    def test_a_time_keeps_its_microseconds(self):
+    def test_times_keep_their_microseconds(self):
         """After a month, too: the board's clock in an Emergency has 48 bits."""
         emergency = cantools.database.load_file(DBC).get_message_by_name("Emergency")
         data = emergency.encode({"fault": 30, "state": 3, "board_time_s": 2592000.123457})
@@ -69,13 +69,13 @@ class Log(unittest.TestCase):
         wide, = self.rows("month.log", "--message", "Emergency")
         self.assertEqual((wide["time_s"], wide["board_time_s"]), ("2592000.125000", "2592000.123457"))
 
-    def test_a_log_that_begins_at_0_is_shown_with_the_same_times(self):
+    def test_a_log_that_starts_at_0_has_the_same_times(self):
         text = (self.path / "can.log").read_text()
         self.assertEqual(len(re.findall(r"^\(1000000", text, re.M)), len(text.splitlines()))
         (self.path / "old.log").write_text(re.sub(r"^\(1", "(0", text, flags=re.M))
         self.assertTrue(self.log("can.log").stdout == self.log("old.log").stdout)
 
-    def test_every_value_is_the_one_that_cantools_reads(self):
+    def test_values_match_cantools(self):
         rows = iter(self.rows("can.log"))
         count = 0
         for time_s, message, signals in self.frames:
@@ -92,7 +92,7 @@ class Log(unittest.TestCase):
                          {"Emergency", "FirstCause", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
                           "Limit", "Timing", "Gain", "Status", "Boot"})
 
-    def test_of_one_message_a_row_is_a_frame(self):
+    def test_each_row_of_one_message_is_a_frame(self):
         for message in ("Tracking", "Estimate", "Emergency"):
             rows = self.rows("can.log", "--message", message, "--node", 1)
             frames = [(time_s, signals) for time_s, name, signals in self.frames if name == message]
@@ -104,7 +104,7 @@ class Log(unittest.TestCase):
                     self.assertEqual(text != "", available, (name, text))
                     self.assertTrue(not available or same(text, signals[name]))
 
-    def test_mcap_has_the_values_that_cantools_reads(self):
+    def test_mcap_values_match_cantools(self):
         self.assertEqual(self.log("can.log", "--mcap", "--out", "can.mcap").returncode, 0)
         with open(self.path / "can.mcap", "rb") as file:
             messages = list(mcap.reader.NonSeekingReader(file).iter_messages())
@@ -122,13 +122,13 @@ class Log(unittest.TestCase):
             topics = {channel.topic for _, channel, _ in mcap.reader.NonSeekingReader(file).iter_messages()}
         self.assertEqual(topics, {"/node_1/Tracking"})
 
-    def test_a_cut_has_its_ends(self):
+    def test_from_and_to_are_inclusive(self):
         first, last = self.frames[100][0], self.frames[300][0]
         within = [row for row in self.rows("can.log") if first <= float(row["time_s"]) <= last]
         self.assertEqual(self.rows("can.log", "--from", first, "--to", last), within)
         self.assertGreater(len(within), 200)
 
-    def test_out_is_a_file_as_a_whole_or_not_at_all(self):
+    def test_out_is_written_completely_or_not_at_all(self):
         self.assertEqual(self.log("can.log", "--out", "can.csv").returncode, 0)
         self.assertEqual((self.path / "can.csv").read_text(), self.log("can.log").stdout)
         done = self.log("can.log", "--node", 9, "--out", "none.csv")
@@ -140,7 +140,7 @@ class Log(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("standard output", done.stderr)
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])
         for arguments, status, why in (
                 (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Sync, Emergency, FirstCause, Knot, Play"),

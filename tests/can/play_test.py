@@ -113,17 +113,17 @@ class Refused(unittest.TestCase):
     def told(self, *arguments):
         return self.program(*arguments).stderr
 
-    def test_of_a_knot_the_nearest_that_would_be_obeyed_is_told(self):
+    def test_a_refused_knot_names_the_nearest_accepted_value(self):
         path = motion(self.folder, {1: 1.0})
         self.assertIn("refused: out_of_range; 0.024 would be obeyed", self.told("play", path, "--settle", "0"))
 
-    def test_of_a_position_the_whole_range_is_told(self):
+    def test_a_refused_position_names_the_whole_range(self):
         self.assertEqual(self.told("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
         told = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
         self.assertEqual(told["range"], "-0.01 to 0.025 are in range")
 
-    def test_a_set_point_that_is_held_names_the_fault_that_ended_it(self):
+    def test_a_held_set_point_names_the_fault_that_ended_it(self):
         held = ("command", "1", "position", "0.02", "--for", "60")
         fault = f"fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1 reset --socket {self.socket}"
         for options in (), ("--json",):
@@ -139,7 +139,7 @@ class Refused(unittest.TestCase):
 class Files(PlayCase):
     bus = "socketcand:1"
 
-    def test_what_is_wrong_is_named_with_its_line_and_nothing_is_sent(self):
+    def test_errors_name_the_line_and_nothing_is_sent(self):
         path = pathlib.Path(self.folder) / "wrong.csv"
         for text, why in (
                 ("", "is empty"),
@@ -167,12 +167,12 @@ class Files(PlayCase):
             self.assertIn(f"{path}", done.stderr)
             self.assertIn(why, done.stderr)
 
-    def test_it_may_be_as_a_spreadsheet_writes_it(self):
+    def test_spreadsheet_format_is_accepted(self):
         path = pathlib.Path(self.folder) / "sheet.csv"
         path.write_text("\ufeff# taken by hand\n\"time_s\";\"position_m\"\n0,0;0,003\n0,5;0,0031\n")
         self.assertIn("socketcand", self.supercoil("play", path).stderr)  # the file is right, and nobody serves the bus
 
-    def test_a_file_or_a_bus_that_is_not_there_is_named(self):
+    def test_a_missing_file_or_bus_is_named(self):
         done = self.supercoil("play", "not-there.csv")
         self.assertEqual(done.returncode, 2)
         self.assertIn("not-there.csv: there is no such file", done.stderr)
@@ -214,7 +214,7 @@ class Play(PlayCase):
         self.addCleanup(between.end)
         self.bus = f"socketcand:{between.port}"
 
-    def test_two_nodes_go_their_ways_in_step(self):
+    def test_two_nodes_move_in_step(self):
         recorder = Recorder(self.simulator.port)
         recorder.start()
         done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}), "--json")
@@ -233,21 +233,21 @@ class Play(PlayCase):
         # A tick is 10 ms, in which the reference moves 10 um at most.
         np.testing.assert_allclose(first, second, atol=3e-5)
 
-    def test_what_a_muscle_cannot_do_is_refused_with_its_time(self):
+    def test_an_infeasible_knot_is_refused_with_its_time(self):
         path = pathlib.Path(self.folder) / "fast.csv"
         path.write_text("time_s,position_m\n0,0.002\n1,0.0022\n1.2,0.02\n1.4,0.02\n")
         done = self.play(path, "--settle", "0.5")
         self.assertEqual(done.returncode, 1)
         self.assertIn("node 1: the knot at 1.000 s: refused: infeasible", done.stderr)
 
-    def test_one_that_hears_no_sync_ends(self):
+    def test_ends_when_no_sync_arrives(self):
         self.pass_through(to_board=lambda identifier, data: None if identifier == SYNC.frame_id else data)
         not_started = "node 1: has not started: no Sync arrived, or too late"
         done = self.play(motion(self.folder, {1: 1.0}), "--settle", "0.1", wanted=not_started)
         self.assertEqual(done.returncode, 1)
         self.assertIn(not_started, done.stderr)
 
-    def test_a_rest_in_the_middle_is_not_the_end(self):
+    def test_a_rest_in_the_middle_does_not_end_it(self):
         path = pathlib.Path(self.folder) / "rests.csv"
         path.write_text("time_s,position_m,velocity_m_per_s\n0,0.003,0\n1,0.0032,0\n2,0.0034,0\n")
         first = b"\x00\x00"  # after_s, behind the counter
@@ -289,7 +289,7 @@ class Play(PlayCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("node 1: position 0.003000: refused: wrong_state", done.stderr)
 
-    def test_one_that_is_killed_lets_the_muscles_cool(self):
+    def test_muscles_cool_after_the_player_is_killed(self):
         for _ in range(TRIES):
             self.arm()
             process = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0, 2: 1.0}), "--settle", "1",

@@ -30,14 +30,14 @@ class Protocol(unittest.TestCase):
             for signal in message.signals:
                 yield message, signal, {raw: str(name) for raw, name in (signal.choices or {}).items()}
 
-    def test_what_is_generated_is_committed_to_the_byte(self):
+    def test_generated_files_match_the_committed_ones(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([ROOT / "toolchain" / "generate-can", folder], check=True)
             for name in GENERATED:
                 fresh = (pathlib.Path(folder) / name).read_bytes()
                 self.assertTrue(fresh == (ROOT / name).read_bytes(), f"{name}: run toolchain/generate-can")
 
-    def test_values_have_the_names_that_the_firmware_gives_them(self):
+    def test_value_names_match_the_firmware(self):
         seen = set()
         for message, signal, choices in self.signals():
             if signal.name in self.names:
@@ -47,32 +47,32 @@ class Protocol(unittest.TestCase):
         self.assertEqual(seen, self.names.keys() - {"version"})
         self.assertEqual(self.database.dbc.attributes["ProtocolVersion"].value, self.names["version"])
 
-    def test_every_value_that_has_a_name_is_in_its_signals_range(self):
+    def test_named_values_are_within_the_signals_range(self):
         for message, signal, choices in self.signals():
             named = [raw for raw, name in choices.items() if name != "not_available"]
             if named:
                 self.assertLessEqual(signal.minimum, min(named) * signal.scale, f"{message.name}.{signal.name}")
                 self.assertGreaterEqual(signal.maximum, max(named) * signal.scale, f"{message.name}.{signal.name}")
 
-    def test_identifiers_are_node_1_of_distinct_bases(self):
+    def test_identifiers_are_those_of_node_1(self):
         bases = [message.frame_id - 1 for message in self.database.messages]
         self.assertEqual(len(set(bases)), len(bases))
         for base in bases:
             self.assertEqual(base % 0x40, 0)
             self.assertTrue(0x040 <= base <= 0x780)
 
-    def test_everything_is_said_in_words(self):
+    def test_every_message_and_signal_has_a_comment(self):
         for message, signal, _ in self.signals():
             for what in (message, signal):
                 self.assertTrue(what.comment and what.comment.endswith("."), f"{message.name}.{what.name}: no comment")
 
-    def test_a_quantity_has_the_unit_that_its_name_ends_with(self):
+    def test_signal_names_end_with_their_unit(self):
         for _, signal, _ in self.signals():
             unit = {"degC": "C"}.get(signal.unit, signal.unit)
             if unit and not signal.name.startswith("theta"):
                 self.assertTrue(signal.name.endswith("_" + unit.replace("/", "_per_")), f"{signal.name}: {unit}")
 
-    def test_a_scaled_signal_has_one_value_that_says_not_available_and_may_have_all_others(self):
+    def test_a_scaled_signal_reserves_one_value_for_not_available(self):
         for message, signal, choices in self.signals():
             if NOT_AVAILABLE not in choices.values():
                 continue
@@ -83,7 +83,7 @@ class Protocol(unittest.TestCase):
             self.assertAlmostEqual(signal.maximum, most * signal.scale, 9)
             self.assertAlmostEqual(signal.minimum, -most * signal.scale if signal.is_signed else 0, 9)
 
-    def test_every_other_message_of_the_board_has_its_cycle(self):
+    def test_only_event_messages_have_no_cycle_time(self):
         when_needed = {message.name for message in self.database.messages if not message.cycle_time}
         self.assertEqual(when_needed, {"Emergency", "FirstCause", "Command", "Acknowledge", "RefusedValue", "Setting",
                                        "SettingWrite", "SettingRead", "Muscle", "MuscleRead", "Tuning", "TuningWrite",

@@ -135,7 +135,7 @@ class Run(unittest.TestCase):
             nearest = min(max(float(truth), signal.minimum), signal.maximum)
             self.assertLessEqual(abs(value - nearest), 0.5 * signal.scale * (1 + 1e-6) + 1e-7 * abs(nearest), where)
 
-    def test_every_signal_is_looked_at(self):
+    def test_every_signal_is_checked(self):
         for message in self.database.messages:
             if message.name not in FROM_MASTER | OF_A_JOINT:
                 seen = COLUMNS.get(message.name, {}).keys() | OTHERWISE.get(message.name, set())
@@ -148,7 +148,7 @@ class Run(unittest.TestCase):
                 self.assertAlmostEqual(count, 13500 / message.cycle_time, delta=1, msg=message.name)
         self.assertEqual(sum(name in FROM_MASTER | OF_A_JOINT for _, name, _, _ in self.frames), 0)
 
-    def test_what_is_decoded_is_what_was_recorded(self):
+    def test_decoded_values_match_the_recording(self):
         looked_at = set()
         for tick, message, values, _ in self.frames:
             row = self.recorded.get(tick)
@@ -162,7 +162,7 @@ class Run(unittest.TestCase):
                 looked_at.add((message, name))
         self.assertEqual(looked_at, {(message, name) for message in COLUMNS for name in COLUMNS[message]})
 
-    def test_what_is_decoded_is_what_the_trace_has(self):
+    def test_decoded_values_match_the_trace(self):
         columns = {"reference_m": "reference_m", "model_m": "model_m", "position_m": "measured_m",
                    "demanded_W": "power_W", "applied_W": "applied_power_W", "state": "state", "fault": "fault",
                    "limited_by": "limited_by", "theta1": "theta1", "theta4": "theta4"}
@@ -175,20 +175,20 @@ class Run(unittest.TestCase):
                 seen += 1
         self.assertGreater(seen, 4000)
 
-    def test_all_detectors_come_round(self):
+    def test_margins_and_limits_cycle_through_all_detectors(self):
         for message in ("Margin", "Limit"):
             faults = self.database.get_message_by_name(message).get_signal_by_name("fault").choices
             seen = {raw["fault"] for _, name, _, raw in self.frames if name == message}
             self.assertEqual(seen, faults.keys() - {0}, message)
 
-    def test_the_error_is_position_less_model(self):
+    def test_error_is_position_minus_model(self):
         for tick, message, values, _ in self.frames:
             row = self.recorded.get(tick)
             if message == "Tracking" and row is not None and row["mode"] == "position":
                 truth = single(float(row["position_m"])) - single(float(row["model_m"]))
                 self.assertLessEqual(abs(values["error_m"] - truth), 0.5e-6 * (1 + 1e-6), tick)
 
-    def test_parameters_come_one_after_the_other(self):
+    def test_estimate_cycles_through_its_parameters(self):
         order = []
         for tick, message, _, raw in self.frames:
             if message == "Estimate":
@@ -199,7 +199,7 @@ class Run(unittest.TestCase):
         for told, count in ((False, 8), (True, 14)):
             self.assertEqual({parameter for ticks, parameter in order if ticks == {told}}, set(range(count)))
 
-    def test_what_is_told_beside_theta_is_the_newest_of_its_kind(self):
+    def test_multiplexed_values_are_the_newest(self):
         recorded, traced = set(), set()
         for tick, message, values, _ in self.frames:
             for name in values.keys() & MULTIPLEXED.keys() if message == "Estimate" else ():
@@ -214,7 +214,7 @@ class Run(unittest.TestCase):
         self.assertEqual(recorded, MULTIPLEXED.keys())
         self.assertEqual(traced, MULTIPLEXED.keys())
 
-    def test_the_muscle_is_that_of_theta(self):
+    def test_muscle_parameters_follow_from_theta(self):
         seen = set()
         for tick, message, values, _ in self.frames:
             if message != "Estimate":
@@ -228,14 +228,14 @@ class Run(unittest.TestCase):
                 seen.add((name, math.isnan(values[name])))
         self.assertEqual(len(seen), 8)  # each, as a number and as NaN
 
-    def test_the_fault_is_an_emergency_at_once(self):
+    def test_a_fault_sends_an_emergency_at_once(self):
         (tick, _, values, _), = [frame for frame in self.frames if frame[1] == "Emergency"]
         self.assertEqual(tick, self.fault_tick)
         self.assertEqual((str(values["fault"]), str(values["state"])), ("heater_open", "fault"))
         # The board's clock began with its boot, 15 s before the scenario.
         self.assertAlmostEqual(values["board_time_s"], 15.0 + self.fault_tick * TICK_S, delta=2 * TICK_S)
 
-    def test_boot_says_once_a_second_what_the_program_says_of_its_version(self):
+    def test_boot_sends_the_program_version_once_per_second(self):
         told = subprocess.run([os.environ["SUPERCOIL_SIM"], "--version"], check=True, capture_output=True, text=True).stdout.strip()
         numbers, _, commit = told.partition("+")
         boots = [(tick, raw) for tick, message, _, raw in self.frames if message == "Boot"]
@@ -245,7 +245,7 @@ class Run(unittest.TestCase):
             self.assertEqual(".".join(str(raw[f"version_{part}"]) for part in ("major", "minor", "patch")), numbers)
             self.assertEqual(f"{raw['commit']:07x}", commit.rsplit(".", 1)[-1][:7] if commit else "0000000")
 
-    def test_the_heartbeat_counts_and_the_board_is_in_time(self):
+    def test_heartbeat_counts_and_no_tick_is_late(self):
         counters = [raw["counter"] for _, message, _, raw in self.frames if message == "Status"]
         self.assertEqual(counters, [(counters[0] + i) % 256 for i in range(len(counters))])
         for _, message, values, raw in self.frames:

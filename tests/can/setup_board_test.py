@@ -12,8 +12,8 @@ from live import DEADLINE_S, TRIES, Simulator
 from setup_case import EXAMPLE, RESTART, STARVED, SUPERCOIL, SetupCase, Terminal
 
 
-class SetupOfABoard(SetupCase):
-    def test_a_board_that_does_not_run_is_said_with_how_to_start_it(self):
+class SetupOnABoard(SetupCase):
+    def test_a_stopped_board_is_reported_with_how_to_start_it(self):
         done = self.setup_program("calibrate", "--socket", self.path / "none")
         self.assertEqual(done.returncode, 1)
         self.assertIn("start the board with", done.stderr)
@@ -21,7 +21,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("has no channel 3, but 2", done.stderr)
 
-    def test_a_board_that_does_not_run_the_file_is_neither_heated_nor_taught(self):
+    def test_a_board_with_another_file_is_not_touched(self):
         self.describe()
         simulator = Simulator(self.path, "bench")  # with a different muscle
         self.addCleanup(simulator.end)
@@ -47,7 +47,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn("node 1: armed, rest", told)
         self.assertNotIn("last identification or calibration", told)  # it was given nothing to do
 
-    def test_what_another_board_does_not_have_is_not_done(self):
+    def test_steps_missing_on_the_board_count_as_undone(self):
         self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
@@ -92,7 +92,7 @@ class SetupOfABoard(SetupCase):
         self.assertTrue(told and told[-1].startswith(line), f"{told} {error}")
         return told
 
-    def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
+    def test_continues_after_completed_steps_and_interruptions(self):
         self.describe()
         learned = self.path / "learned"
         learned.mkdir()
@@ -134,7 +134,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn("identify: ", error)
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
 
-    def test_after_a_master_that_was_killed_its_fault_is_told_and_reset_by_whoever_says_so(self):
+    def test_the_fault_of_a_killed_master_is_reset_on_confirmation(self):
         self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
@@ -165,7 +165,7 @@ class SetupOfABoard(SetupCase):
         self.assertIn(f"  channel 1: {told}", done.stdout)
         self.assertIn("  1: its cause is gone, reset the fault; 0: leave it: 1\n", done.stdout)
 
-    def test_on_a_terminal_an_interruption_is_said_on_a_line_of_its_own(self):
+    def test_on_a_terminal_an_interruption_has_its_own_line(self):
         self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
@@ -203,7 +203,7 @@ class SetupOfABoard(SetupCase):
         told = interrupted("1 position 0.001:", "1", "position", "0.001", "--hold", program="command")
         self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?$")
 
-    def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
+    def test_the_recommended_controller_is_applied_on_confirmation(self):
         self.describe()
         simulator = Simulator(self.path, "bench", "--board", self.board)
         self.addCleanup(simulator.end)
@@ -238,7 +238,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(bandwidth(), (7.88, 7.88))
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "gains"})
 
-    def test_a_limit_that_is_answered_goes_into_the_boards_file(self):
+    def test_an_answered_limit_is_written_to_the_board_file(self):
         self.describe()
         before = self.board.read_text()
         self.assertIn("max_travel_m = 0.025", before)
@@ -272,7 +272,7 @@ class SetupOfABoard(SetupCase):
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
 
-    def test_a_script_answers_for_meter_and_watcher_without_anybody(self):
+    def test_a_script_replaces_all_answers(self):
         power_W, supply_V = 0.1, 12.0
         script = self.script("[senses]", f"power_W = {power_W}", f"supply_V = [{supply_V}, {supply_V}]",
                              f"current_A = [{0.5 * power_W / supply_V}, {power_W / supply_V}]", "[limits]", "stop_mm = 4")
@@ -296,7 +296,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(record["senses"]["power_W"], power_W)
         self.assertAlmostEqual(record["senses"]["supply_gain"], 1.0, delta=0.02)
 
-    def test_a_joint_is_set_up_by_its_agonist(self):
+    def test_a_joint_is_set_up_through_its_agonist(self):
         self.example = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
         self.board.write_text(self.example)
         script = self.script(heated_mm=6.5, stretch_mm=30, max_travel_mm=8)

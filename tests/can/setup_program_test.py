@@ -10,7 +10,7 @@ from setup_case import ANSWERS, EXAMPLE, RESTART, SUPERCOILD, SetupCase, Termina
 
 
 class SetupProgram(SetupCase):
-    def test_a_description_completes_the_boards_file_and_keeps_its_comments(self):
+    def test_describe_completes_the_board_file_and_keeps_comments(self):
         done = self.describe()
         self.assertIn("stiffness_N_per_m = 17.84  (stretch_weight_g and stretch_mm)", done.stdout)
         told = re.findall("^  (holds .*|may be armed .*|controller 0.*)$", done.stdout, re.M)
@@ -26,7 +26,7 @@ class SetupProgram(SetupCase):
         self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
         self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
 
-    def test_a_script_is_told_that_the_board_must_be_started_again(self):
+    def test_a_script_is_notified_that_the_board_must_restart(self):
         done = self.setup_program(*self.script(), "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (RESTART, True))
         self.assertIn("start the board with it, and run setup again to go on", done.stderr)
@@ -34,7 +34,7 @@ class SetupProgram(SetupCase):
         done = self.setup_program("describe", *self.script(), "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["restart_board"]), (0, False))
 
-    def test_asks_what_no_script_answers_and_asks_again_after_a_slip(self):
+    def test_asks_without_a_script_and_repeats_after_an_invalid_answer(self):
         lines = [str(value) for value in ANSWERS.values()]
         questions = ["", "10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer instead of the weight
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
@@ -43,7 +43,7 @@ class SetupProgram(SetupCase):
         self.assertIn("wrong, in % (1 to 60) [50]: ", done.stdout)
         self.assertIn("max_travel_m = 0.025", done.stdout)
 
-    def test_an_answer_is_refused_where_it_is_asked_and_what_was_answered_is_offered_again(self):
+    def test_invalid_answers_are_refused_at_once_and_earlier_ones_offered(self):
         # By a thermometer, as thread_g is not known: then heated_K must be.
         typed = ["", "10", "90", "100", "55", "2", "13", "1.3", "0", "", "0", "22.5", "200", "11.7"]
         with Terminal("describe", "--config", self.board) as terminal:
@@ -71,7 +71,7 @@ class SetupProgram(SetupCase):
 
     PLATE = {"rated_W": 2, "rated_Ohm": 10, "length_mm": 150, "stroke_percent": 8, "stroke_load_g": 90, "max_C": 120}
 
-    def test_a_nameplate_answers_what_a_supplier_knows(self):
+    def test_a_nameplate_supplies_the_rated_values(self):
         measured = {key: None for key in ANSWERS} | {"stretch_weight_g": 100, "stretch_mm": 55, "half_cooling_s": 1.3}
         _, script = self.script(**measured)
         script.write_text(script.read_text() + "[nameplate]\n" + "".join(f"{key} = {value}\n" for key, value in self.PLATE.items()))
@@ -92,12 +92,12 @@ class SetupProgram(SetupCase):
         self.assertIn("in mm (0.01 to 10000) [12]: ", done.stdout)
         self.assertEqual(self.board.read_text(), by_script)
 
-    def test_every_number_of_a_nameplate_is_needed(self):
+    def test_every_nameplate_value_is_required(self):
         _, script = self.script()
         script.write_text(script.read_text() + "[nameplate]\nrated_W = 2\nstroke = 8\n")
         self.assert_refused(self.setup_program("--script", script), "nameplate.rated_Ohm", "nameplate.stroke", "did you mean stroke_")
 
-    def test_answers_that_no_muscle_has_are_refused_without_a_line_of_a_file_that_is_none_and_kept(self):
+    def test_implausible_answers_are_refused_and_kept(self):
         questions = ["", "10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 2)
@@ -106,10 +106,10 @@ class SetupProgram(SetupCase):
         self.assertEqual(self.board.read_text(), self.example)
         self.assertNotRegex(self.setup_program(*self.script(max_W=40)).stderr, r"board\.toml:\d")
 
-    def test_without_anybody_who_answers_nothing_changes(self):
+    def test_without_answers_nothing_changes(self):
         self.assert_refused(self.setup_program(stdin=subprocess.DEVNULL), "no answer: the input has ended")
 
-    def test_every_wrong_answer_is_named_with_its_range(self):
+    def test_every_invalid_answer_is_reported_with_its_range(self):
         self.assert_refused(self.setup_program(*self.script(load_g=None, stretch_mm=None)),
                             "muscle.load_g: is missing: Weight that it lifts", "muscle.stretch_mm: is missing")
         self.assert_refused(self.setup_program(*self.script(load_g=0)), "muscle.load_g = 0", "0.1 to 1e+06")
@@ -125,12 +125,12 @@ class SetupProgram(SetupCase):
         self.assertEqual(self.setup_program("--channel", "3", input="10\n").stdout, "")  # before anything is asked
         self.assert_refused(self.setup_program("calibrat"), "did you mean calibrate?")
 
-    def test_a_muscle_that_this_board_cannot_have_is_refused_by_its_key(self):
+    def test_values_beyond_the_board_are_refused_by_key(self):
         self.assert_refused(self.setup_program(*self.script(max_W=40, max_travel_mm=50)),
                             "answers.toml:10: muscle.max_W = 40: must be 0.001 to 11.664 here: Maximum power", "no more than the supply can give it",
                             "answers.toml:11: muscle.max_travel_mm = 50: must be 0.01 to 41 here: ")
 
-    def test_a_list_of_controllers_stays_as_it_was_chosen(self):
+    def test_a_configured_list_of_controllers_is_kept(self):
         self.board.write_text((EXAMPLE.parent / "on-chip-pwm-fast-converter.toml").read_text())
         done = self.describe()
         text = self.board.read_text()
@@ -138,14 +138,14 @@ class SetupProgram(SetupCase):
         self.assertNotIn("learned_ff", text)
         self.assertIn("limits = { max_W = 4.5, max_travel_m = 0.025, energy_J = 200.0 }", text)
 
-    def test_a_file_that_is_none_is_told_before_anything_is_asked(self):
+    def test_an_invalid_file_is_reported_before_any_question(self):
         self.board.write_text("[[channel\n")
         done = self.setup_program(stdin=subprocess.DEVNULL)
         self.assertEqual(done.returncode, 2)
         self.assertIn("board.toml:1: ", done.stderr)
         self.assertNotIn("Resistance", done.stdout)
 
-    def test_of_a_joint_with_a_range_that_range_is_made_smaller_and_the_file_stays_valid(self):
+    def test_a_joints_range_is_narrowed(self):
         joint = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
         joint = re.sub("\nmax_travel_m = .*", "", joint).replace("lever_m = 0.015", "lever_m = 0.015\nrange_deg = [-30, 28]  # stops")
         self.board.write_text(joint)
@@ -162,7 +162,7 @@ class SetupProgram(SetupCase):
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
-    def test_a_muscle_that_lifts_an_arm_is_described_with_its_weight(self):
+    def test_a_muscle_against_gravity_is_described_with_the_weight(self):
         self.board.write_text(self.example.replace("\nmax_travel_m = 0.025", "") + "\n[channel.limits]\nmax_travel_m = 0.025\n" +
                               '[[joint]]\nopposed_by = "gravity"\nagonist = 1\nlever_m = 0.015\nrange_deg = [0, 60]\n'
                               "weight_Nm = 0.002\nhangs_at_deg = -45\n")
@@ -174,7 +174,7 @@ class SetupProgram(SetupCase):
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertRegex(checked.stdout, r"the weight pulls the cold muscle with 0\.0943 N; held at 4\.77° with ")
 
-    def test_doctor_looks_at_this_machine_or_says_where_to_run_it_and_setup_goes_on(self):
+    def test_doctor_checks_this_machine_or_names_the_right_one(self):
         done = self.setup_program("doctor", "--socket", self.path / "commands", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         found = json.loads(done.stdout)["steps"]["doctor"]
@@ -194,7 +194,7 @@ class SetupProgram(SetupCase):
     def files(self):
         return sorted(path.name.removeprefix("board.toml") for path in self.path.glob("board.toml*"))
 
-    def test_undo_puts_the_file_back_says_so_and_keeps_what_it_replaces(self):
+    def test_undo_restores_the_file_and_keeps_the_replaced_one(self):
         self.setup_program(*self.script())
         described = self.board.read_text()
         self.assertNotEqual(described, self.example)
@@ -209,7 +209,7 @@ class SetupProgram(SetupCase):
         self.assertEqual(again.returncode, 1)
         self.assertIn("setup has changed nothing", again.stderr)
 
-    def test_undo_takes_back_one_change_after_the_other_each_of_its_channel(self):
+    def test_undo_reverts_changes_in_order_and_per_channel(self):
         self.setup_program(*self.script())
         self.setup_program("describe", *self.script(max_W=3))
         both = self.board.read_text()
@@ -229,7 +229,7 @@ class SetupProgram(SetupCase):
         self.assertEqual(self.board.read_text(), self.example)
         self.assertFalse(self.record.exists())
 
-    def test_undo_names_what_stays_on_the_board_and_the_command_that_forgets_it(self):
+    def test_undo_lists_what_stays_on_the_board(self):
         self.setup_program(*self.script())
         record = json.loads(self.record.read_text())
 
@@ -248,7 +248,7 @@ class SetupProgram(SetupCase):
         self.assertEqual(json.loads(undone("--json", "--can", "can0", scale={}).stdout)["on_board"],
                          [{"what": "what was found of the muscle", "forgotten_by": "supercoil command 1 clear --can can0"}])
 
-    def test_undo_does_not_throw_away_what_somebody_else_changed(self):
+    def test_undo_keeps_edits_by_hand(self):
         self.setup_program(*self.script())
         edited = self.board.read_text() + "# by hand\n"
         self.board.write_text(edited)
@@ -265,7 +265,7 @@ class SetupProgram(SetupCase):
         self.assertEqual((self.path / "board.toml.undone").read_text(), edited)
         self.assertEqual(self.setup_program("--force").returncode, 2)
 
-    def test_on_a_terminal_undo_asks_about_what_somebody_else_changed(self):
+    def test_on_a_terminal_undo_asks_about_edits_by_hand(self):
         self.setup_program(*self.script())
         self.board.write_text(self.board.read_text() + "# by hand\n")
         for answer, left in (("0", True), ("1", False)):
@@ -275,7 +275,7 @@ class SetupProgram(SetupCase):
                 self.assertEqual(terminal.ended(), 1 if left else 0, terminal.told)
             self.assertEqual("# by hand" in self.board.read_text(), left)
 
-    def test_without_a_record_of_what_it_wrote_undo_leaves_the_file(self):
+    def test_undo_needs_its_record(self):
         self.setup_program(*self.script())
         described = self.board.read_text()
         self.record.unlink()
@@ -284,7 +284,7 @@ class SetupProgram(SetupCase):
         self.assertIn(f"{self.board}.before-setup is the file as it was before", done.stderr)
         self.assertEqual(self.board.read_text(), described)
 
-    def test_an_error_is_told_in_json_as_well(self):
+    def test_errors_are_reported_in_json_too(self):
         self.record.write_text("{")
         done = self.setup_program("calibrate", "--json")
         self.assertEqual(done.returncode, 1)

@@ -72,32 +72,32 @@ class HostileClients(unittest.TestCase):
         master.bus.shutdown()
         self.assertEqual([(counter - counters[0]) % 256 for counter in counters], [0, 1, 2])
 
-    def test_garbage_is_passed_over(self):
+    def test_garbage_is_skipped(self):
         client = self.client().opened()
         client.send(GARBAGE * 20)
         client.send("> < echo still here >")
         client.skip_to("echo still here")
         self.assert_goes_on()
 
-    def test_half_an_element_waits_for_its_other_half(self):
+    def test_a_partial_element_waits_for_its_rest(self):
         client = self.client().opened()
         client.send("< ec")
         self.assert_goes_on()
         self.assertEqual(client.ask("ho halves >"), "echo halves")
 
-    def test_a_client_that_leaves_within_an_element_is_forgotten(self):
+    def test_a_client_may_disconnect_within_an_element(self):
         client = self.client().opened()
         client.send("< send 201 8 1 2")
         client.socket.close()
         self.assert_goes_on()
 
-    def test_an_element_without_end_is_passed_over(self):
+    def test_an_endless_element_is_skipped(self):
         client = self.client().opened()
         client.send(b"<" + b"x" * (1 << 20))
         self.assert_goes_on()
         self.assertEqual(client.ask("< echo still here >"), "echo still here")
 
-    def test_what_is_no_classical_standard_frame_is_refused(self):
+    def test_only_classical_standard_frames_are_accepted(self):
         client = self.client().opened()
         listener = self.client().opened()
         self.assertEqual(listener.ask("< rawmode >"), "ok")
@@ -118,7 +118,7 @@ class HostileClients(unittest.TestCase):
         self.assertEqual(client.ask("< send 123 0 >"), "error open a bus first")
         self.assertEqual(client.ask("< open can1 >"), "error could not open bus: there is can0")
 
-    def test_a_client_that_never_reads_is_cut_off_and_the_others_go_on(self):
+    def test_a_client_that_never_reads_is_disconnected(self):
         deaf, listener, loud = (self.client().opened() for _ in range(3))
         for client in (deaf, listener):
             self.assertEqual(client.ask("< rawmode >"), "ok")
@@ -148,7 +148,7 @@ class HostileClients(unittest.TestCase):
         self.assertEqual(statuses, [(statuses[0] + i) % 256 for i in range(len(statuses))])
         self.assert_goes_on()
 
-    def test_a_board_whose_clock_lags_is_told_of_as_before(self):
+    def test_a_board_with_a_lagging_clock_is_still_shown(self):
         self.simulator.process.send_signal(signal.SIGSTOP)
         time.sleep(5.0)  # the board's time stands still, this machine's does not
         self.simulator.process.send_signal(signal.SIGCONT)
@@ -158,7 +158,7 @@ class HostileClients(unittest.TestCase):
             self.assertRegex(told.stdout, r"node 1: disarmed, rest, \w+ \(controller 0\), off; at most")
             self.assertRegex(told.stdout, r"position +-?\d")
 
-    def test_of_forty_programs_as_many_as_may_are_served(self):
+    def test_the_number_of_clients_is_limited(self):
         clients = [self.client() for _ in range(40)]
         greeted = [client.element() == "hi" for client in clients]
         self.assertEqual(sum(greeted), MOST_CLIENTS)
@@ -180,18 +180,18 @@ class Usage(unittest.TestCase):
         self.assertEqual(list(self.path.iterdir()), [])
         return done.stderr
 
-    def test_a_port_that_is_taken_is_named(self):
+    def test_a_port_in_use_is_named(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = taken.getsockname()[1]
             self.assertEqual(self.assert_wrong("--real-time", "--can", f"socketcand:{port}"),
                              f"supercoil-sim: socketcand: port {port} of loopback: Address already in use\n")
 
-    def test_a_bus_that_there_is_not_is_wrong_input(self):
+    def test_an_invalid_bus_is_rejected(self):
         for bus in ("nonsense", "socketcand", "socketcand:", "socketcand:65536", "socketcand:-1", "socketcand:1x", "can0"):
             self.assertIn(f"--can: {bus}: must be socketcand:PORT", self.assert_wrong("--real-time", "--can", bus))
         self.assertIn("--real-time", self.assert_wrong("--can", "socketcand:0"))
 
-    def test_an_interrupt_is_an_end_like_any_other(self):
+    def test_an_interrupt_ends_it_normally(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             simulator = Simulator(self.path)
             self.assertEqual(simulator.end(how), 0)

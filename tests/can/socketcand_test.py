@@ -92,7 +92,7 @@ class Commanded(OnTheBus):
         for _ in range(2):
             self.master.steer_until(TARGET_M, lambda m: True)
 
-    def test_a_master_moves_the_muscle_and_its_heater_is_cold_when_the_command_expires(self):
+    def test_a_master_moves_the_muscle_until_the_command_expires(self):
         self.master.steer_until(TARGET_M, is_there)
         self.assert_nothing_but_starved()
         self.assertGreater(self.master.newest["Temperature"]["hottest_C"], 35.0)
@@ -118,7 +118,7 @@ class Commanded(OnTheBus):
         self.assertEqual(other.refusal("disarm"), "none")
         self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "disarmed")
 
-    def test_settings_are_read_by_everybody_and_written_under_the_lease(self):
+    def test_settings_are_readable_by_all_and_writable_under_the_lease(self):
         self.assertEqual(self.new_master(0x4321).read_setting("max_power_W")["value"], 4.5)
         self.assertEqual(self.master.write_setting("max_power_W", 2.0)["refusal"], "no_lease")
         told = self.while_leased(lambda: self.master.write_setting("max_power_W", 2.0))
@@ -142,7 +142,7 @@ class Commanded(OnTheBus):
         self.assertNotEqual(self.master.session, old)
         self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
 
-    def test_damaged_commands_are_neither_obeyed_nor_answered(self):
+    def test_damaged_commands_are_ignored(self):
         chance = random.Random(20261120)
         self.master.steer_until(TARGET_M, lambda m: True)
         for _ in range(40):
@@ -154,7 +154,7 @@ class Commanded(OnTheBus):
         self.assertNotIn("disarm", {told["opcode"] for told in self.master.answers})
         self.assert_nothing_but_starved()
 
-    def test_random_frames_are_not_obeyed_and_do_not_disturb_the_control(self):
+    def test_random_frames_do_not_disturb_control(self):
         def off_track_m(master):
             return abs(master.newest["Tracking"]["error_m"])
         chance = random.Random(20261120)
@@ -186,14 +186,14 @@ def imported_example():
 
 
 class Example(OnTheBus):
-    def test_its_checksum_is_the_protocols(self):
+    def test_its_checksum_matches_the_protocol(self):
         example = imported_example()
         chance = random.Random(20261120)
         for _ in range(1000):
             identifier, data = chance.randrange(0x800), chance.randbytes(8)
             self.assertEqual(bytes([example.crc(identifier, data)]) + data[1:], e2e.protected(identifier, data))
 
-    def test_it_passes_over_another_nodes_frames(self):
+    def test_it_ignores_frames_of_other_nodes(self):
         # A kernel gives it those that came before it had the filters; here there are none.
         example = imported_example()
         example.bus = self.master.bus
@@ -202,10 +202,10 @@ class Example(OnTheBus):
             other.send(can.Message(arbitration_id=OF_NODE_2, data=bytes(8), is_extended_id=False))
         self.assertNotEqual(example.claim(), 0)
 
-    def test_it_moves_the_muscle_and_lets_it_go(self):
+    def test_it_moves_the_muscle_and_releases_it(self):
         self.assert_it_moves_the_muscle(EXAMPLE)
 
-    def test_it_does_so_by_the_protocol_of_before_boot(self):
+    def test_it_works_without_boot_frames(self):
         old = self.example_without("Boot")
         self.master.hear_next("Boot")
         self.assert_it_moves_the_muscle(old)
@@ -214,7 +214,7 @@ class Example(OnTheBus):
 class ExampleOnAJoint(OnTheBus):
     scenario = "joint-bench"
 
-    def test_it_moves_the_agonist_by_the_protocol_of_before_joint(self):
+    def test_it_works_without_joint_frames(self):
         old = self.example_without("Joint")
         self.master.hear_next("Joint")
         self.assert_it_moves_the_muscle(old)

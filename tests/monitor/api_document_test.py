@@ -38,16 +38,16 @@ def documented():
 
 
 class Document(unittest.TestCase):
-    def test_it_is_openapi(self):
+    def test_document_is_valid_openapi(self):
         validate(DOCUMENT)
 
-    def test_it_has_every_command(self):
+    def test_document_lists_every_command(self):
         names = re.search(r"verb_names\{(.*?)\};", (ROOT / "firmware/core/loop/command.hpp").read_text(), re.S).group(1)
         body = DOCUMENT["paths"]["/api/command"]["post"]["requestBody"]["content"]["application/json"]["schema"]
         plain = re.findall(r'"(\w+)"', names.partition('"knot"')[0])  # a trajectory's have a path of their own
         self.assertEqual(["none", *body["properties"]["opcode"]["enum"]], plain)
 
-    def test_it_has_what_is_served(self):
+    def test_document_lists_every_served_path(self):
         self.assertGreater(len(served()), 10)
         self.assertEqual(documented(), served())
 
@@ -82,10 +82,10 @@ class Answers(OnSimulatedBoard):
             jsonschema.validate(said, {**content["schema"], "components": DOCUMENT["components"]})
         return said
 
-    def test_it_is_served(self):
+    def test_document_is_served(self):
         self.assertEqual(self.check("get", "/api/openapi.json", 200), DOCUMENT)
 
-    def test_what_is_looked_at(self):
+    def test_read_requests_match_the_document(self):
         about = self.check("get", "/api/about", 200)
         self.assertEqual(str(about["protocol_version"]), DOCUMENT["info"]["version"])
         self.assertEqual(about["infeasible"], INFEASIBLE)
@@ -99,7 +99,7 @@ class Answers(OnSimulatedBoard):
             self.check("get", path, 504, path.format(node=9))
             self.check("get", path, 400, path.format(node=64))
 
-    def test_what_is_commanded(self):
+    def test_commands_match_the_document(self):
         bearer = {"Authorization": f"Bearer {self.token}"}
         node = {"node": 1}
         self.check("post", "/api/command", 200, body={**node, "opcode": "disarm"}, **bearer)

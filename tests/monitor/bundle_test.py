@@ -12,8 +12,8 @@ from page_test import READY_S, PageCase
 from programs import SUPERCOIL, command, until
 
 
-class Told(ModulesCase):
-    def test_who_leads_is_told_by_the_board(self):
+class BundleLeader(ModulesCase):
+    def test_leader_is_reported_by_the_board(self):
         told = self.ask("""const { leader_of } = await import("/joint.js");
             const { protocol } = await (await fetch("/api/about")).json();
             const quantity = Number(Object.entries(protocol.Muscle.quantity.values).find(([, is]) => is === "bundle_leader_node_offset")[0]);
@@ -24,13 +24,13 @@ class Told(ModulesCase):
         self.assertEqual(told, [None, None, 1])
 
 
-class OfBundle(PageCase):
+class BundlePage(PageCase):
     scenario = "bundle-bench"
 
     def nodes(self):
         return json.loads(command(self.source, "state", "--json").stdout)["nodes"]
 
-    def test_every_muscle_gets_the_power_of_the_one_that_leads(self):
+    def test_every_muscle_gets_the_leaders_power(self):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
         done = command(self.source, "1", "power", "1.0", "--for", "3")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -50,7 +50,7 @@ class OfBundle(PageCase):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("wrong_state", refused.stderr)
 
-    def test_the_page_says_who_commands_what_follows(self):
+    def test_page_names_the_leader_on_a_followers_tab(self):
         page = self.page()
         tabs = lambda: page.driver.find_elements("css selector", "#tabs [role=tab]")  # noqa: E731
         page.wait(lambda: len(tabs()) == 4, READY_S, "three nodes, and one for all")

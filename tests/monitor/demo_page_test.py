@@ -17,7 +17,7 @@ PROGRAMS = pathlib.Path(SUPERCOIL).parent
 
 
 class DemoPage(unittest.TestCase):
-    def test_the_muscle_moves_by_its_page_and_both_programs_end_with_the_command(self):
+    def test_the_page_moves_the_muscle_and_both_programs_end(self):
         port = free_ports()
         demo = Program(["env", f"SUPERCOIL_PROGRAMS={PROGRAMS}", DEMO, "--page", port], r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
         self.addCleanup(demo.stop)
@@ -36,7 +36,7 @@ class DemoPage(unittest.TestCase):
         demo.stop()
         until(lambda: not pathlib.Path("/proc", board).exists(), SLACK_S)
 
-    def test_the_simulators_package_brings_the_page(self):
+    def test_page_needs_the_supercoil_program(self):
         with tempfile.TemporaryDirectory() as folder:
             prefix = pathlib.Path(folder)
             (prefix / "bin").mkdir()
@@ -52,12 +52,12 @@ class DemoPage(unittest.TestCase):
             self.assertEqual(Served(page).get("/api/about")[0], 200)
             page.stop()
 
-    def test_a_wrong_scenario_is_told_before_there_is_a_page(self):
+    def test_an_unknown_scenario_is_rejected_at_the_start(self):
         done = subprocess.run([PROGRAMS / "supercoil-sim", "page", "benhc"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("benhc", done.stderr)
 
-    def test_what_is_no_option_is_refused(self):
+    def test_an_unknown_option_is_rejected(self):
         done = subprocess.run([DEMO, "--pages"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("toolchain/demo --page", done.stderr)

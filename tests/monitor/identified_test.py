@@ -24,8 +24,8 @@ IDENTIFIED = """const { Identified } = await import("/identified.js");
 """
 
 
-class Told(ModulesCase):
-    def test_since_when_is_told_by_how_identify_ended(self):
+class IdentifiedCard(ModulesCase):
+    def test_shows_since_when_the_result_is_in_use(self):
         told = self.ask(IDENTIFIED + """const values = (deviation) => ({ stiffness_N_per_m: 16, theta4_deviation_ratio: deviation });
             const told = [shown(0)];
             status(1, "rest", "none"); muscle(1, values(null)); told.push(shown(2));
@@ -36,7 +36,7 @@ class Told(ModulesCase):
         self.assertEqual(told, ["No program asked the board for it in this log.", "Not identified since the board started: configured, or stored from before.",
                                 "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s."])
 
-    def test_an_identification_before_the_page_is_told_as_such(self):
+    def test_an_identification_before_the_page_is_marked(self):
         self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "found"); muscle(1, { stiffness_N_per_m: 16, theta4_deviation_ratio: 0.02 });
             return shown(2);"""), "Identified since the board started, before this page's data begins.")
 
@@ -46,28 +46,28 @@ class Told(ModulesCase):
             return [shown(2), card.rows.get("theta4")[1].textContent];"""),
             ["Identified 2026-11-21 00:00 UTC, before the board started.", "± 2.00 %"])
 
-    def test_theta_follows_from_what_the_board_goes_by(self):
+    def test_theta_follows_from_the_parameters_in_use(self):
         self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { thermal_mass_J_per_K: 2, heat_transfer_W_per_K: 3, stiffness_N_per_m: 5, damping_Ns_per_m: 7,
                 moving_mass_kg: 11, force_per_kelvin_N_per_K: 0.5, theta2_deviation_ratio: 0.034 });
             card.update(2);
             return ["theta1", "theta2", "theta3", "theta4"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
             [["4.00", "–", "–"], ["94.0", "± 3.40 %", "–"], ["62.0", "–", "–"], ["30.0", "–", "–"]])
 
-    def test_what_the_file_says_stands_beside_it(self):
+    def test_configured_values_are_shown_beside(self):
         self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { stiffness_N_per_m: 5, configured_stiffness_N_per_m: 16, cold_resistance_Ohm: 9, configured_cold_resistance_Ohm: 10,
                 configured_thermal_mass_J_per_K: 2, configured_force_per_kelvin_N_per_K: 0.5 });
             card.update(2);
             return ["stiffness_N_per_m", "cold_resistance_Ohm", "theta1"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
             [["5.00", "–", "16.0"], ["9.00", "–", "10.0"], ["–", "–", "4.00"]])
 
-    def test_time_constant_and_gain_follow_too(self):
+    def test_time_constant_and_gain_are_derived(self):
         self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { thermal_mass_J_per_K: 2, heat_transfer_W_per_K: 4, stiffness_N_per_m: 5, force_per_kelvin_N_per_K: 0.5,
                 configured_thermal_mass_J_per_K: 2, configured_heat_transfer_W_per_K: 5 });
             card.update(2);
             return ["time_constant", "gain"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
             [["0.500", "–", "0.400"], ["25.0", "–", "–"]])
 
-    def test_deviations_that_the_server_derives_are_shown_while_they_are_of_what_the_stream_tells(self):
+    def test_derived_deviations_are_shown_only_for_current_values(self):
         self.assertEqual(self.ask(IDENTIFIED + """const now = globalThis.fetch;
             const sent = { stiffness_N_per_m: 16.1, theta2_deviation_ratio: 0.02, theta3_deviation_ratio: 0.01, theta4_deviation_ratio: 0.01 };
             globalThis.fetch = async () => new Response(JSON.stringify({ ...sent, stiffness_N_per_m_deviation_ratio: 0.034, time_constant_deviation_ratio: 0.0048 }));
@@ -87,8 +87,8 @@ class Told(ModulesCase):
             [["–"] * 4, ["± 3.40 %", "± 0.480 %", "–", "± 2.00 %"], ["–", "–", "–", "± 2.00 %"]])
 
 
-class OnThePage(PageCase):
-    def test_a_board_is_asked_and_answers(self):
+class IdentifiedPage(PageCase):
+    def test_the_card_queries_the_board(self):
         page = self.page()
         page.wait(lambda: "Not identified since the board started" in page.text(CARD), SLACK_S, "what it goes by")
         page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(7) td"), SLACK_S, "the first quantity")

@@ -43,7 +43,7 @@ TOLD = """const { JointCard } = await import("/joint_card.js");
 
 
 class Told(ModulesCase):
-    def test_both_nodes_show_the_joint_of_the_muscle_that_turns_it_right(self):
+    def test_both_nodes_show_the_same_joint(self):
         told = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
             hear(3, "Measurement", { position_m: 0.01 }); hear(3, "Tracking", { reference_m: 0.0104 });
             hear(2, "Measurement", { position_m: -0.01 });
@@ -55,14 +55,14 @@ class Told(ModulesCase):
                                    "both pull with: –"])
         self.assertEqual(told[1], told[0])
 
-    def test_the_limit_that_a_muscle_is_at_is_told_of_either(self):
+    def test_shows_the_limit_of_either_muscle(self):
         limits = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
             const by = (name) => Number(Object.entries(protocol.Power.limited_by.values).find(([, is]) => is === name)[0]);
             hear(3, "Power", { applied_W: 0, limited_by: by("nothing") }); hear(2, "Power", { applied_W: 2, limited_by: by("maximum") });
             return shown(3).slice(3, 5);""")
         self.assertEqual(limits, ["node 3, turns right: 0.00 W, – … – °C", "node 2, turns left: 2.00 W, – … – °C, limited by maximum"])
 
-    def test_a_spring_has_no_node_and_no_other_way(self):
+    def test_a_spring_joint_has_one_node_and_one_direction(self):
         told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
             muscle(1, 0.015, null);
             hear(1, "Measurement", { position_m: 0.003 });
@@ -70,7 +70,7 @@ class Told(ModulesCase):
             return [joint.other, unit, both_ways, min_m(0.01), shown(1)[1]];""")
         self.assertEqual(told, [None, "°", False, 0, "angle: 11.46°"])
 
-    def test_how_far_the_other_muscle_may_contract_is_told(self):
+    def test_reads_the_other_muscles_travel(self):
         told = self.ask(TOLD + """muscle(1, 0.015, 1);
             const { joint_of } = await import("/joint.js");
             const words = ({ lever_m, ...rest }) => [lever_m.toFixed(6), rest.other, rest.other_travel_m?.toFixed(6)];
@@ -80,7 +80,7 @@ class Told(ModulesCase):
             return [before, words(joint_of(store, 1, 1))];""")
         self.assertEqual(told, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
 
-    def test_each_muscle_may_have_a_lever_of_its_own(self):
+    def test_each_muscle_may_have_its_own_lever(self):
         told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
             muscle(3, 0.02, -1); muscle(2, -0.01, 1);
             hear(3, "Measurement", { position_m: 0.01 }); hear(2, "Measurement", { position_m: -0.005 });
@@ -89,7 +89,7 @@ class Told(ModulesCase):
             return [shown(3)[1], shown(2)[1], measure_of(joint_of(store, 3, 1)).min_m(1).toFixed(6)];""")
         self.assertEqual(told, ["angle: 28.65°", "angle: 28.65°", "-0.008000"])
 
-    def test_a_lever_that_depends_on_the_angle_is_told_by_its_table(self):
+    def test_reads_a_lever_table(self):
         shown, typed_m = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
             const table = { first_rad: -0.5, last_rad: 0.5, "1_m": 0.012, "2_m": 0.015, "3_m": 0.011, "4_m": null };
             Object.entries(table).forEach(([name, value], i) => {
@@ -103,7 +103,7 @@ class Told(ModulesCase):
         self.assertEqual([card[:3] for card in shown], 2 * [["rotate(34.38)", "angle: 34.38°", "reference: −14.32°"]])
         self.assertAlmostEqual(typed_m, 0.015 * 0.25 - 0.004 * 0.25 ** 2, 9)
 
-    def test_half_of_what_a_board_tells_is_no_joint_yet(self):
+    def test_shows_no_joint_until_all_quantities_arrived(self):
         told = self.ask(TOLD + """const names = ["joint_lever_m", "joint_other_node_offset", "joint_lever_first_rad", "joint_lever_last_rad",
                 ...Array.from({ length: 7 }, (_, i) => `joint_lever_${i + 1}_m`)];
             const values = [0.015, 1, -0.5, 0.5, 0.012, 0.015, 0.011, null, null, null, null];
@@ -113,10 +113,10 @@ class Told(ModulesCase):
             });""")
         self.assertEqual(told, 10 * [False] + [True])
 
-    def test_a_muscle_alone_and_one_that_was_not_asked_have_no_joint(self):
+    def test_a_single_or_unknown_muscle_has_no_joint(self):
         self.assertEqual(self.ask(TOLD + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])
 
-    def test_an_angle_that_is_not_known_is_not_drawn_as_one(self):
+    def test_an_unknown_angle_is_not_drawn(self):
         self.assertEqual(self.ask(TOLD + "muscle(1, 0.015, 1); return shown(1).slice(0, 3);"), ["rotate(0)", "angle: –°", "reference: –°"])
 
 
@@ -127,18 +127,18 @@ class Angles(ModulesCase):
         const values = { offset: -5, amplitude: 20, period: 10 };
         """
 
-    def test_only_the_agonists_positions_are_angles(self):
+    def test_only_the_agonists_position_is_an_angle(self):
         self.assertEqual(self.ask(self.SCRIPT + """return [agonist, measure_of({ lever_m: -0.015, other: 1 }), measure_of(null)].map(({ unit, both_ways }) => [unit, both_ways]);"""),
                          [["°", True], ["mm", False], ["mm", False]])
 
-    def test_waveforms_of_a_joint_are_degrees_both_ways(self):
+    def test_joint_waveforms_are_in_degrees_of_both_signs(self):
         at_m, why = self.ask(self.SCRIPT + """return [waveform("sine", values, agonist).at(2.5), refuse_values("sine", values, 0.008, agonist)];""")
         self.assertAlmostEqual(at_m, 0.0039270, 6)  # 15 degrees
         self.assertEqual(why, "")
         self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, offset: 15 }, 0.008, agonist);"""),
                          "offset and amplitude reach from -5.00 to 35.00 °; allowed: -30.56 to 30.56 °")
 
-    def test_it_goes_no_further_back_than_its_other_muscle_may_contract(self):
+    def test_range_includes_the_other_muscles_travel(self):
         self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, lever: new Lever([0.015]), other: 2, other_travel_m: 0.006 }));"""),
                          "offset and amplitude reach from -30.00 to 20.00 °; allowed: -22.92 to 30.56 °")
 
@@ -148,7 +148,7 @@ class Angles(ModulesCase):
         self.assertEqual(told, ["", "line 3: position_m -0.009; allowed: -0.008 to 0.008 m", "line 3: position_m -0.008; allowed: 0 to 0.008 m"])
 
 
-class OfJoint(PageCase):
+class JointPage(PageCase):
     scenario = "joint"
 
     def angle_deg(self, page, node):
@@ -157,8 +157,8 @@ class OfJoint(PageCase):
         return found and tuple(map(float, found.groups()))
 
 
-class OnThePage(OfJoint):
-    def test_a_joint_that_follows_is_seen_to_turn(self):
+class RunningJointPage(JointPage):
+    def test_a_tracking_joint_turns_on_the_page(self):
         page = self.page()
         page.wait(lambda: (self.angle_deg(page, 1) or (0.0, 0.0))[0] > 10.0, FOLLOWS_S, "turned right")
         page.wait(lambda: (self.angle_deg(page, 1) or (0.0, 0.0))[0] < -10.0, 30.0, "turned left")
@@ -169,7 +169,7 @@ class OnThePage(OfJoint):
         self.assertEqual(page.errors(), [])
 
 
-class OfFreeJoint(OfJoint):
+class FreeJointPage(JointPage):
     """A joint that nobody else commands."""
 
     keys = ""
@@ -184,13 +184,13 @@ class OfFreeJoint(OfJoint):
         super().setUpClass()
 
 
-class ByHand(OfFreeJoint):
+class JointByHand(FreeJointPage):
     def type_angle(self, page, angle):
         field = page.find(".manual .value input")
         field.clear()
         field.send_keys(str(angle), Keys.ENTER)
 
-    def test_it_is_turned_both_ways_by_its_angle(self):
+    def test_an_angle_turns_it_both_ways(self):
         page = self.page()
         page.wait(lambda: page.text(".manual .value .unit") == "°", READY_S, "the joint is told")
         unit = page.find("#wave-amplitude-1 + .unit").get_attribute("textContent")
@@ -212,7 +212,7 @@ class ByHand(OfFreeJoint):
         self.assertEqual([json.loads(line) for line in done.stdout.splitlines()],
                          [{"command": f"{node} calibrate", "result": "found"} for node in (1, 2)])
 
-    def told_angle_deg(self):
+    def published_angle_deg(self):
         agonist, _ = json.loads(command(self.source, "state", "--json").stdout)["nodes"]
         return math.degrees(agonist["Measurement"]["position_m"] / 0.015)
 
@@ -223,7 +223,7 @@ class ByHand(OfFreeJoint):
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "-6deg", "--for", "15", "--can", self.source],
                                 stderr=subprocess.PIPE, text=True)
         self.addCleanup(held.kill)
-        until(lambda: abs(self.told_angle_deg() + 6.0) < 0.5)
+        until(lambda: abs(self.published_angle_deg() + 6.0) < 0.5)
         self.assertEqual((held.communicate(timeout=2 * SLACK_S)[1], held.returncode), ("", 0))
         self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90°").stderr)
         self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90deg").stderr)
@@ -231,16 +231,16 @@ class ByHand(OfFreeJoint):
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "2°", "--amplitude", "5deg", "--period", "11", "--hold", "--can", self.source],
                                 stderr=subprocess.PIPE, text=True)
         self.addCleanup(held.kill)
-        until(lambda: 5.5 < self.told_angle_deg() < 8.0, 40.0)
-        until(lambda: -4.0 < self.told_angle_deg() < -1.5, 40.0)
+        until(lambda: 5.5 < self.published_angle_deg() < 8.0, 40.0)
+        until(lambda: -4.0 < self.published_angle_deg() < -1.5, 40.0)
         held.send_signal(signal.SIGINT)
         self.assertEqual(held.communicate(timeout=2 * SLACK_S)[1].strip(), "")
 
 
-class AgainstASpring(OfFreeJoint):
+class SpringJoint(FreeJointPage):
     keys = "opposed_by = 'spring'\n"
 
-    def test_it_is_commanded_in_degrees_too(self):
+    def test_a_spring_joint_takes_degrees(self):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "12deg", "--hold", "--can", self.source])
         self.addCleanup(held.wait)
@@ -255,10 +255,10 @@ class AgainstASpring(OfFreeJoint):
         self.assertEqual(page.errors(), [])
 
 
-class ByALeverTable(OfFreeJoint):
+class LeverTableJoint(FreeJointPage):
     keys = "lever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n"
 
-    def test_an_angle_is_commanded_as_the_levers_integral(self):
+    def test_an_angle_is_converted_by_the_levers_integral(self):
         angle = math.radians(-12.0)
         arc_m = 0.015 * angle + 0.5 * 0.003 / math.radians(30.0) * angle ** 2
         until(lambda: command(self.source, "1", "arm").returncode == 0)
@@ -276,7 +276,7 @@ class ByALeverTable(OfFreeJoint):
         page.wait(lambda: abs((self.angle_deg(page, 1) or (99.0, 99.0))[0] + 12.0) < 0.3, FOLLOWS_S, "it is there")
 
 
-class Picture(OfJoint):
+class Picture(JointPage):
     """The picture of a joint that moves; a test run does not find it."""
 
     def take(self):

@@ -6,7 +6,7 @@ from modules import CARD, ModulesCase
 
 
 class ModulesTest(ModulesCase):
-    def test_one_row_s_peak_is_seen_in_an_hour(self):
+    def test_a_single_peak_stays_visible_in_an_hour(self):
         points = self.ask("""const table = full(0, 360000, (i) => (i === 123457 ? 7 : Math.sin(i)));
             const [line] = decimate(table, ["v"], 0, 3600, 500, 1);
             return [Math.max(...line), Math.min(...line), line.length, line.indexOf(7)];""")
@@ -15,18 +15,18 @@ class ModulesTest(ModulesCase):
         self.assertEqual(points[2], 1000)
         self.assertAlmostEqual(points[3] / 1000, 123457 / 360000, delta=0.002)
 
-    def test_numbered_children_stand_in_order_however_they_come(self):
+    def test_numbered_children_are_sorted(self):
         self.assertEqual(self.ask("""const { place } = await import("/dom.js");
             const page = document.implementation.createHTMLDocument();
             const list = page.createElement("ul");
             for (const number of [30, 2, 100, 10]) place(list, number, page.createElement("li"));
             return [...list.children].map((child) => Number(child.dataset.number));"""), [2, 10, 30, 100])
 
-    def test_points_of_a_pixel_come_in_their_order(self):
+    def test_points_within_a_pixel_keep_their_order(self):
         self.assertEqual(self.ask("""const table = full(0, 4, (i) => [5, 4, 1, 2][i]);
             return decimate(table, ["v"], 0, 0.04, 1, 1)[0];"""), [5, 1])
 
-    def test_line_goes_on_between_sparse_rows_and_breaks_where_nothing_came(self):
+    def test_line_bridges_sparse_rows_and_breaks_at_gaps(self):
         line = self.ask("""const table = new Table(["v"], 3600);
             table.append(rows(0, 20, () => 1, 0.1));
             table.append(rows(6, 20, () => 2, 0.1));
@@ -34,24 +34,24 @@ class ModulesTest(ModulesCase):
         # From the pixel after the last row to the one before the next: uPlot leaves out what lies beside a null and no more.
         self.assertRegex(line, r"^[1-]{76,80}0{158,166}2[2-]*$")
 
-    def test_a_pause_within_a_block_of_rows_breaks_the_line_of_a_long_time(self):
+    def test_a_pause_breaks_the_line_over_a_long_time(self):
         line = self.ask("""const table = full(0, 100, () => 1);
             table.append(rows(1000, 100000, () => 2));
             return drawn(decimate(table, ["v"], 0, 2000, 500, 1)[0]);""")
         self.assertRegex(line, r"^1-0{498}2-")
 
-    def test_rhythm_of_rows_is_what_it_is_between_pauses(self):
+    def test_row_period_ignores_pauses(self):
         self.assertEqual(self.ask("""const table = full(0, 10, () => 1);
             table.append(rows(1000, 8, () => 1));
             const slow = new Table(["v"], 3600);
             slow.append(rows(0, 5, () => 1, 2));
             return [table.period_s.toFixed(3), slow.period_s, new Table(["v"], 3600).period_s];"""), ["0.010", 2, 0])
 
-    def test_labels_of_ticks_that_lie_evenly_do_so_too(self):
+    def test_tick_labels_have_enough_decimals(self):
         self.assertEqual(self.ask("""const { decimals_of } = await import("/format.js");
             return [2.5, 0.25, 0.1, 0.5, 1, 5, 10, 100, 0.001, 0.025].map(decimals_of);"""), [1, 2, 1, 1, 0, 0, 0, 0, 3, 3])
 
-    def test_the_time_that_is_left_is_told_once_it_can_be(self):
+    def test_remaining_time_is_shown_when_it_is_known(self):
         self.assertEqual(self.ask(CARD + """const number = (signal, name) => Number(Object.entries(protocol.Status[signal].values).find(([, is]) => is === name)[0]);
             const shown = (time_s, mode, progress) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [number("state", "active")],
@@ -64,7 +64,7 @@ class ModulesTest(ModulesCase):
             ["identify: 10 %", "identify: 20 %", "identify: 30 %, 14 s left", "identify: 60 %, 8 s left",
              "calibrate: 50 %", "calibrate: 51 %", "calibrate: 88 %, 6 s left", "calibrate: 0 %"])
 
-    def test_state_says_how_hot_a_muscle_may_be_and_never_that_it_is_cold(self):
+    def test_state_shows_the_hottest_temperature_and_never_cold(self):
         told = self.ask("""const { StateCard } = await import("/state_card.js");
             const { protocol, protocol_version } = await (await fetch("/api/about")).json();
             const told = {};
@@ -89,7 +89,7 @@ class ModulesTest(ModulesCase):
             self.assertEqual(told[state], [unknown, f"{is_said}; may {still}be at 83 °C", f"{is_said}; at most 27 °C",
                                            unknown, unknown], state)
 
-    def test_a_resistance_that_is_old_is_dimmed(self):
+    def test_an_old_resistance_is_dimmed(self):
         self.assertEqual(self.ask("""const { Readouts } = await import("/readouts.js");
             const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, false);
@@ -105,11 +105,11 @@ class ModulesTest(ModulesCase):
             [["12.800", False, ""], ["12.800", True, "measured 34 s ago"],
              ["12.800", True, "not measured for a long time, or never"], ["12.800", False, ""]])
 
-    def test_what_is_not_available_is_a_gap(self):
+    def test_unavailable_values_are_gaps(self):
         self.assertEqual(self.ask("""const table = full(0, 3, (i) => (i === 1 ? null : i));
             return decimate(table, ["v"], 0, 0.03, 3, 1)[0].filter((v) => v !== undefined);"""), [0, None, 2])
 
-    def test_an_hour_is_kept_and_no_more(self):
+    def test_one_hour_is_kept(self):
         first_s, kept = self.ask("""const table = new Table(["v"], 3600);
             for (let t = 0; t < 5000; t += 10) table.append(rows(t, 1000, (i) => i));
             return [table.first_s, length(table)];""")
@@ -117,18 +117,18 @@ class ModulesTest(ModulesCase):
         self.assertGreater(first_s, 1300)
         self.assertLess(kept, 365_000)
 
-    def test_rows_are_taken_once_whether_history_or_stream_brings_them(self):
+    def test_duplicate_rows_are_dropped(self):
         self.assertEqual(self.ask("""const table = full(10, 100, (i) => i);
             table.append(rows(10.5, 100, (i) => i));
             table.prepend(rows(9.5, 100, (i) => i));
             const times = [...table.rows(0, 100)].map((row) => row.time_s);
             return [length(table), times.every((time, i) => i === 0 || time > times[i - 1])];"""), [200, True])
 
-    def test_value_at_a_time_is_the_newest_until_then(self):
+    def test_value_at_a_time_is_the_latest_before_it(self):
         self.assertEqual(self.ask("""const table = full(10, 100, (i) => i);
             return [table.at(9.99), table.at(10.005).v, table.at(99).v];"""), [None, 0, 99])
 
-    def test_source_that_begins_anew_begins_anew(self):
+    def test_a_restarted_source_clears_the_store(self):
         self.assertEqual(self.ask("""const store = new Store({ M: { v: {} } }, false);
             const batch = (from_s) => ({ newest_s: from_s + 0.99, nodes: { 1: { M: rows(from_s, 100, () => 1) } } });
             let begun = 0;
@@ -137,7 +137,7 @@ class ModulesTest(ModulesCase):
             store.append(batch(5));
             return [begun, store.oldest_s, length(store.table(1, "M"))];"""), [1, 5, 100])
 
-    def test_a_parameter_has_its_deviation_while_the_estimator_tells_one(self):
+    def test_deviations_are_shown_while_the_estimator_reports_them(self):
         told, not_told, none = self.ask("""const { Parameters } = await import("/parameters.js");
             const { protocol } = await (await fetch("/api/about")).json();
             const numbers = Object.fromEntries(Object.entries(protocol.Estimate.parameter.values).map(([n, name]) => [name, Number(n)]));
@@ -170,7 +170,7 @@ class ModulesTest(ModulesCase):
         self.assertEqual(not_told["bias"], ["–", "W", "–", "–", "–"])
         self.assertEqual(none["θ1"][:4], ["–", "m", "–", "–"])
 
-    def test_a_board_of_another_protocol_is_told(self):
+    def test_another_protocol_version_is_reported(self):
         told = self.ask("""const { StateCard } = await import("/state_card.js");
             const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, false);
@@ -186,7 +186,7 @@ class ModulesTest(ModulesCase):
         self.assertIn("version 2 of the protocol, this page 3", told[0])
         self.assertIn("version 4 of the protocol, this page 3", told[2])
 
-    def test_a_fault_is_told_with_its_margin_until_it_is_reset(self):
+    def test_a_fault_is_shown_with_its_margin_until_reset(self):
         told = self.ask(CARD + """const shown = (time_s, fault, more) => {
                 const status = { time_s: [time_s], state: [3], fault: [fault], protocol_version: [protocol_version] };
                 store.append({ newest_s: time_s, nodes: { 1: { Status: status, ...more } } });
@@ -199,7 +199,7 @@ class ModulesTest(ModulesCase):
         with_margin = "fault 23: heater not responding (measured 8.00e−4, limit 0.00267 m) – what to do"
         self.assertEqual(told, [with_margin, with_margin, "", "fault 30: over temperature – what to do"])
 
-    def test_a_proof_of_response_that_is_off_is_told(self):
+    def test_a_disabled_proof_of_response_is_shown(self):
         told = self.ask(CARD + """const shown = (time_s, row) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
                 card.update(time_s);
@@ -209,7 +209,7 @@ class ModulesTest(ModulesCase):
         self.assertEqual(told[:2], [True, True])
         self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", told[2])
 
-    def test_a_loop_that_oscillated_is_told(self):
+    def test_an_oscillated_loop_is_shown(self):
         told = self.ask(CARD + """const shown = (time_s, row) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
                 card.update(time_s);
@@ -219,7 +219,7 @@ class ModulesTest(ModulesCase):
         self.assertEqual(told[:2], [True, True])
         self.assertIn("its feedback is slower now", told[2])
 
-    def test_a_muscle_that_is_slack_is_told(self):
+    def test_a_slack_muscle_is_shown(self):
         told = self.ask(CARD + """const shown = (time_s, row) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
                 card.update(time_s);
@@ -229,7 +229,7 @@ class ModulesTest(ModulesCase):
         self.assertEqual(told[:2], [True, True])
         self.assertIn("this muscle is slack at the present joint angle", told[2])
 
-    def test_every_reason_of_a_refused_identify_is_told(self):
+    def test_every_reason_of_a_failed_identify_is_shown(self):
         told = self.ask(CARD + """const shown = (time_s, result, identify_notes, friction = 0) => {
                 store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], result: [result], friction: [friction] },
                     Estimate: { time_s: [time_s], identify_notes: [identify_notes] } } } });
@@ -242,7 +242,7 @@ class ModulesTest(ModulesCase):
             True, True, last + "found: stored.", last + "found: stored; theta1 kept.",
             last + "poor fit: play; theta2 uncertain; theta4 uncertain.", last + "found: stored; poor fit; friction."])
 
-    def test_what_interrupted_identify_is_told_by_the_heartbeat_that_ended_it(self):
+    def test_shows_what_interrupted_identify(self):
         told = self.ask(CARD + """const values = (signal) => Object.entries(protocol.Status[signal].values);
             const number = (signal, name) => Number(values(signal).find(([, is]) => is === name)[0]);
             let time_s = 0;
@@ -263,7 +263,7 @@ class ModulesTest(ModulesCase):
         self.assertEqual(told, [*["interrupted by the fault heater open."] * 2, *["interrupted: it was disarmed."] * 2,
                                 *["interrupted by another command."] * 2, "interrupted by a command or a fault."])
 
-    def test_page_of_a_fault_becomes_elements_and_never_script(self):
+    def test_fault_pages_are_rendered_without_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";
             const link = (label) => document.createTextNode(`(${label})`);
             return markdown(text, link).map((e) => e.outerHTML).join("");""")

@@ -21,13 +21,13 @@ OUTCOME = """const { cycle_text, infeasible_text, limits_text, never_armed_text,
 
 
 class OutcomeTest(ModulesCase):
-    def test_share_of_limits_is_of_the_time_that_it_heated(self):
+    def test_limits_are_a_fraction_of_the_heating_time(self):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, (time) => state(time < 5 ? "armed" : "active"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5 ? "cooling" : time < 6 ? "maximum" : time < 6.5 ? "slew" : "nothing"));
             return [limits_text(store, 1, range), limits_text(store, 1, { from_s: 7, to_s: 10 }), limits_text(store, 2, range)];"""),
             ["At a limit in 30.0 % of the heating time: maximum 20.0 %, slew 10.0 %.", "", ""])
 
-    def test_a_reference_that_was_not_feasible_is_told_of_while_a_position_is_followed(self):
+    def test_an_infeasible_reference_is_reported(self):
         self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
             hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : time < 7 ? "position" : "joint"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5.5 ? "maximum" : time < 6 ? "cooling" : time < 8 ? "slew" : "nothing"));
@@ -37,7 +37,7 @@ class OutcomeTest(ModulesCase):
             ["The reference asked for more than the muscle can do, for up to 0.980 s at a time and in 20.0 % of the time that it was followed: use a slower or smaller one.",
              "The reference asked for more than the muscle can do, for up to 0.480 s at a time and in 100.0 % of the time that it was followed: use a slower or smaller one, or shape_reference.", "", ""])
 
-    def test_noise_at_a_limit_is_no_infeasible_reference(self):
+    def test_noise_at_a_limit_is_not_reported_as_infeasible(self):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));
             // 0.18 of each 0.2 s, then 0.22 of each 0.25 s.
             hear("Power", 0, 250, 0.02, (time) => by(Math.round(time / 0.02) % 10 < 9 ? "maximum" : "nothing"));
@@ -46,7 +46,7 @@ class OutcomeTest(ModulesCase):
             hear("Power", 5, 250, 0.02, (time) => by(Math.round((time - 5) / 0.02) % 13 < 12 ? "maximum" : "nothing"));
             return [short, /in 9\\d\\.\\d % of the time/.test(told(5, 10))];"""), ["", True])
 
-    def test_why_it_was_never_armed(self):
+    def test_reports_why_it_was_never_armed(self):
         self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_text(store, 1, range)];
             const heard = () => told.push(never_armed_text(store, 1, range));
             hear("Status", 0, 10, 0.1, () => state("disarmed")); heard();
@@ -59,7 +59,7 @@ class OutcomeTest(ModulesCase):
             ["", "Never armed: no arm command.", "Never armed: refused, not ready: a probe is not over yet.",
              "Never armed: fault 20, heater open.", ""])
 
-    def test_a_swing_by_itself_is_told_with_its_period(self):
+    def test_an_oscillation_is_reported_with_its_period(self):
         self.assertEqual(self.ask(OUTCOME + """let seed = 1;
             const noise = () => ((seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5) * 1e-5;
             hear("Tracking", 0, 1000, 0.01, () => ({ error_m: noise(), reference_m: 0.008 }));
@@ -71,7 +71,7 @@ class OutcomeTest(ModulesCase):
             return [...told, oscillation_text(store, 1, { from_s: 40, to_s: 70 })];"""),
             ["", "", "It oscillates by itself: ± 100 µm with a period of 2.00 s, while the reference is constant."])
 
-    def test_a_loop_that_oscillates_under_a_moving_reference_is_told_with_its_period(self):
+    def test_an_oscillation_under_a_moving_reference_is_reported(self):
         self.assertEqual(self.ask(OUTCOME + """let seed = 1;
             const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
             hear("Status", 0, 900, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));

@@ -147,7 +147,7 @@ class PageCase(OnSimulatedBoard):
 
 
 class PageTest(PageCase):
-    def test_first_plot_is_there_at_once(self):
+    def test_the_first_plot_appears_quickly(self):
         page = self.page()
         first_s = page.run("return performance.getEntriesByName('first-plot')[0].startTime") / 1e3
         print(f"first plot after {first_s:.2f} s")
@@ -155,7 +155,7 @@ class PageTest(PageCase):
         self.assertEqual(page.text("#status b"), "live")
         self.assertEqual(page.errors(), [])
 
-    def test_every_module_is_named_in_the_page_so_that_all_load_at_once(self):
+    def test_every_module_is_preloaded(self):
         page = self.page()
         loaded = {urllib.parse.urlparse(address).path for address in page.requests()
                   if address.startswith(self.origin) and address.endswith(".js")}
@@ -163,7 +163,7 @@ class PageTest(PageCase):
                              ".map((e) => new URL(e.href ?? e.src).pathname)"))
         self.assertEqual(loaded - {"/stream_worker.js"}, named)
 
-    def test_muscle_obeys_arm_set_point_and_space(self):
+    def test_arm_set_point_and_space_work(self):
         page = self.page()
         page.bring_to(TARGET_MM)
         self.assertGreater(page.value("power"), 0.0)
@@ -174,7 +174,7 @@ class PageTest(PageCase):
         self.assertEqual(page.find(".value input").get_attribute("value"), str(TARGET_MM))
         page.wait(page.stop_is_told, STOP_S, "stop is confirmed")
 
-    def test_it_says_how_identify_and_calibrate_ended(self):
+    def test_shows_how_identify_and_calibrate_ended(self):
         page = self.page()
         page.arm()
         # Identify, as it lasts longer than a busy machine takes to press a key; a cold muscle is calibrated in two seconds.
@@ -188,7 +188,7 @@ class PageTest(PageCase):
         page.click(".go")
         page.wait(lambda: "found: used from now on, and stored" in page.text(".state"), READY_S, "told that it was found")
 
-    def test_gains_of_the_controller_are_shown_by_name(self):
+    def test_controller_gains_are_shown_by_name(self):
         page = self.page()
         gains = "section[aria-label='gains of the controller, node 1']"
         page.wait(lambda: len(page.text(f"{gains} tbody").splitlines()) == 7, READY_S, "all gains of MRAC")
@@ -197,7 +197,7 @@ class PageTest(PageCase):
                                       "sigma"])
         self.assertNotEqual(float(rows["reference"]), 0.0)
 
-    def test_space_stops_and_presses_no_button_that_has_the_focus(self):
+    def test_space_stops_without_pressing_the_focused_button(self):
         page = self.page()
         page.arm()
         page.run("document.querySelector('#keys').focus()")
@@ -205,7 +205,7 @@ class PageTest(PageCase):
         page.wait(page.is_off, STOP_S, "off")
         self.assertFalse(page.find("#help").is_displayed())
 
-    def test_stop_is_clicked(self):
+    def test_clicking_stop_disarms(self):
         page = self.page()
         page.stop_by(lambda: page.click("#stop"))
 
@@ -216,7 +216,7 @@ class PageTest(PageCase):
         page.click(".go")
         page.wait(lambda: "refused: wrong state: arm it first, or reset its fault" in page.text(".answer"), 2.0, "refusal")
 
-    def test_without_token_it_is_for_viewing_and_says_why(self):
+    def test_without_a_token_it_is_read_only(self):
         page = self.page(self.origin)
         self.assertIn("no token", page.text(".why"))
         self.assertFalse(page.find(".arm").is_enabled())
@@ -229,7 +229,7 @@ class PageTest(PageCase):
         page.wait(lambda: page.text(".state .word") != "", FIRST_PLOT_S, "the page again")
         self.assertTrue(page.find(".arm").is_enabled())
 
-    def test_lost_page_expires_the_command_and_says_so(self):
+    def test_a_hanging_page_lets_the_command_expire(self):
         page = self.page()
         page.arm()
         page.move(TARGET_MM)
@@ -238,7 +238,7 @@ class PageTest(PageCase):
         page.wait(lambda: "command expired" in page.text(".notice"), 10.0, "the page says that it was away")
         page.wait(lambda: page.state() != "active", 2.0, "not active")
 
-    def test_eight_open_pages_do_not_keep_stop_waiting(self):
+    def test_eight_open_pages_do_not_delay_stop(self):
         page = self.page()
         for _ in range(7):
             page.driver.switch_to.new_window("tab")
@@ -246,7 +246,7 @@ class PageTest(PageCase):
         print(f"eight pages: off {page.stop_by(page.press_space):.2f} s after the space bar")
         page.wait(page.stop_is_told, STOP_S, "stop is confirmed")
 
-    def test_nothing_is_asked_of_anybody_else(self):
+    def test_page_requests_nothing_from_other_hosts(self):
         page = self.page()
         page.click("#stop")
         time.sleep(1.0)
@@ -255,14 +255,14 @@ class PageTest(PageCase):
                  if not address.startswith(("data:", "blob:", "chrome"))}
         self.assertLessEqual(hosts, {f"127.0.0.1:{port}", f"127.0.0.1:{port + 1}"})
 
-    def test_phone_scrolls_downwards_only_and_shows_stop(self):
+    def test_on_a_phone_it_scrolls_vertically_and_shows_stop(self):
         page = self.page()
         page.screen(360, 740, mobile=True)
         page.wait(lambda: page.run("return document.documentElement.scrollWidth <= 360"), 2.0, "as wide as the phone")
         self.assertTrue(page.run("""const stop = document.getElementById('stop').getBoundingClientRect();
             return stop.left >= 0 && stop.right <= 360 && stop.top >= 0 && stop.bottom <= innerHeight"""))
 
-    def test_pause_holds_the_plots_and_not_the_numbers(self):
+    def test_pause_freezes_the_plots_only(self):
         page = self.page()
         ActionChains(page.driver).send_keys("p").perform()
         page.wait(lambda: page.text("#status b") == "paused", 1.0, "paused")
@@ -272,7 +272,7 @@ class PageTest(PageCase):
         ActionChains(page.driver).send_keys("l").perform()
         page.wait(lambda: page.text("#status b") == "live", 1.0, "live")
 
-    def test_csv_has_what_is_shown(self):
+    def test_csv_contains_the_visible_range(self):
         page = self.page()
         folder = pathlib.Path(page.profile.name) / "downloads"
         page.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
@@ -290,7 +290,7 @@ class PageTest(PageCase):
         self.assertLessEqual(times_s[-1] - times_s[0], 10.0)
         self.assertIn("disarmed", {row.split(",")[columns.index("Status.state")] for row in rows})
 
-    def test_lost_source_is_told_and_the_node_is_silent(self):
+    def test_a_lost_source_is_shown(self):
         board = simulated_board()
         self.addCleanup(board.stop)
         own = monitor(f"socketcand:{board.found[1]}")
@@ -305,7 +305,7 @@ class PageTest(PageCase):
         page.press_space()
         page.wait(lambda: page.text("#stop-notice").startswith("STOP FAILED"), 10.0, "that STOP failed")
 
-    def test_read_only_monitor_lets_nobody_command(self):
+    def test_a_read_only_monitor_accepts_no_commands(self):
         own = monitor(f"socketcand:{self.board.found[1]}", "--read-only")
         self.addCleanup(own.stop)
         page = self.page(own.found[0])
@@ -327,7 +327,7 @@ class PageTest(PageCase):
         page.wait(lambda: number(page.text("#replay output")) > 206.0, 5.0, "it plays")
         self.assertLess(number(page.text("#replay output")), 210.0)
 
-    def test_two_nodes_have_a_tab_each_and_one_that_shows_both(self):
+    def test_two_nodes_have_tabs_and_a_common_one(self):
         folder = self.enterContext(tempfile.TemporaryDirectory())
         own = monitor(with_second_node(log_of("first-motion", folder), lag_s=60.0))
         self.addCleanup(own.stop)
@@ -345,7 +345,7 @@ class PageTest(PageCase):
         page.click("#tabs [role=tab]:last-child")
         self.assertEqual(titles(), ["Node 1", "Node 2"])
 
-    def test_fault_leads_to_its_page(self):
+    def test_a_fault_links_to_its_page(self):
         page = self.page()
         page.click("#stop")
         page.wait(lambda: page.driver.find_elements("css selector", ".margins .link"), 5.0, "margins")

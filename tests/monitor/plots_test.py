@@ -22,10 +22,10 @@ PAINTED = """const [title, rgb, least, most] = arguments; // alpha
 MODEL_OF_POSITION = "#plots [aria-label=Position] label"
 
 
-class RunOfCsv(ModulesCase):
+class CsvRun(ModulesCase):
     TOOLS = 'const { OtherRun, batch_of_csv, batch_of_store } = await import("/other_run.js"); const { csv } = await import("/csv.js");'
 
-    def test_a_csv_that_was_exported_is_a_run_again(self):
+    def test_an_exported_csv_can_be_loaded_again(self):
         self.assertEqual(self.ask(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, true);
             store.append({ newest_s: 3, nodes: { 2: { Measurement: { time_s: [1, 2, 3], position_m: [0.001, null, 0.003] }, Status: { time_s: [1.5], state: [2] } } } });
@@ -39,14 +39,14 @@ class RunOfCsv(ModulesCase):
             return [values(run.table(2, "Measurement")), values(run.table(7, "Measurement")), values(kept.table(2, "Measurement")), kept.later_s];"""),
             [[[1, 0.001], [3, 0.003]], [[1, 0.001], [3, 0.003]], [[2, None], [3, 0.003]], 99.5])
 
-    def test_a_time_in_a_csv_keeps_its_microseconds(self):
+    def test_csv_times_keep_their_microseconds(self):
         self.assertEqual(self.ask(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, true);
             store.append({ newest_s: 3, nodes: { 1: { Emergency: { time_s: [3], fault: [30], state: [3], board_time_s: [2592000.123457] } } } });
             return (await (await csv(store, [1], { from_s: 0, to_s: 9 })).text()).split("\\n")[1];"""),
             "3.000000,1,over_temperature,fault,2592000.123457")
 
-    def test_what_is_no_such_csv_is_told_by_its_line(self):
+    def test_an_invalid_csv_is_reported_by_line(self):
         told = self.ask(self.TOOLS + """const why = (text) => { try { batch_of_csv(text); return ""; } catch ({ message }) { return message; } };
             const head = "time_s,node,Measurement.position_m\\n";
             return [why("a,b\\n1,2\\n"), why(head + "1,1,0\\n0.5,1,0\\n"), why(head + "1,1\\n"), why(head), why(head + "1,1,0\\n")];""")
@@ -91,7 +91,7 @@ class PlotsTest(unittest.TestCase):
         self.page.wait(lambda: list(self.folder.glob(pattern)), SLACK_S, pattern)
         return next(self.folder.glob(pattern))
 
-    def test_a_quantity_is_chosen_and_remembered(self):
+    def test_chosen_quantities_are_remembered(self):
         page = self.page
         page.click("#choose-plots")
         names = page.run(f"return [...document.querySelectorAll('{MODEL_OF_POSITION}')].map((label) => label.textContent.trim())")
@@ -107,7 +107,7 @@ class PlotsTest(unittest.TestCase):
         self.press("defaults", "#plots")
         page.wait(lambda: page.run(legend) == ["reference", "model", "position"] and "Supply" in self.titles(), SLACK_S, "as usual")
 
-    def test_another_run_lies_pale_under_the_one_that_is_shown(self):
+    def test_another_run_is_overlaid_in_a_pale_colour(self):
         page = self.page
         resistance = self.colour("resistance")
         pixels = lambda: self.painted("Resistance", resistance, 98, 106)  # noqa: E731: 40 % of it
@@ -124,7 +124,7 @@ class PlotsTest(unittest.TestCase):
         page.find("#run [type=file]").send_keys(str(self.file("*.csv")))
         page.wait(lambda: ".csv, drawn pale" in page.text("#run"), 30.0, "it is loaded")
 
-    def test_an_event_has_a_line_and_so_has_a_mark(self):
+    def test_events_and_marks_are_drawn_as_lines(self):
         page = self.page
         page.run("const slider = document.querySelector('#replay input'); slider.value = 198; slider.dispatchEvent(new Event('input'));"
                  "document.querySelector('input[value=\"10\"]').click()")
@@ -138,7 +138,7 @@ class PlotsTest(unittest.TestCase):
         page.run("const slider = document.querySelector('#replay input'); slider.value = 205; slider.dispatchEvent(new Event('input'))")
         page.wait(lambda: self.painted("Error", fault) > no_fault + 30, SLACK_S, "a line at the fault")
 
-    def test_a_plot_is_a_picture(self):
+    def test_a_plot_can_be_saved_as_png(self):
         self.press("PNG", "figure[aria-label^=Temperature]")
         picture = self.file("supercoil-node-1-temperature.png").read_bytes()
         self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")

@@ -23,13 +23,13 @@ class Scripts(OnSimulatedBoard):
             self.command("1", word)
         until(lambda: self.command("1", "arm").returncode == 0)
 
-    def test_what_heats_may_follow_arm_at_once(self):
+    def test_heating_commands_may_follow_arm_at_once(self):
         for _ in range(8):
             self.arm_by_script()
             done = self.command("1", "power", "0.1")
             self.assertNotIn("busy", done.stderr)
 
-    def test_state_is_told_in_json(self):
+    def test_state_is_available_as_json(self):
         self.arm_by_script()
         node, = json.loads(self.command("state", "--json").stdout)["nodes"]
         self.assertEqual((node["node"], node["Status"]["state"], node["Status"]["fault"]), (1, "armed", "none"))
@@ -39,7 +39,7 @@ class Scripts(OnSimulatedBoard):
         self.assertIsNone(node["Tracking"]["error_m"])
         self.assertEqual(sum(name.startswith("theta") and not name.endswith("deviation") for name in node["Estimate"]), 4)
 
-    def test_an_error_is_told_in_json_as_well(self):
+    def test_errors_are_reported_in_json_too(self):
         for words, status, told in ((("command", "64", "arm", "--can", self.source), 2, "must be 1 to 63"),
                                     (("command",), 2, "COMMAND is required"),
                                     (("tune", "99"), 2, "not in range"),
@@ -74,7 +74,7 @@ class Scripts(OnSimulatedBoard):
             self.assertIn(told, answer["error"])
             self.assertIn(told, done.stderr)
 
-    def test_a_script_is_told_how_calibrate_ended(self):
+    def test_reports_how_calibrate_ended(self):
         for words in (("--for", "60"), ()):  # without a time it is renewed until it ends
             self.arm_by_script()
             done = self.command("1", "calibrate", "--json", *words)
@@ -83,7 +83,7 @@ class Scripts(OnSimulatedBoard):
         refused = self.command("1", "identify", "--json")
         self.assertEqual((refused.returncode, json.loads(refused.stdout)), (1, {"command": "1 identify", "answer": "refused: wrong_state"}))
 
-    def test_a_script_is_told_that_calibrate_was_interrupted(self):
+    def test_reports_an_interrupted_calibrate(self):
         self.arm_by_script()
         # A warm muscle must cool first: long enough to be seen.
         until(lambda: self.command("1", "power", "2.5", "--for", "3").returncode == 0)
@@ -105,7 +105,7 @@ class Scripts(OnSimulatedBoard):
         out, err = program.communicate(timeout=60)
         return program.returncode, out, err
 
-    def test_identify_that_is_cut_short_is_no_success(self):
+    def test_an_interrupted_identify_fails(self):
         ended = "supercoil: 1 identify ended: interrupted, by "
         self.assertEqual(self.identify_by_script("--for", "2", "--json"),
                          (1, '{"command":"1 identify","result":"interrupted","cause":"by the end of --for"}\n', ended + "the end of --for\n"))
@@ -117,7 +117,7 @@ class Scripts(OnSimulatedBoard):
 
             self.assertEqual(self.identify_by_script(*words, meanwhile=interrupt), (1, "", ended + cause + "\n"))
 
-    def test_a_refused_value_comes_with_the_nearest_one_that_is_obeyed(self):
+    def test_a_refused_value_names_the_nearest_accepted_one(self):
         refused = self.command("1", "controller", "77")
         nearest = re.search(r"refused: out_of_range; (\d+) would be obeyed", refused.stderr)
         self.assertTrue(nearest, refused.stderr)
@@ -127,12 +127,12 @@ class Scripts(OnSimulatedBoard):
         self.assertRegex(refused.stderr, rf"; there (is|are) {places}\n$")
         self.assertRegex(self.command("1", "estimator", "77").stderr, r"would be obeyed; there (is|are) 0 \(\w+\)")
 
-    def test_a_refused_scale_comes_with_what_the_sensor_shows_and_allows(self):
+    def test_a_refused_scale_shows_the_sensor_reading_and_the_range(self):
         refused = self.command("1", "scale", "1")
         self.assertRegex(refused.stderr, r"^supercoil: 1 scale 1: refused: out_of_range; the sensor shows \S+ m there: "
                          r"(\S+ to \S+ are in range|no scale can turn that into a place)\n$")
 
-    def test_a_refusal_is_told_in_words_behind_its_name(self):
+    def test_a_refusal_is_explained_after_its_name(self):
         self.command("1", "disarm")
         for words, why in ((("1", "position", "0.01"), "wrong_state: arm it first, or reset its fault; or command the channel that leads its joint or bundle"),
                            (("1", "reset"), "wrong_state: it has no fault"),
@@ -175,7 +175,7 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
 
 
-class OfABrokenMuscle(unittest.TestCase):
+class BrokenMuscle(unittest.TestCase):
     def test_the_fault_that_interrupted_identify_is_named(self):
         with tempfile.TemporaryDirectory() as folder:
             scenario = pathlib.Path(folder) / "breaks.toml"

@@ -32,7 +32,7 @@ class Live(OnServedBoard):
         until(lambda: served.command("arm")[1] == {"refusal": "none"} or served.state()[0] == "armed", 30.0)
         until(lambda: served.state()[0] == "armed")
 
-    def test_columns_of_a_message_are_of_one_length_and_in_time(self):
+    def test_columns_of_a_message_are_aligned_and_ordered(self):
         served = self.serve()
         about = served.get("/api/about")[1]
         self.assertEqual((about["kind"], about["may_command"], about["protocol"]["Power"]["applied_W"]["unit"]),
@@ -44,7 +44,7 @@ class Live(OnServedBoard):
             self.assertEqual({len(column) for column in columns.values()}, {len(columns["time_s"])})
             self.assertEqual(columns["time_s"], sorted(columns["time_s"]))
 
-    def test_who_may_command(self):
+    def test_commands_need_token_and_origin(self):
         served = self.serve()
         order = {"node": 1, "opcode": "renew", "value": 0}
         for wrong in ({"token": ""}, {"token": "0" * 32}, {"origin": "null"}, {"origin": "http://example.org"},
@@ -57,7 +57,7 @@ class Live(OnServedBoard):
         self.assertEqual(served.ask("GET", "/api/history", Host="example.org")[0], 403)
         self.assertEqual(served.ask("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
 
-    def test_a_script_needs_the_token_alone(self):
+    def test_a_script_needs_only_the_token(self):
         served = self.serve()
         order = json.dumps({"node": 1, "opcode": "arm"})
         bearer = {"Authorization": f"Bearer {served.token}"}
@@ -79,7 +79,7 @@ class Live(OnServedBoard):
         self.assertEqual(served.ask("POST", "/api/command", order, **bearer)[0], 200)
         until(lambda: served.state()[0] == "armed")
 
-    def test_what_is_no_order_is_told_so(self):
+    def test_invalid_requests_are_rejected(self):
         served = self.serve()
         for wrong in ("", "{", "[]", "7", "null", '{"node":0}', '{"node":64,"opcode":"arm"}', '{"node":1}',
                       '{"node":1,"opcode":"claim"}', '{"node":1,"opcode":"none"}', '{"node":1.5,"opcode":"arm"}',
@@ -92,7 +92,7 @@ class Live(OnServedBoard):
         self.assertEqual(served.get("/api/fault/no_such")[0], 404)
         self.assertIn("heater", served.ask("GET", "/api/fault/heater_open")[1])
 
-    def test_a_muscle_moves_while_a_page_lives_and_cools_when_none_does(self):
+    def test_a_muscle_moves_only_while_a_page_is_alive(self):
         served = self.serve()
         for _ in range(3):
             reason, lasted_s = self.move_and_leave(served)
@@ -117,7 +117,7 @@ class Live(OnServedBoard):
         until(lambda: not served.post("/api/alive", {"node": 1})[1]["holding"])
         return served.post("/api/alive", {"node": 1})[1]["reason"], lasted_s
 
-    def test_stop_is_obeyed_however_busy_the_page_is(self):
+    def test_stop_works_however_busy_the_page_is(self):
         served = self.serve()
         stop_port = served.stop_port()
         self.arm(served)
@@ -145,7 +145,7 @@ class Live(OnServedBoard):
         self.assertEqual(served.stop_port(), 0)
         self.assertEqual(served.command("renew")[0], 403)
 
-    def test_others_need_the_token_to_look(self):
+    def test_other_machines_need_the_token(self):
         program = monitor(self.source, "--listen", "0.0.0.0")
         self.addCleanup(program.stop)
         served = Served(program)
@@ -161,21 +161,21 @@ class Live(OnServedBoard):
         self.assertEqual(served.post("/stop", "", about["stop_port"], token="")[0], 403)
         self.assertEqual(served.post("/stop", served.token, about["stop_port"])[0], 200)
 
-    def test_it_ends_at_once_while_pages_watch(self):
+    def test_it_ends_at_once_with_open_pages(self):
         program = monitor(self.source)
         with Served(program).open_stream():
             program.process.send_signal(signal.SIGTERM)
             self.assertEqual(program.process.wait(SLACK_S), 0)
         program.stop()
 
-    def test_a_port_that_is_taken_is_named(self):
+    def test_a_port_in_use_is_named(self):
         served = self.serve()
         done = subprocess.run([SUPERCOIL, "monitor", self.source, "--port", str(served.port)], capture_output=True,
                               text=True, timeout=SLACK_S)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn(f"port {served.port} of 127.0.0.1 is not available", done.stderr)
 
-    def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
+    def test_a_second_master_on_the_bus_is_refused(self):
         served = self.serve()
         self.arm(served)
         self.assertEqual(served.command("rest")[0], 200)
@@ -207,7 +207,7 @@ class Sources(unittest.TestCase):
         return subprocess.run([SUPERCOIL, "monitor", str(source), "--port", str(free_ports()), *options],
                               capture_output=True, text=True, timeout=SLACK_S)
 
-    def test_what_is_no_source_is_told_so(self):
+    def test_invalid_sources_are_rejected(self):
         (self.path / "empty").touch()
         (self.path / "text").write_text("what is this\n")
         for source, why in ((self.path / "empty", "is empty"), (self.path / "text", "text:1: must begin with"),
@@ -221,7 +221,7 @@ class Sources(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""), source)
             self.assertIn(why, done.stderr)
 
-    def test_whoever_does_not_answer_as_a_socketcand_is_told_with_what_was_seen(self):
+    def test_a_peer_that_is_not_socketcand_is_reported(self):
         def greet(client):
             client.send(b"< hi >")
             client.recv(100)
@@ -241,7 +241,7 @@ class Sources(unittest.TestCase):
                 done = self.run_monitor(source)
             self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {source}: {why}\n"))
 
-    def test_a_log_with_damaged_lines_is_shown_without_them(self):
+    def test_damaged_log_lines_are_skipped(self):
         log = self.path / "can.log"
         log.write_text("(0000000001.000000) can0 281#0A000000000000FF\n(0000000001.01\n"
                        "(0000000001.500000) can0 00000281#00\n(0000000002.000000) can0 301#00\n"
@@ -277,7 +277,7 @@ class Sources(unittest.TestCase):
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertNotIn("version", done.stdout)
 
-    def test_text_says_which_program_a_board_runs(self):
+    def test_text_shows_the_boards_program_version(self):
         log = self.path / "can.log"
 
         def text_of(boot):
@@ -287,7 +287,7 @@ class Sources(unittest.TestCase):
         self.assertIn("\n  program 0.2.1 (080ebf0)\n", text_of("00020100F0EB8000"))
         self.assertIn("\n  program 1.0.0\n", text_of("0100000000000000"))
 
-    def test_text_says_by_how_much_a_fault_tripped_and_that_a_proof_is_off(self):
+    def test_text_shows_a_faults_margin_and_a_disabled_proof(self):
         log = self.path / "can.log"
         cause = struct.pack("<ff", 0.0008, 0.00267).hex()
 
@@ -303,14 +303,14 @@ class Sources(unittest.TestCase):
         self.assertIn(", FAULT over_temperature\n", told)
         self.assertNotIn("proof_of_response", told)
 
-    def test_text_says_that_a_muscle_is_slack(self):
+    def test_text_shows_a_slack_muscle(self):
         log = self.path / "can.log"
         for flags, told in (("80", True), ("10", False)):
             log.write_text(f"(0000000001.000000) can0 701#02000000FF0004{flags}\n")
             done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
             self.assertEqual("\n  according to its model this muscle is slack at the present joint angle\n" in done.stdout, told)
 
-    def test_text_says_how_hot_a_muscle_may_be_that_is_off(self):
+    def test_text_shows_the_hottest_temperature_when_off(self):
         log = self.path / "can.log"
         for state, word in enumerate(("disarmed", "armed", "fault")):
             for hottest, said in (("2620", "off; may still be at 83 C"), ("820a", "off; at most 27 C"),

@@ -19,7 +19,7 @@ from setup_page import EXAMPLE, STEPS, STEP_S, SUPPLY_V, SetupCase
 
 
 class SetupTest(SetupCase):
-    def test_from_a_muscle_to_one_that_follows(self):
+    def test_complete_setup(self):
         audited = set()
 
         def see(page, view):
@@ -121,7 +121,7 @@ class SetupTest(SetupCase):
             page.wait(lambda: deviation(title) != "–", SLACK_S, f"the deviation of the {title}")
             self.assertAlmostEqual(float(deviation(title).split()[1]), float(told[1]), delta=0.05 * float(told[1]))
 
-    def test_a_wrong_answer_is_refused_with_its_range_and_asked_again(self):
+    def test_an_invalid_answer_is_refused_and_requested_again(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")
         page.begin("describe")
         page.answer("nameplate", 0)
@@ -135,7 +135,7 @@ class SetupTest(SetupCase):
         self.assertEqual(step["problem"], "interrupted: ended on the page")
         self.assertEqual(self.file.read_text(), self.text)
 
-    def test_an_answer_that_comes_late_takes_nothing_that_was_typed(self):
+    def test_a_late_response_keeps_the_typed_answer(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")
         # A request from before the step began is answered after the question is shown.
         page.run("""const now = window.fetch;
@@ -154,7 +154,7 @@ class SetupTest(SetupCase):
         time.sleep(5.0)
         self.assertEqual(page.find("#setup form input").get_attribute("value"), "12")
 
-    def test_what_moves_the_muscle_by_hand_is_released_when_a_step_begins(self):
+    def test_manual_control_is_released_when_a_step_begins(self):
         for _ in range(TRIES):
             page = self.described()
             page.click("#open-setup")
@@ -169,7 +169,7 @@ class SetupTest(SetupCase):
             self.setUp()
         raise AssertionError(f"setup did not take over in {TRIES} tries")
 
-    def test_it_is_for_everybody(self):
+    def test_setup_pages_are_accessible(self):
         page = self.described()
         page.begin("describe")
         page.answer("nameplate", 0)
@@ -182,7 +182,7 @@ class SetupTest(SetupCase):
         page.ended("describe", SLACK_S)
         self.audit(page, "problem")
 
-    def test_undo_puts_the_file_back(self):
+    def test_undo_restores_the_file(self):
         page = self.described()
         self.assertNotEqual(self.file.read_text(), self.text)
         described = self.file.read_text()
@@ -195,7 +195,7 @@ class SetupTest(SetupCase):
         self.assertEqual(self.file.read_text(), self.text)
         self.assertEqual(page.step("describe")["found"], "")
 
-    def test_the_time_that_is_left_is_told(self):
+    def test_the_remaining_time_is_shown(self):
         page = self.described()
         self.run_step(page, "calibrate")
         for _ in range(TRIES):
@@ -219,7 +219,7 @@ class SetupTest(SetupCase):
         self.assertRegex(command(self.source, "state").stdout, "node 1: disarmed")
         self.assertNotIn("identify", self.record())
 
-    def test_without_a_page_that_watches_a_step_ends(self):
+    def test_a_step_ends_when_the_page_is_closed(self):
         page = self.described()
         self.run_step(page, "calibrate")
         page.begin("identify")
@@ -232,7 +232,7 @@ class SetupTest(SetupCase):
         page.wait(lambda: page.step("identify")["problem"] != "", SLACK_S, "told")
         self.assertIn("interrupted: no page watched it", page.step("identify")["problem"])
 
-    def test_of_a_joints_antagonist_it_has_no_step_that_is_the_agonists(self):
+    def test_an_antagonist_lacks_the_agonists_steps(self):
         self.file.write_text((EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text())
         board = self.start_board(scenario="joint-bench")
         for channel, missing in (("1", {"scale"}), ("2", {"scale", "gains", "move"})):
@@ -243,7 +243,7 @@ class SetupTest(SetupCase):
             self.assertEqual(names, [name for name in STEPS if name not in missing])
             program.stop()
 
-    def test_what_setup_cannot_be_for_is_told_at_the_start(self):
+    def test_invalid_setup_options_are_rejected_at_the_start(self):
         for words, told in ((("--setup", "missing.toml"), "missing.toml"),
                             (("--setup", self.file, "--channel", "3"), "board.toml has no channel 3, but 2"),
                             (("--setup", self.file, "--read-only"), "--read-only excludes --setup"),

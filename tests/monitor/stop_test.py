@@ -44,21 +44,21 @@ class StopPort(OnSimulatedBoard):
             connection.sendall(text)
             yield connection
 
-    def test_stop_s_port_closes_whoever_does_not_end_a_request(self):
+    def test_unfinished_requests_are_closed(self):
         served = self.serve()
         for text in (b"", b"POST /stop HTTP/1.1\r\nContent-Length: 4\r\n\r\nabc"):
             for connection in self.crowd(served.stop_port(), 2, text):
                 with contextlib.suppress(ConnectionResetError):
                     self.assertEqual(connection.recv(64), b"", text)
 
-    def test_stop_is_obeyed_though_many_say_half_of_a_request_to_its_port(self):
+    def test_stop_works_despite_many_unfinished_requests(self):
         served = self.serve()
         stop_port = served.stop_port()
         for text in (b"", b"P", b"POST /stop HTTP/1.1\r\nX: " + 4000 * b"x"):
             list(self.crowd(stop_port, 400, text))
             self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
 
-    def test_no_more_than_256_connections_are_open_at_stop_s_port(self):
+    def test_at_most_256_connections_are_open(self):
         served = self.serve()
         stop_port = served.stop_port()
         files = pathlib.Path(f"/proc/{served.process.pid}/fd")
@@ -70,13 +70,13 @@ class StopPort(OnSimulatedBoard):
         self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
 
     @unittest.skipUnless(os.getpriority(os.PRIO_PROCESS, 0) < 0, "this user may not have precedence")
-    def test_stop_s_two_threads_go_before_all_others(self):
+    def test_the_two_stop_threads_have_priority(self):
         served = self.serve(prepare=lambda: os.setpriority(os.PRIO_PROCESS, 0, 0))
         threads = [int(task.name) for task in pathlib.Path(f"/proc/{served.process.pid}/task").iterdir()]
         nice = sorted(os.getpriority(os.PRIO_PROCESS, thread) for thread in threads)
         self.assertEqual(nice, [-10, -10] + (len(nice) - 2) * [0])
 
-    def test_stop_s_port_answers_what_is_no_stop(self):
+    def test_other_requests_are_refused(self):
         served = self.serve()
         stop_port = served.stop_port()
         self.assertEqual(served.ask("GET", "/stop", port=stop_port)[0], 404)
@@ -89,14 +89,14 @@ class StopPort(OnSimulatedBoard):
                 self.assertEqual(connection.recv(64), b"", text)
         self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
 
-    def test_stop_is_obeyed_though_the_page_has_more_connections_than_a_program_may_have_files(self):
+    def test_stop_works_when_the_page_exhausts_file_descriptors(self):
         served = self.serve(prepare=lambda: resource.setrlimit(
             resource.RLIMIT_NOFILE, (256, resource.getrlimit(resource.RLIMIT_NOFILE)[1])))
         stop_port = served.stop_port()
         self.addCleanup(trickle(served.port, 400).stop)
         self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
 
-    def test_stop_is_obeyed_after_its_connection_to_the_bus_was_lost(self):
+    def test_stop_works_after_a_bus_reconnection(self):
         board = simulated_board()
         self.addCleanup(board.stop)
         served = self.serve(board)
@@ -118,13 +118,13 @@ class StopOnThePage(PageCase):
         print(f"{answered} of {times} answered by STOP's own port within its deadline")
         self.assertGreater(answered, 0)
 
-    def test_a_thousand_connections_that_trickle_do_not_keep_stop_out(self):
+    def test_a_thousand_slow_connections_do_not_block_stop(self):
         page = self.page()
         crowd = trickle(page.stop_port())
         self.addCleanup(crowd.stop)
         self.stop_often(page, lambda: page.click("#stop"))
 
-    def test_another_page_s_preconnect_does_not_keep_stop_waiting(self):
+    def test_preconnections_of_another_page_do_not_delay_stop(self):
         page = self.page()
         links = "".join(f"<link rel=preconnect href=http://127.0.0.1:{page.stop_port()} {how}>"
                         for how in ("", "crossorigin", "crossorigin=use-credentials"))
@@ -146,7 +146,7 @@ class StopOnThePage(PageCase):
 
         self.stop_often(page, stop_beside_it, 3)
 
-    def test_stop_lets_go_of_the_muscle_though_nothing_answers(self):
+    def test_a_failed_stop_still_releases_the_muscle(self):
         page = self.page()
         page.bring_to(TARGET_MM)
         page.run(HEARS_NO_STOP)
@@ -159,7 +159,7 @@ class StopOnThePage(PageCase):
         since = asked[next(i for i, address in enumerate(asked) if address.endswith("/stop")):]
         self.assertEqual([address for address in since if address.endswith("/api/alive")], [])
 
-    def test_a_failed_stop_is_forgotten_when_the_muscle_is_seen_to_be_off(self):
+    def test_a_failed_stop_is_cleared_when_the_muscle_is_off(self):
         board = simulated_board()
         self.addCleanup(board.stop)
         own = monitor(f"socketcand:{board.found[1]}")
@@ -174,7 +174,7 @@ class StopOnThePage(PageCase):
         page.wait(lambda: page.state() == "disarmed", READY_S, "disarmed")
         page.wait(lambda: not page.text("#stop-notice").startswith("STOP FAILED"), READY_S, "that it is off")
 
-    def test_a_word_about_stop_covers_nothing(self):
+    def test_the_stop_notice_covers_nothing(self):
         page = self.page()
         for width, height, mobile in ((1440, 1000, False), (800, 900, False), (390, 844, True)):
             page.screen(width, height, mobile)
@@ -190,7 +190,7 @@ class StopOnThePage(PageCase):
             self.assertEqual([name for name in covered if not (name == "stop" and not mobile)], [], (width, mobile))
             page.wait(lambda: page.text("#stop-notice") == "", READY_S, "it goes")
 
-    def test_a_command_that_is_answered_after_stop_is_not_renewed(self):
+    def test_a_command_answered_after_stop_is_not_renewed(self):
         page = self.page()
         page.bring_to(TARGET_MM)
         page.run("""const asked = window.fetch;

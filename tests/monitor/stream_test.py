@@ -12,7 +12,7 @@ from served import OnServedBoard, Served
 
 
 class Stream(OnServedBoard):
-    def test_a_stream_brings_what_is_new_and_says_when_the_source_is_lost_and_found(self):
+    def test_a_stream_sends_new_data_and_source_events(self):
         board = simulated_board()
         self.addCleanup(board.stop)
         port = board.found[1]
@@ -31,7 +31,7 @@ class Stream(OnServedBoard):
                 self.assertIn(wanted, text)
                 text = text[text.index(wanted) + len(wanted):]
 
-    def test_a_stream_says_after_how_long_to_come_again(self):
+    def test_a_stream_sends_its_retry_time(self):
         with self.serve().open_stream() as stream:
             text = b""
             end_s = time.monotonic() + SLACK_S
@@ -42,7 +42,7 @@ class Stream(OnServedBoard):
     def measured_s(self, batches):
         return [at_s for batch in batches for at_s in batch["nodes"].get("1", {}).get("Measurement", {}).get("time_s", [])]
 
-    def test_a_reader_that_comes_again_gets_what_it_missed(self):
+    def test_a_reconnected_reader_gets_what_it_missed(self):
         served = self.serve()
         first = served.events()
         begin, nothing = next(first)
@@ -61,7 +61,7 @@ class Stream(OnServedBoard):
         told = self.measured_s([served.get("/api/history")[1]])
         self.assertEqual([at_s for at_s in told if (before or missed)[0] <= at_s <= missed[-1]], before + missed)
 
-    def test_only_an_id_of_this_run_is_gone_on_from(self):
+    def test_only_event_ids_of_this_run_resume(self):
         served = self.serve()
         run, begin = next(served.events())[0].split("-")
         for path, last in (("/api/stream?resume=no", f"{run}-0"), ("/api/stream", "1-0"), ("/api/stream", "0"),
@@ -70,7 +70,7 @@ class Stream(OnServedBoard):
                                     int(begin), (path, last))
         self.assertEqual(next(served.events(**{"Last-Event-ID": f"{run}-0"}))[0], f"{run}-0")
 
-    def test_readers_that_never_read_are_dropped(self):
+    def test_stalled_readers_are_dropped(self):
         served = self.serve()
         with contextlib.ExitStack() as crowd:
             def one_more(**how):

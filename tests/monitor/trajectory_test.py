@@ -58,7 +58,7 @@ class Trajectories(OnServedBoard):
         return self.play()["playback"]
 
     @unless_it_expires
-    def test_it_is_played_to_its_end_and_held_there(self):
+    def test_it_is_played_and_held_at_its_end(self):
         self.hold_first()
         loaded = self.play(knots(12))
         self.assertEqual([loaded[name] for name in ("refusal", "taken", "playback", "room")], ["none", 12, "loaded", 52])
@@ -71,13 +71,13 @@ class Trajectories(OnServedBoard):
         self.assertEqual((self.playback(), self.served.state()[0]), ("ended", "active"))
 
     @unless_it_expires
-    def test_what_the_muscle_cannot_do_is_refused_and_the_knots_before_it_stay(self):
+    def test_an_infeasible_knot_is_refused_and_earlier_ones_stay(self):
         self.hold_first()
         told = self.play(knots(4) + knots(3, rise_m=0.002, begins=False))
         self.assertEqual((told["refusal"], told["taken"], told["playback"]), ("infeasible", 4, "loaded"))
 
     @unless_it_expires
-    def test_another_command_forgets_it(self):
+    def test_another_command_discards_it(self):
         self.hold_first()
         self.assertEqual(self.play(knots(16), start=True)["refusal"], "none")
         until(lambda: self.playback() == "playing")
@@ -85,7 +85,7 @@ class Trajectories(OnServedBoard):
         told = self.play(knots(1, begins=False))
         self.assertEqual((told["refusal"], told["taken"], told["playback"]), ("wrong_state", 0, "empty"))
 
-    def test_it_cools_when_no_page_lives_however_many_knots_are_left(self):
+    def test_it_cools_without_a_live_page(self):
         self.hold_first()
         slow = [{**knot, "after_s": 4} if knot["after_s"] else knot for knot in knots(16)]
         self.assertEqual(self.play(slow, start=True)["refusal"], "none")
@@ -102,7 +102,7 @@ class Trajectories(OnServedBoard):
         told = self.play(knots(1, begins=False))
         self.assertEqual((told["refusal"], told["taken"]), ("wrong_state", 0))
 
-    def test_what_is_no_trajectory_is_told_so_and_who_may_not_is_refused(self):
+    def test_invalid_or_unauthorised_trajectories_are_rejected(self):
         for wrong, why in (({"knots": [{"after_s": 0, "position_m": 9, "velocity_m_per_s": 0}]},
                             "knot 1: position_m is 9; it must be -0.8388607 to 0.8388607"),
                            ({"knots": knots(17)}, "knots is 17 knots; it must be a list of 0 to 16"),

@@ -14,7 +14,7 @@ CARD = "details[aria-label='controllers of node 1']"
 TOLD_S = 30.0  # hundreds of questions and answers over the bus, on a machine that does other work
 
 
-class ByCommand(PageCase):
+class TuneCommand(PageCase):
     def tune(self, *words, channel="1"):
         return subprocess.run([SUPERCOIL, "tune", channel, *words, "--can", self.source], capture_output=True, text=True,
                               timeout=SLACK_S)
@@ -28,7 +28,7 @@ class ByCommand(PageCase):
     def tearDown(self):
         self.values("--from", "configured", "--store")
 
-    def test_values_are_used_stored_and_taken_back(self):
+    def test_values_are_used_stored_and_restored(self):
         before = self.values()
         self.assertEqual(before["kind"]["in_use"], "mrac")
         self.assertEqual(before["shape_reference"]["configured"], False)
@@ -39,7 +39,7 @@ class ByCommand(PageCase):
         self.assertEqual(self.values("--clear")["adaptation_scale"]["stored"], 1.0)
         self.assertEqual(self.values("--from", "configured")["adaptation_scale"]["in_use"], 1.0)
 
-    def test_the_constants_of_mrac_are_values_of_its_own(self):
+    def test_mrac_constants_can_be_tuned(self):
         changed = self.values("gain_6=90", "lambda_1=44", "p0_rad_per_s=4.5", "model_pole_1_rad_per_s=4.5", "freeze_when_limited=false")
         self.assertEqual([changed[name]["in_use"] for name in ("gain_6", "lambda_1", "p0_rad_per_s", "freeze_when_limited")],
                          [90.0, 44.0, 4.5, False])
@@ -47,14 +47,14 @@ class ByCommand(PageCase):
         self.assertIn("unsuitable", self.tune("p0_rad_per_s=5").stderr)
         self.assertIn("unsuitable", self.tune("gain_1=1", "damping=-1").stderr)
 
-    def test_what_differs_has_a_star(self):
+    def test_differing_values_have_a_star(self):
         lines = self.tune("kind=pi", "integral_W_per_m_s=900").stdout.splitlines()
         self.assertEqual(lines[0], "controller 0: pi")
         starred = {line[1:].split()[0]: line[1:].split()[1:] for line in lines if line.startswith("*")}
         self.assertEqual(starred["kind"], ["pi", "mrac", "mrac", "pi"])
         self.assertEqual(starred["integral_W_per_m_s"], ["900", "-", "-", "900"])
 
-    def test_prepared_values_wait(self):
+    def test_prepared_values_wait_for_tune(self):
         self.assertEqual(self.values("adaptation_scale=3", "--prepare")["adaptation_scale"]["in_use"], 1.0)
         done = subprocess.run([SUPERCOIL, "command", "1", "tune", "0", "--can", self.source], timeout=SLACK_S)
         self.assertEqual(done.returncode, 0)
@@ -77,7 +77,7 @@ class ByCommand(PageCase):
         self.assertIn(["*", "forgetting_s", "20", "-", "-", "20"], [line.split() for line in told])
         self.assertEqual(values("--from", "configured", "--store")["kind"]["in_use"], "gradient")
 
-    def test_a_kind_stands_for_its_place(self):
+    def test_a_kind_selects_its_place(self):
         self.assertEqual(self.values("--controller", "mrac", "adaptation_scale=3", "--prepare")["adaptation_scale"]["in_use"], 1.0)
         for words in (("tune", "mrac"), ("controller", "mrac"), ("tune", "gradient"), ("estimator", "gradient")):
             done = command(self.source, "1", *words)
@@ -86,7 +86,7 @@ class ByCommand(PageCase):
         self.assertEqual(self.tune("--estimator", "gradient", "trusted_error=0.1").returncode, 0)
         self.tune("--estimator", "0", "--from", "configured")
 
-    def test_that_another_program_commands_is_told(self):
+    def test_another_commanding_program_is_reported(self):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "power", "0.1", "--hold", "--can", self.source])
         until(lambda: "node 1: active" in command(self.source, "state").stdout)
@@ -95,7 +95,7 @@ class ByCommand(PageCase):
         held.wait()
         self.assertEqual(told, "supercoil: nothing was prepared: refused: not_lease_holder: another program commands this muscle\n")
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         for words, status, told in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
                                     (("bandwith=3",), 2, "bandwith cannot be tuned; did you mean bandwidth_rad_per_s (the unit is part of the name)?"),
                                     (("gain=",), 2, "gain cannot be tuned; did you mean gain_1?"),
@@ -133,7 +133,7 @@ class ByCommand(PageCase):
         self.assertIn("no answer from node 2", self.tune(channel="2").stderr)
 
 
-class OnThePage(PageCase):
+class TuningPage(PageCase):
     def opened(self):
         page = self.page()
         page.click(f"{CARD} summary")
@@ -163,7 +163,7 @@ class OnThePage(PageCase):
     def told(self, page, text):
         page.wait(lambda: text in page.text(f"{CARD} .answer"), TOLD_S, text)
 
-    def test_a_value_is_used_stored_and_taken_back(self):
+    def test_a_value_is_used_stored_and_restored(self):
         page = self.opened()
         self.put(page, "adaptation scale", "2.5")
         self.press(page, "use")
@@ -179,7 +179,7 @@ class OnThePage(PageCase):
         self.assertEqual(self.row(page, "adaptation scale"), ["adaptation scale", "1.00", "1.00", "1.00"])
         self.assertEqual(page.errors(), [])
 
-    def test_what_does_not_suit_is_told_and_changes_nothing(self):
+    def test_unsuitable_values_are_reported_and_change_nothing(self):
         page = self.opened()
         self.put(page, "reference model", "design")
         self.press(page, "use")
@@ -189,7 +189,7 @@ class OnThePage(PageCase):
         self.press(page, "use")
         page.wait(lambda: "must be" in page.text(f"{CARD} .answer"), TOLD_S, "the range is told")
 
-    def test_a_model_gets_poles_of_its_own(self):
+    def test_a_reference_model_can_have_its_own_poles(self):
         page = self.opened()
         self.put(page, "reference model", "design")
         self.put(page, "kind", "pi")
@@ -206,7 +206,7 @@ class OnThePage(PageCase):
         self.press(page, "as board.toml")
         self.told(page, "as board.toml: in use")
 
-    def test_the_state_names_the_controller_whoever_changes_it(self):
+    def test_the_state_names_the_current_controller(self):
         page = self.page()
         for kind, verb in (("mrac", None), ("pi", "arm"), ("mrac", "disarm")):
             if verb is not None:
@@ -226,7 +226,7 @@ class OnThePage(PageCase):
         self.told(page, "as board.toml: in use")
         self.assertEqual(page.errors(), [])
 
-    def test_a_muscle_that_follows_goes_on(self):
+    def test_tuning_does_not_interrupt_tracking(self):
         page = self.opened()
         page.run("scrollTo(0, 0)")
         page.bring_to(TARGET_MM)

@@ -21,7 +21,7 @@ SHAPES = 'const { waveform, refuse_values, waveform_of_file } = await import("/w
 
 
 class Shapes(ModulesCase):
-    def test_sine_steps_and_chirp_are_about_their_offset(self):
+    def test_sine_steps_and_chirp_are_centred_on_their_offset(self):
         sine, steps, chirp, end_s = self.ask(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
             const at = (shape, times) => times.map((time) => Number((1e3 * waveform(shape, values).at(time)).toFixed(3)));
             // A chirp's phase at its end is the mean of both frequencies times its duration: 18 periods here.
@@ -37,7 +37,7 @@ class Shapes(ModulesCase):
             for (let time = 56; time < 60; time += 0.001) if (at(time) < 0.008 && at(time + 0.001) >= 0.008) ++crossings;
             return crossings;"""), 2)
 
-    def test_what_leaves_the_travel_is_refused_with_what_is_allowed(self):
+    def test_values_beyond_the_travel_are_refused_with_the_range(self):
         told = self.ask(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
             const why = (changed, shape = "sine") => refuse_values(shape, { ...values, ...changed }, 0.0201);
             return [why({}), why({ offset: 1 }), why({ offset: 19, amplitude: -2 }), why({ period: 0 }), why({ amplitude: NaN }),
@@ -46,11 +46,11 @@ class Shapes(ModulesCase):
                                 "offset and amplitude reach from 17.00 to 21.00 mm; allowed: 0 to 20.10 mm", "period must be more than 0",
                                 "amplitude: a number is missing", "last period must be more than 0", ""])
 
-    def test_a_file_is_straight_between_its_rows(self):
+    def test_a_file_is_interpolated_linearly(self):
         self.assertEqual(self.ask(SHAPES + """const { at, end_s } = waveform_of_file("\\uFEFFnote,time_s,position_m\\r\\na,5,0.001\\nb,6,0.003\\n\\n,9,0\\n", 0.02);
             return [end_s, ...[0, 0.5, 1, 2.5, 4, 9].map((time) => Number((1e3 * at(time)).toFixed(6)))];"""), [4, 1, 2, 3, 1.5, 0, 0])
 
-    def test_a_bad_file_is_told_by_line_value_and_range(self):
+    def test_a_bad_file_is_reported_by_line_value_and_range(self):
         told = self.ask(SHAPES + """const head = "time_s,position_m\\n";
             const why = (text) => { try { waveform_of_file(text, 0.02); return ""; } catch ({ message }) { return message; } };
             return [why("t,x\\n0,0\\n"), why(head + "0,0\\n1,0.025\\n"), why(head + "0,0\\n1,-0.001\\n"), why(head + "0,0\\n1,a\\n"), why(head + "0,0\\n1\\n"),
@@ -68,7 +68,7 @@ class Trajectories(ModulesCase):
         const all = (motion) => [...motion.knots()].map(({ time_s, position_m, velocity_m_per_s }) => [time_s, position_m, velocity_m_per_s]);
         """
 
-    def test_a_sine_grows_from_rest_and_its_velocities_fit_its_positions(self):
+    def test_a_sine_starts_at_rest_with_consistent_velocities(self):
         knots = self.ask(self.SCRIPT + """return first(swinging("sine", values), 1000);""")
         self.assertEqual(list(knots[0].values()), [0, 0.008, 0])
         self.assertLess(abs(knots[1]["position_m"] - 0.008), 1e-9)
@@ -86,12 +86,12 @@ class Trajectories(ModulesCase):
         self.assertAlmostEqual(steps[0], 0.02, 6)
         self.assertTrue(all(0.009 < step < 0.031 for step in steps), (min(steps), max(steps)))
 
-    def test_what_jumps_or_is_too_quick_is_no_trajectory(self):
+    def test_jumps_and_fast_periods_are_not_trajectories(self):
         self.assertEqual(self.ask(self.SCRIPT + """return [jumps("sine", values), jumps("steps", values), jumps("sine", { ...values, last_period: 0.1 }),
             jumps("chirp", { ...values, last_period: 0.1 }), jumps("sine", { ...values, period: 0.19 })];"""),
             ["", "it jumps", "", *["a period of less than 0.2 s has too few knots"] * 2])
 
-    def test_a_file_is_passed_smoothly_and_its_close_rows_are_thinned(self):
+    def test_a_file_is_smoothed_and_close_rows_are_thinned(self):
         rows, thinned, apart, short = self.ask(self.SCRIPT + """const rounded = (motion) => all(motion).map((knot) => knot.map((value) => Number(value.toFixed(6))));
             return [rounded(through([[5, 0.001], [6, 0.003], [8, 0.004]])), rounded(through([[0, 0], [0.005, 0.1], [0.02, 0.001], [0.03, 0.002], [0.045, 0.003]])),
                 through([[0, 0], [5, 0.001]]).why, through([[0, 0], [0.01, 0.001]]).why];""")
@@ -100,7 +100,7 @@ class Trajectories(ModulesCase):
         self.assertEqual((apart, short), ("rows are more than 4.094 s apart", "it lasts less than 0.02 s"))
 
 
-class OnThePage(PageCase):
+class WaveformPage(PageCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -156,7 +156,7 @@ class OnThePage(PageCase):
         page.click(f"{CARD} .buttons button[type=button]")
         page.wait(lambda: "the last set point holds" in self.answer(page), SLACK_S, "stopped")
 
-    def test_a_sine_moves_the_reference_until_it_is_stopped(self):
+    def test_a_sine_moves_the_reference_until_stopped(self):
         page = self.opened()
         self.assertIn("As a trajectory", page.text(CARD))
         self.play_ahead(page, r"sine: [6-9]\.\d s, \d\.\d s ahead", **SINE)  # a period and a half
@@ -197,7 +197,7 @@ class OnThePage(PageCase):
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
 
-    def test_stop_ends_it_at_once_and_it_stays_ended(self):
+    def test_stop_ends_it_for_good(self):
         page = self.opened()
         page.run("performance.setResourceTimingBufferSize(100000)")
         self.play_ahead(page, **SINE)
@@ -211,7 +211,7 @@ class OnThePage(PageCase):
         time.sleep(0.5)
         self.assertEqual((page.state(), self.requests(page)), ("armed", sent + 1))
 
-    def test_what_the_muscle_cannot_do_is_refused_with_its_time(self):
+    def test_an_infeasible_motion_is_refused_with_its_time(self):
         page = self.opened()
         self.play(page, offset=6, amplitude=3, period=1)
         page.wait(lambda: "sine: the motion up to" in self.answer(page), ARRIVES_S, "refused")
@@ -220,7 +220,7 @@ class OnThePage(PageCase):
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
 
-    def test_steps_are_set_points_and_another_shape_ends_what_is_played(self):
+    def test_choosing_another_shape_ends_playback(self):
         page = self.opened()
         self.play_ahead(page, **SINE)
         page.run(f"""document.querySelector("{CARD} [value=steps]").click()""")
@@ -234,7 +234,7 @@ class OnThePage(PageCase):
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
 
-    def test_a_page_that_is_hidden_lets_the_muscle_rest(self):
+    def test_a_hidden_page_lets_the_muscle_rest(self):
         page = self.opened()
         page.run("performance.setResourceTimingBufferSize(100000)")
         self.play_ahead(page, **SINE)
@@ -245,7 +245,7 @@ class OnThePage(PageCase):
         time.sleep(0.5)
         self.assertEqual((page.state(), self.requests(page)), ("armed", sent))
 
-    def test_a_page_that_is_closed_lets_it_expire(self):
+    def test_a_closed_page_lets_the_command_expire(self):
         page = self.opened()
         page.driver.switch_to.new_window("tab")
         page.open(self.address)
@@ -257,7 +257,7 @@ class OnThePage(PageCase):
         # It may still have been hidden, and have said so.
         page.wait(lambda: page.state() == "armed" or page.state() == "fault" and "command timeout" in page.text(".state .fault"), SLACK_S, "cold")
 
-    def test_a_file_is_played_and_a_bad_one_is_told(self):
+    def test_a_file_is_played_and_a_bad_one_reported(self):
         page = self.opened()
         page.run(f"""document.querySelector("{CARD} [value=file]").click()""")
         file = pathlib.Path(page.profile.name) / "motion.csv"

@@ -59,7 +59,7 @@ class Codec(unittest.TestCase):
         self.assertEqual({message.name: (message.frame_id - 1, message.length, message.cycle_time or 0)
                           for message in DATABASE.messages}, ours)
 
-    def test_it_decodes_as_cantools_does(self):
+    def test_decodes_like_cantools(self):
         for message in DATABASE.messages:
             for data in random_frames(message, self.chance):
                 decoded = codec.decode(message.frame_id - 1, data, 1.5)
@@ -67,7 +67,7 @@ class Codec(unittest.TestCase):
                 for name, value in expected(message, data).items():
                     self.assert_same(getattr(decoded, name), value, f"{message.name}.{name}")
 
-    def test_its_arrays_are_what_it_decodes_one_by_one(self):
+    def test_arrays_match_single_frames(self):
         for message in DATABASE.messages:
             frames = [(float(i), data) for i, data in enumerate(random_frames(message, self.chance))]
             arrays = decode_all(message.frame_id - 1, frames)
@@ -76,7 +76,7 @@ class Codec(unittest.TestCase):
                 for name, value in decoded._asdict().items():
                     self.assert_same(arrays[name][i], value, f"{message.name}.{name}")
 
-    def test_it_encodes_what_it_decodes(self):
+    def test_encoding_inverts_decoding(self):
         for message in DATABASE.messages:
             layout = codec.LAYOUTS[message.frame_id - 1]
             for data in random_frames(message, self.chance):
@@ -89,29 +89,29 @@ class Codec(unittest.TestCase):
                 for name, value in values.items():
                     self.assert_same(getattr(again, name), value, f"{message.name}.{name}")
 
-    def test_a_value_beyond_its_range_is_sent_as_its_end(self):
+    def test_a_value_beyond_its_range_is_clipped(self):
         layout = codec.BY_NAME["Measurement"]
         for sent, told in ((5.0, 0.8388607), (-5.0, -0.8388607), (math.nan, math.nan)):
             decoded = codec.decode(layout.base, codec.encode(layout, {"position_m": sent}))
             self.assert_same(decoded.position_m, told, sent)
 
-    def test_what_is_of_another_length_or_unknown_is_no_message(self):
+    def test_frames_of_wrong_length_or_identifier_are_ignored(self):
         self.assertIsNone(codec.decode(0x280, bytes(7)))
         self.assertIsNone(codec.decode(0x7C0, bytes(8)))
 
-    def test_a_number_without_a_name_keeps_its_number(self):
+    def test_an_unnamed_value_keeps_its_number(self):
         fault = codec.decode(0x700, bytes([0, 99, 0, 0, 0, 0, 4, 0])).fault
         self.assertEqual((fault, str(fault)), (99, "unknown_99"))
         self.assertIs(codec.decode(0x700, bytes([3, 60, 0, 0, 0, 0, 4, 0])).fault, names.Fault.command_timeout)
 
-    def test_scales_are_whole_parts_of_one(self):
+    def test_scales_divide_one(self):
         # Signal.steps divides by them.
         for layout in codec.LAYOUTS.values():
             for signal in layout.signals:
                 if signal.raw is not Raw.floating:
                     self.assertAlmostEqual(signal.steps * signal.scale, 1.0, 12)
 
-    def test_its_checksum_is_the_protocols(self):
+    def test_checksum_matches_the_protocol(self):
         for _ in range(1000):
             identifier, data = self.chance.randrange(0x800), self.chance.randbytes(8)
             protected = e2e.protected(identifier, data)

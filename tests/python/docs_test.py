@@ -28,7 +28,7 @@ def run_block(text, names):
 
 
 class Docs(unittest.TestCase):
-    def test_the_page(self):
+    def test_the_examples_of_the_page_run(self):
         blocks = BLOCK.findall(PAGE.read_text())
         self.assertGreater(len(blocks), 8)
         for attempt in range(TRIES):

@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class Errors(unittest.TestCase):
-    def test_every_fault_has_one_with_its_page(self):
+    def test_every_fault_has_an_error_with_its_page(self):
         self.assertEqual(set(faults.BY_NUMBER), set(names.Fault) - {names.Fault.none})
         for number, kind in faults.BY_NUMBER.items():
             name = names.Fault(number).name
@@ -28,20 +28,20 @@ class Errors(unittest.TestCase):
             self.assertTrue(issubclass(kind, supercoil.FaultError))
             self.assertTrue(kind.meaning and kind.remedy, name)
 
-    def test_a_fault_says_what_was_measured_and_what_to_do(self):
+    def test_a_fault_names_the_measured_value_and_the_remedy(self):
         text = str(faults.OverTemperature(3, 161.0, 160.0))
         self.assertTrue(text.startswith("node 3: over_temperature (measured 161, limit 160): "), text)
         self.assertIn("otherwise let the muscle cool", text.lower())
         self.assertTrue(str(faults.OverTemperature(3)).startswith("node 3: over_temperature: "))
 
-    def test_every_refusal_has_one(self):
+    def test_every_refusal_has_an_error(self):
         self.assertEqual(set(refusals.BY_NUMBER), set(names.Refusal) - {names.Refusal.none})
         for number, kind in refusals.BY_NUMBER.items():
             self.assertEqual((kind.number, kind.name), (number, names.Refusal(number).name))
             self.assertTrue(kind.meaning)
         self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
 
-    def test_every_value_may_be_what_the_board_allows(self):
+    def test_units_and_choices_match_the_board(self):
         def told(name, *options):
             return subprocess.run([os.environ["SUPERCOIL"], "tune", "1", f"{name}=*", "--socket", "/nowhere", *options],
                                   capture_output=True, text=True).stderr
@@ -62,7 +62,7 @@ class Errors(unittest.TestCase):
         self.assertEqual(set(results.MEANINGS), set(names.Result))
         self.assertEqual(len(results.NOTES), 8)
 
-    def test_a_mismatch_of_versions_names_both_and_what_to_do(self):
+    def test_a_version_mismatch_names_both_and_the_remedy(self):
         for of_board, older in ((supercoil.PROTOCOL_VERSION + 1, "this package"), (3, "the board's firmware")):
             text = str(supercoil.VersionMismatchError(7, of_board))
             self.assertIn(f"node 7 speaks version {of_board} ", text)
@@ -71,7 +71,7 @@ class Errors(unittest.TestCase):
 
 
 class PythonCan(unittest.TestCase):
-    def test_socketcand_wants_4_4_also_where_its_version_is_not_told(self):
+    def test_socketcand_needs_4_4_even_without_a_version(self):
         for version, reliable in (("4.1.0", False), ("4.3.1", False), ("4.4.0", True), ("4.10.0", True), ("5.0", True),
                                   ("0.0.0", True)):
             with mock.patch.object(can, "__version__", version):
@@ -82,7 +82,7 @@ class PythonCan(unittest.TestCase):
             with self.assertRaisesRegex(supercoil.BusError, "needs python-can 4.4"):
                 address.open_bus("socketcand:1", {})
 
-    def test_a_server_that_says_nothing_is_not_waited_for_without_end(self):
+    def test_a_silent_server_times_out(self):
         with socket.create_server(("127.0.0.1", 0)) as server, mock.patch.object(address, "_GREETED_WITHIN_S", 0.01), \
                 self.assertRaisesRegex(supercoil.BusError, "timed out"):
             address.open_bus(f"socketcand:{server.getsockname()[1]}", {})

@@ -53,7 +53,7 @@ class Examples(unittest.TestCase):
         told = self.run_example("two_in_step.py", f"{self.simulation.address},1", f"{self.simulation.address},2", 1)
         self.assertRegex(told, r"^.*,1: off its way by 0\.\d\d mm at most\n.*,2: off its way by 0\.\d\d mm at most\n$")
 
-    def test_an_experiment_makes_its_table_and_its_figure(self):
+    def test_experiment_writes_a_table_and_a_figure(self):
         (self.path / "set_points.csv").write_text("position_mm,hold_s\n0.4,0.5\n0.5,0.5\n")
         self.run_example("experiment.py", self.simulation.address, self.path / "set_points.csv",
                          self.path / "results.csv", self.path / "figure.svg")
@@ -78,7 +78,7 @@ class Examples(unittest.TestCase):
         self.assertTrue((self.path / "picture.svg").exists())
 
     @patient
-    def test_the_notebooks_cells(self):
+    def test_the_notebook_runs(self):
         notebook = json.loads((EXAMPLES / "notebook.ipynb").read_text())
         names = {}
 
@@ -113,7 +113,7 @@ class Examples(unittest.TestCase):
         self.assertIn("('active', True)", done.stdout)
         self.assertTrue((self.path / "supercoil.png").exists())
 
-    def test_the_shell_says_what_is_wrong(self):
+    def test_the_shell_reports_errors(self):
         for arguments, said in (([], "an address or --simulation"), (["socketcand:1"], "socketcand on 127.0.0.1:1")):
             done = subprocess.run([sys.executable, "-m", "supercoil", *arguments], capture_output=True, text=True,
                                   timeout=DEADLINE_S)

@@ -29,7 +29,7 @@ class Sessions(unittest.TestCase):
     def muscle(self, **options):
         return sync.Muscle(f"virtual:{self.channel}", NODE, deadline_s=60.0, **options)
 
-    def test_a_board_of_another_version_is_not_commanded_but_can_be_stopped(self):
+    def test_a_board_of_another_version_can_only_be_stopped(self):
         board = self.board(version=6)
         with self.assertRaisesRegex(supercoil.VersionMismatchError, "version 6 .* speaks 5"), self.muscle():
             pass
@@ -38,13 +38,13 @@ class Sessions(unittest.TestCase):
         sync.stop(f"virtual:{self.channel}", NODE)
         self.assertEqual([command[:2] for command in board.commands], [("disarm", 0.0)])
 
-    def test_a_node_that_is_not_there_is_named(self):
+    def test_a_missing_node_is_named(self):
         self.board()
         with self.assertRaisesRegex(supercoil.NoAnswerError, "no heartbeat from node 6 on virtual:"), \
                 sync.Muscle(f"virtual:{self.channel}", 6):
             pass
 
-    def test_the_lease_is_claimed_with_the_boards_number_and_given_back(self):
+    def test_the_lease_is_claimed_with_the_boards_nonce_and_released(self):
         board = self.board()
         with self.muscle() as muscle:
             muscle.set_position(0.01)
@@ -56,7 +56,7 @@ class Sessions(unittest.TestCase):
         counters = [command[3] for command in board.commands]
         self.assertEqual(counters, [(counters[0] + i) % 16 for i in range(len(counters))])
 
-    def test_armed_by_a_heartbeat_from_before_is_not_armed_yet(self):
+    def test_an_old_heartbeat_does_not_count_as_armed(self):
         board = self.board(state=State.armed)
         probed = threading.Timer(0.3, lambda: board.status.update(probing=0))
         self.addCleanup(probed.cancel)
@@ -73,7 +73,7 @@ class Sessions(unittest.TestCase):
             muscle.arm()
             muscle.set_position(0.01)
 
-    def test_a_lease_that_ran_out_is_claimed_again_and_the_command_repeated(self):
+    def test_an_expired_lease_is_claimed_again(self):
         board = self.board()
         with self.muscle() as muscle:
             muscle.set_position(0.01)
@@ -83,7 +83,7 @@ class Sessions(unittest.TestCase):
         self.assertIn(["position", "lease", "lease", "position"],
                       [obeyed[i:i + 4] for i in range(len(obeyed))])
 
-    def test_a_lost_frame_is_made_up_for_once(self):
+    def test_a_lost_frame_is_repeated_once(self):
         self.board()
         with self.muscle() as muscle:
             self.lease.refuse["rest"] = [Refusal.wrong_counter]
@@ -92,7 +92,7 @@ class Sessions(unittest.TestCase):
             with self.assertRaises(supercoil.refusals.WrongCounter):
                 muscle.rest()
 
-    def test_the_answer_to_a_tuning_write_is_known_by_its_counter_and_its_value(self):
+    def test_tuning_answers_are_matched_by_counter_and_value(self):
         board = self.board()
         with self.muscle() as muscle:
             for _ in range(17):  # every counter
@@ -120,7 +120,7 @@ class Sessions(unittest.TestCase):
         with self.muscle() as muscle:
             muscle.play([0.0, 0.25, 0.5], [0.001, 0.002, 0.003], settle_s=0.0)
 
-    def test_a_knot_that_was_not_taken_is_sent_once_more(self):
+    def test_a_lost_knot_is_sent_again(self):
         board = self.board()
         self.played(board, [0, Refusal.wrong_counter])
         knots = [told for told in board.trajectory if isinstance(told, messages.Knot)]
@@ -131,12 +131,12 @@ class Sessions(unittest.TestCase):
         self.assertEqual((start.session, start.after_s), (SESSION, 0.1))
         self.assertIn("rest", [command[0] for command in board.commands])
 
-    def test_a_knot_for_which_the_board_has_no_time_waits(self):
+    def test_a_knot_waits_for_room_on_the_board(self):
         board = self.board()
         self.played(board, [0, Refusal.queue_full, Refusal.queue_full])
         self.assertEqual(sum(isinstance(told, messages.Knot) for told in board.trajectory), 5)
 
-    def test_a_session_that_is_lost_ends_a_trajectory(self):
+    def test_a_lost_session_ends_a_trajectory(self):
         for refusal, error in ((Refusal.no_lease, supercoil.refusals.NoLease),
                                (Refusal.not_lease_holder, supercoil.refusals.NotLeaseHolder)):
             with self.subTest(refusal):
@@ -147,7 +147,7 @@ class Sessions(unittest.TestCase):
                 self.assertIn("rest", [command[0] for command in board.commands])
                 board.end()
 
-    def test_a_trajectory_that_does_not_start_is_told(self):
+    def test_a_trajectory_that_does_not_start_is_reported(self):
         board = self.board()
         board.playback = lambda _: {"refusal": 0, "playback": Playback.loaded, "room": 9}
         with self.muscle() as muscle, self.assertRaisesRegex(supercoil.PlaybackError, "has not started"):
@@ -162,12 +162,12 @@ class Sessions(unittest.TestCase):
                 muscle.arm()
             self.assertEqual([command[0] for command in board.commands], ["lease"])
 
-    def test_an_old_board_that_knows_no_lease_is_a_mismatch(self):
+    def test_an_old_board_without_leases_is_a_mismatch(self):
         self.board(lambda *_: (Refusal.no_lease, 0))
         with self.muscle() as muscle, self.assertRaises(supercoil.refusals.ProtocolMismatch):
             muscle.arm()
 
-    def test_damaged_and_missing_answers_are_no_answers(self):
+    def test_damaged_answers_count_as_missing(self):
         board = self.board()
         with self.muscle() as muscle:
             board.damage_answers = True
@@ -185,7 +185,7 @@ class Sessions(unittest.TestCase):
                     muscle.reset()
                 self.assertIn("reset is refused", str(raised.exception))
 
-    def test_a_refusal_because_of_a_fault_is_told_as_the_fault(self):
+    def test_a_refusal_due_to_a_fault_raises_the_fault(self):
         self.board(state=3, fault=30)
         with self.muscle() as muscle:
             self.lease.refuse["position"] = [Refusal.wrong_state]
@@ -194,14 +194,14 @@ class Sessions(unittest.TestCase):
             with self.assertRaises(supercoil.faults.OverTemperature):
                 muscle.hold(1.0)
 
-    def test_a_bus_of_python_can_is_taken_as_it_is_and_stays_open(self):
+    def test_a_python_can_bus_is_used_and_stays_open(self):
         self.board()
         with can.Bus(interface="virtual", channel=self.channel) as bus:
             for _ in range(2):
                 with sync.Muscle(bus, NODE) as muscle:
                     muscle.set_power(0.5)
 
-    def test_many_commands_at_once_are_each_answered(self):
+    def test_concurrent_commands_are_all_answered(self):
         board = self.board()
 
         async def many():
@@ -218,7 +218,7 @@ class Sessions(unittest.TestCase):
                 open_bus(address, {"bitrate": 500_000})
             opened.assert_called_once_with(interface=interface, channel=channel, bitrate=500_000)
 
-    def test_what_is_no_bus_is_named(self):
+    def test_an_invalid_bus_is_named(self):
         for address in ("nonsense:0", "socketcand:1", "/nowhere/commands"):
             with self.subTest(address), self.assertRaisesRegex(supercoil.BusError, address.split(":")[0]), \
                     sync.Muscle(address):

@@ -41,7 +41,7 @@ class Files(unittest.TestCase):
         else:
             numpy.testing.assert_allclose(float(value), float(text), rtol=1e-6, atol=1e-9, err_msg=where)
 
-    def test_a_can_log_is_what_supercoil_log_says_of_every_message(self):
+    def test_a_can_log_matches_supercoil_log(self):
         table = supercoil.load(self.path / "can.log")
         self.assertEqual((table.attrs["node"], table.attrs["damaged_lines"]), (1, 0))
         self.assertEqual(table.attrs["units"]["Power.applied_W"], "W")
@@ -55,7 +55,7 @@ class Files(unittest.TestCase):
                 for column in columns:
                     self.assert_same(values[column], row[column.partition(".")[2]], column)
 
-    def test_a_can_log_that_begins_at_0_has_the_same_times(self):
+    def test_a_can_log_that_starts_at_0_has_the_same_times(self):
         text = (self.path / "can.log").read_text()
         self.assertTrue(text.startswith("(1000000000."))
         (self.path / "old.log").write_text(text.replace("(1", "(0"))
@@ -63,7 +63,7 @@ class Files(unittest.TestCase):
         (self.path / "board.log").write_text(text.replace("(10", "(17"))
         self.assertGreater(supercoil.load(self.path / "board.log").index[0], 1.7e9)
 
-    def test_a_log_of_two_nodes_wants_to_know_which(self):
+    def test_a_log_of_two_nodes_requires_a_node(self):
         text = (self.path / "can.log").read_text()
         (self.path / "two.log").write_text(text + "nonsense\n" + text.replace("701#", "702#"))
         with self.assertRaisesRegex(ValueError, "nodes 1, 2"):
@@ -72,7 +72,7 @@ class Files(unittest.TestCase):
         self.assertEqual({column.partition(".")[0] for column in table}, {"Status"})
         self.assertEqual(table.attrs["damaged_lines"], 1)
 
-    def test_a_recording_is_what_supercoil_log_says(self):
+    def test_a_recording_matches_supercoil_log(self):
         table = supercoil.load(self.path / "flight-1.scfr")
         rows = self.log("flight-1.scfr")
         self.assertEqual(len(table), len(rows))
@@ -101,7 +101,7 @@ class Files(unittest.TestCase):
         self.assertEqual((units["measured_m"], units["temperature_rise_K"], units["theta4"], units["thermometer_C"],
                           units["state"]), ("m", "K", "W/m", "degC", ""))
 
-    def test_a_joints_trace_has_angles_by_its_lever(self):
+    def test_a_joint_trace_has_angles_by_its_lever(self):
         (self.path / "joint.toml").write_text(
             "simulation.duration_s = 3.0\nreference.kind = 'step'\n"
             "[joint]\nlever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n")
@@ -116,7 +116,7 @@ class Files(unittest.TestCase):
             self.assertEqual(table.attrs["units"][angle], "deg")
         self.assertNotIn("joint_angle_deg", supercoil.load(self.path / "trace.csv").columns)
 
-    def test_a_trace_for_numpy_has_the_same_rows(self):
+    def test_a_numpy_trace_has_the_same_rows(self):
         for options in ([], ["--npy"]):  # an earlier run's is not left beside it
             subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "npy", "--every", "10", "--no-plot",
                             "--no-can", "--allow-fault", "--quiet", *options], cwd=self.path, check=True, timeout=300)
@@ -125,7 +125,7 @@ class Files(unittest.TestCase):
         pandas.testing.assert_frame_equal(table, same, check_exact=True, check_dtype=False)
         self.assertEqual(table["fault"].iloc[-1], "heater_open")
 
-    def test_what_is_none_of_them_is_refused(self):
+    def test_other_files_are_refused(self):
         numpy.save(self.path / "other.npy", numpy.zeros(3))
         with self.assertRaisesRegex(ValueError, "is not a trace"):
             supercoil.load(self.path / "other.npy")
@@ -137,7 +137,7 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "is not a can.log"):
             supercoil.load(self.path / "s.toml")
 
-    def test_a_figure_is_drawn_of_each(self):
+    def test_each_kind_of_file_can_be_plotted(self):
         for name in ("can.log", "flight-1.scfr", "trace.csv"):
             figure = supercoil.plot(supercoil.load(self.path / name), self.path / "figure.svg")
             self.assertTrue(all(panel.lines for panel in figure.axes[:2]), name)

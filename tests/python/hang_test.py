@@ -89,7 +89,7 @@ class Hang(unittest.TestCase):
         self.assertEqual(process.returncode, 1)
 
     @patient
-    def test_a_trajectory_of_a_stopped_process_ends_with_its_knots_left(self):
+    def test_a_trajectory_of_a_stopped_process_expires(self):
         with self.observer.record() as recording:
             process = self.running(PLAYS, lambda m: (told := m.telemetry.newest(messages.Trajectory)) is not None
                                    and told.playback == Playback.playing)
@@ -110,7 +110,7 @@ class Hang(unittest.TestCase):
 
 
 class Orphan(unittest.TestCase):
-    def test_a_simulation_ends_with_the_process_that_was_killed(self):
+    def test_a_simulation_ends_with_its_killed_parent(self):
         process = subprocess.Popen([sys.executable, "-c", SIMULATES, str(QUICK)], stdout=subprocess.PIPE, text=True)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.wait)

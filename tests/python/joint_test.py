@@ -25,7 +25,7 @@ ANGLE_DEG = 10.0
 
 
 class AgainstASpring(unittest.TestCase):
-    def test_it_has_no_other_node(self):
+    def test_a_spring_joint_has_no_other_node(self):
         known = dict.fromkeys(joints.QUANTITIES, math.nan)
         self.assertIsNone(joints.joint_of(3, known))
         known[supercoil.Quantity.joint_lever_m] = 0.015
@@ -45,7 +45,7 @@ class Parts(unittest.TestCase):
         data = codec.encode(codec.LAYOUTS[messages.JOINT], {"part": part, **values})
         self.telemetry.take(messages.JOINT, self.time_s, data)
 
-    def test_the_newest_frame_has_what_the_others_told(self):
+    def test_the_newest_frame_merges_all_parts(self):
         self.hear(Part.motion, angle_deg=1.0, reference_deg=20.0, error_deg=math.nan)
         self.hear(Part.antagonist_heat, angle_deg=2.0, antagonist_hottest_C=50.0, antagonist_slack=1)
         told = self.telemetry.joint
@@ -54,7 +54,7 @@ class Parts(unittest.TestCase):
         self.assertEqual((told.antagonist_hottest_C, told.antagonist_slack, told.agonist_slack), (50.0, True, False))
         self.assertTrue(math.isnan(told.error_deg) and math.isnan(told.agonist_hottest_C))
 
-    def test_a_part_takes_the_place_of_its_last_one_whatever_else_changed(self):
+    def test_a_part_replaces_its_previous_value(self):
         for reference_deg, slack in ((20.0, 1), (10.0, 0), (5.0, 1), (math.nan, 0)):
             self.hear(Part.motion, reference_deg=reference_deg, agonist_slack=slack)
             self.hear(Part.effort, effort_W=1.0, agonist_slack=slack)
@@ -77,7 +77,7 @@ class OnSimulatedJoint(unittest.TestCase):
 
 
 class Joint(OnSimulatedJoint):
-    def test_both_nodes_tell_of_it(self):
+    def test_both_nodes_report_the_joint(self):
         with self.muscle(1) as right, self.muscle(2) as left:
             self.assertEqual(right.joint(), supercoil.Joint(0.015, 2))
             self.assertEqual(left.joint(), supercoil.Joint(-0.015, 1))
@@ -85,7 +85,7 @@ class Joint(OnSimulatedJoint):
             self.assertAlmostEqual(left.joint().position_m(ANGLE_DEG), -right.joint().position_m(ANGLE_DEG))
 
     @patient
-    def test_one_node_tells_the_angle_and_both_heaters(self):
+    def test_one_node_reports_the_angle_and_both_heaters(self):
         with self.muscle(1) as right, self.muscle(2) as left:
             if right.state == supercoil.State.fault:
                 right.reset()
@@ -119,7 +119,7 @@ class Joint(OnSimulatedJoint):
 class JointWithLeverTable(OnSimulatedJoint):
     lever = "lever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n"
 
-    def test_both_nodes_tell_of_the_table(self):
+    def test_both_nodes_report_the_lever_table(self):
         for node, way in ((1, 1.0), (2, -1.0)):
             with self.muscle(node) as muscle:
                 joint = muscle.joint()
@@ -132,7 +132,7 @@ class JointWithLeverTable(OnSimulatedJoint):
 
 
 class Lever(unittest.TestCase):
-    def test_the_angle_of_an_arc_is_the_one_that_has_it(self):
+    def test_angle_inverts_arc(self):
         for angle_deg in (-90.0, -30.0, -29.0, -1.0, 0.0, 12.0, 30.0, 31.0, 200.0):
             angle_rad = math.radians(angle_deg)
             self.assertAlmostEqual(LEVER_TABLE.angle_rad(LEVER_TABLE.arc_m(angle_rad)), angle_rad, 9)

@@ -11,25 +11,25 @@ from supercoil.knots import Knot, knots_of
 
 
 class Knots(unittest.TestCase):
-    def test_columns_become_knots_with_whole_milliseconds_between_them(self):
+    def test_columns_become_knots_at_whole_milliseconds(self):
         knots = knots_of([10.0, 10.5004, 11.0], [0.001, 0.002, 0.003], [0.0, 0.002, 0.0])
         self.assertEqual(knots, ((10.0, 0.0, 0.001, 0.0), (10.5004, 0.5, 0.002, 0.002), (11.0, 0.5, 0.003, 0.0)))
         self.assertIsInstance(knots[0], Knot)
 
-    def test_milliseconds_do_not_add_up_to_another_end(self):
+    def test_rounding_to_milliseconds_does_not_accumulate(self):
         times_s = np.arange(3001) / 3000.0
         times_s = times_s * 3.5  # 1.1667 ms apart
         knots = knots_of(times_s, np.zeros(3001))
         self.assertAlmostEqual(sum(knot.after_s for knot in knots), 3.5, 9)
 
-    def test_velocities_that_are_not_given_are_those_of_the_parabola_through_three_rows(self):
+    def test_missing_velocities_follow_a_parabola_through_three_rows(self):
         times_s = np.array([0.0, 0.2, 0.5, 0.9, 1.0])
         knots = knots_of(times_s, 0.01 * times_s ** 2)
         for row in (1, 2, 3):
             self.assertAlmostEqual(knots[row].velocity_m_per_s, 0.02 * times_s[row], 12)
         self.assertEqual((knots[0].velocity_m_per_s, knots[-1].velocity_m_per_s), (0.0, 0.0))
 
-    def test_lists_arrays_and_columns_of_a_table_are_the_same(self):
+    def test_lists_arrays_and_table_columns_are_equivalent(self):
         times_s, positions_m = [0.0, 0.5, 1.0], [0.001, 0.002, 0.001]
         table = pd.DataFrame({"time_s": times_s, "position_m": positions_m}, index=[7, 8, 9])
         wanted = knots_of(times_s, positions_m)
@@ -37,13 +37,13 @@ class Knots(unittest.TestCase):
         self.assertEqual(knots_of(table["time_s"], table["position_m"]), wanted)
         self.assertEqual(knots_of(iter(times_s), iter(positions_m)), wanted)
 
-    def test_an_end_that_stands_still_but_for_rounding_is_right(self):
+    def test_an_end_at_rest_up_to_rounding_is_accepted(self):
         times_s = np.linspace(0.0, 1.0, 51)
         velocities = 0.001 * np.sin(2.0 * np.pi * times_s)
         self.assertNotEqual(velocities[-1], 0.0)
         knots_of(times_s, 0.002 - 0.001 / (2.0 * np.pi) * np.cos(2.0 * np.pi * times_s), velocities)
 
-    def test_what_is_wrong_is_named_with_its_row(self):
+    def test_errors_name_the_row(self):
         for columns, why in (
                 (([], []), "at least 2 rows, not 0"),
                 (([0.0], [0.0]), "at least 2 rows, not 1"),
@@ -65,7 +65,7 @@ class Knots(unittest.TestCase):
             with self.subTest(why), self.assertRaisesRegex(ValueError, why):
                 knots_of(*columns)
 
-    def test_nothing_is_sent_before_it_is_checked(self):
+    def test_motions_are_checked_before_sending(self):
         muscle = sync.Muscle("can0", 1)  # is not connected
         with self.assertRaisesRegex(ValueError, "row 1"):
             muscle.play([0.0, 0.0], [0.0, 0.0])

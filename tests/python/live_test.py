@@ -68,7 +68,7 @@ class OnOneBoard(unittest.TestCase):
         return muscle
 
     @patient
-    def test_asynchronous_it_arms_moves_holds_and_lets_go(self):
+    def test_asynchronous_motion(self):
         self.muscle()
 
         async def experiment():
@@ -88,7 +88,7 @@ class OnOneBoard(unittest.TestCase):
         self.observe(lambda m: m.state == State.disarmed and not m.telemetry.status.leased)
 
     @patient
-    def test_synchronous_it_does_the_same(self):
+    def test_synchronous_motion(self):
         self.muscle()
         with supercoil.Muscle(self.address, node=1, deadline_s=30.0) as muscle:
             muscle.arm()
@@ -102,7 +102,7 @@ class OnOneBoard(unittest.TestCase):
         self.observe(lambda m: m.state == State.disarmed and not m.telemetry.status.leased)
 
     @patient
-    def test_a_value_out_of_range_is_refused_with_the_nearest(self):
+    def test_an_out_of_range_value_is_refused_with_the_nearest(self):
         with self.muscle() as muscle:
             muscle.arm()
             with self.assertRaises(supercoil.refusals.OutOfRange) as raised:
@@ -126,7 +126,7 @@ class OnOneBoard(unittest.TestCase):
             self.assertTrue(math.isnan(quantities[supercoil.Quantity.unexplained_ratio]))
 
     @patient
-    def test_a_controller_is_tuned_while_it_follows(self):
+    def test_a_running_controller_is_tuned(self):
         with self.muscle() as muscle:
             muscle.tune(base="configured")
             muscle.arm()
@@ -176,7 +176,7 @@ class OnOneBoard(unittest.TestCase):
                 muscle.tuning(estimator=3)
 
     @patient
-    def test_what_does_not_suit_a_controller_is_refused_by_name_and_changes_nothing(self):
+    def test_unsuitable_values_are_refused_by_name(self):
         with self.muscle() as muscle:
             before = muscle.tuning()
             for values, error, text in (
@@ -199,7 +199,7 @@ class OnOneBoard(unittest.TestCase):
             self.assertEqual([after[name].in_use for name in before], [value.in_use for value in before.values()])
 
     @patient
-    def test_a_program_that_says_nothing_until_its_deadline_lets_the_muscle_go(self):
+    def test_a_missed_deadline_releases_the_muscle(self):
         with self.muscle(deadline_s=0.5) as muscle:
             muscle.arm()
             muscle.set_position(TARGET_M)
@@ -214,7 +214,7 @@ class OnOneBoard(unittest.TestCase):
             self.observe(lambda m: not m.telemetry.status.leased)
         self.observe(lambda m: m.state == State.disarmed)
 
-    def test_an_event_loop_that_is_blocked_lets_the_command_expire_as_a_fault(self):
+    def test_a_blocked_event_loop_causes_a_command_timeout(self):
         self.muscle()
 
         async def blocked():
@@ -245,7 +245,7 @@ class OnOneBoard(unittest.TestCase):
                 self.observe(lambda m: m.state == State.disarmed)
 
     @patient
-    def test_telemetry_comes_as_objects_as_arrays_and_as_a_table(self):
+    def test_telemetry_as_objects_arrays_and_table(self):
         with self.muscle() as muscle:
             with muscle.record() as recording, muscle.record("Status", most_frames=3) as few:
                 streamed = [message for message, _ in zip(muscle.stream(messages.Measurement), range(20), strict=False)]
@@ -265,7 +265,7 @@ class OnOneBoard(unittest.TestCase):
             self.assertIn(supercoil.Fault.over_temperature, self.observer.telemetry.margins)
             self.assertIn(supercoil.Fault.over_temperature, self.observer.telemetry.limits)
 
-    def test_what_calibrate_found_is_told_and_identify_can_be_ended(self):
+    def test_calibrate_returns_its_result_and_identify_can_be_interrupted(self):
         for attempt in range(TRIES):
             try:
                 told, state = learned.result()
@@ -281,7 +281,7 @@ class OnOneBoard(unittest.TestCase):
         self.assertEqual((found.node, found.protocol_version, found.can_be_commanded), (1, 5, True))
 
 
-class OnBoardsOfTheirOwn(unittest.TestCase):
+class OnSeparateBoards(unittest.TestCase):
     @patient
     def test_two_muscles_move_in_one_call(self):
         async def in_step():
@@ -301,7 +301,7 @@ class OnBoardsOfTheirOwn(unittest.TestCase):
                 self.assertEqual(two.muscle.telemetry.newest(messages.Acknowledge).opcode.name, "rest")
         asyncio.run(in_step())
 
-    def test_a_bus_that_goes_away_is_told(self):
+    def test_a_lost_bus_is_reported(self):
         simulation = sync.Simulation(QUICK).start()
         muscle = sync.Muscle(simulation.address)
         with self.assertRaises((supercoil.BusError, supercoil.NoAnswerError)), muscle:
@@ -309,7 +309,7 @@ class OnBoardsOfTheirOwn(unittest.TestCase):
             while True:
                 muscle.arm()
 
-    def test_a_scenario_that_is_not_there_is_named(self):
+    def test_a_missing_scenario_is_named(self):
         with self.assertRaisesRegex(supercoil.SimulationError, "nowhere"), supercoil.Simulation("nowhere.toml"):
             pass
 

@@ -28,7 +28,7 @@ class Local(unittest.TestCase):
     def muscle(self, channel):
         return sync.Muscle(self.path, channel, deadline_s=DEADLINE_S)
 
-    def test_it_is_commanded_and_told_of(self):
+    def test_commands_and_telemetry_work(self):
         with self.muscle(1) as muscle:
             self.assertEqual(muscle.state, State.disarmed)
             muscle.arm()
@@ -57,7 +57,7 @@ class Local(unittest.TestCase):
         # In a tick of 5 ms the first goes 3 um; the rows of both may be of two ticks.
         self.assertLess(apart, 1e-5)
 
-    def test_what_it_cannot_do_is_refused_with_its_time(self):
+    def test_an_infeasible_knot_is_refused_with_its_time(self):
         with self.muscle(2) as muscle:
             muscle.arm()
             with self.assertRaises(supercoil.refusals.Infeasible) as refused:

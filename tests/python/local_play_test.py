@@ -65,7 +65,7 @@ class LocalPlay(unittest.TestCase):
                 return False
         return True
 
-    def test_two_channels_go_their_ways_in_the_same_ticks(self):
+    def test_two_channels_move_in_the_same_ticks(self):
         done, seen = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
         self.assertEqual(done.returncode, 0, done.stderr)
         apart, way_m = apart_m(seen, REST_M, 2.0)
@@ -73,7 +73,7 @@ class LocalPlay(unittest.TestCase):
         # In a tick of 5 ms the first goes 5 um; the rows of both may be of two ticks.
         self.assertLess(apart, 1.5e-5)
 
-    def test_one_channel_holds_its_last_row_until_it_is_interrupted(self):
+    def test_one_channel_holds_its_last_row_until_interrupted(self):
         path = pathlib.Path(self.folder) / "one.csv"
         path.write_text("time_s,position_m\n0,0.003\n0.5,0.0031\n1,0.0032\n")
         for _ in range(TRIES):
@@ -90,7 +90,7 @@ class LocalPlay(unittest.TestCase):
         self.assertEqual(player.returncode, 0)
         self.assertIn("2 armed rest none", self.supercoil("command", "state").stdout)
 
-    def test_what_a_muscle_cannot_do_is_refused_with_its_time(self):
+    def test_an_infeasible_knot_is_refused_with_its_time(self):
         path = pathlib.Path(self.folder) / "fast.csv"
         path.write_text("time_s,position_m\n0,0.002\n1,0.0022\n1.2,0.02\n1.4,0.02\n")
         why = "channel 1: the knot at 1.000 s: refused: infeasible"
@@ -99,7 +99,7 @@ class LocalPlay(unittest.TestCase):
         self.assertIn(why, done.stderr)
         self.assertIn("1 armed rest", self.supercoil("command", "state").stdout)
 
-    def test_muscles_must_be_armed_and_the_socket_be_there(self):
+    def test_requires_armed_muscles_and_the_socket(self):
         done = self.supercoil("play", motion(self.folder, {2: 1.0}))
         self.assertEqual(done.returncode, 1)
         self.assertIn("channel 2: position 0.003000: refused: wrong_state", done.stderr)
@@ -110,7 +110,7 @@ class LocalPlay(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("is supercoild running?", done.stderr)
 
-    def test_one_that_is_killed_lets_the_muscle_cool(self):
+    def test_the_muscle_cools_after_the_player_is_killed(self):
         for _ in range(TRIES):
             self.arm()
             player = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0}), "--settle", "1", "--socket",

@@ -78,7 +78,7 @@ class Local(unittest.TestCase):
     def muscle(self):
         return sync.Muscle(self.path, 2, deadline_s=60.0)
 
-    def test_a_channel_is_commanded_and_told_as_over_can(self):
+    def test_a_channel_works_as_over_can(self):
         with self.muscle() as muscle:
             muscle.arm()
             muscle.move_to(0.0034)
@@ -91,7 +91,7 @@ class Local(unittest.TestCase):
         self.assertEqual(commands, ["2 arm", "2 position 0.0034", "2 disarm"])
         self.assertIn("2 renew", self.daemon.lines)
 
-    def test_a_muscle_that_is_slack_is_told(self):
+    def test_a_slack_muscle_is_reported(self):
         for notes, slack in (("- 0 pi slack", 1), ("- 0 pi -", 0), ("-", 0)):
             self.daemon.tell("armed", "rest", notes=notes)
             with self.muscle() as muscle:
@@ -113,7 +113,7 @@ class Local(unittest.TestCase):
             with self.assertRaises(supercoil.faults.HeaterOpen):
                 muscle.hold(10.0)
 
-    def test_why_identify_found_nothing_is_told_once(self):
+    def test_a_failed_identify_names_each_reason_once(self):
         self.daemon.identified = ("too_little_motion", "theta1_kept,too_little_motion")
         with self.muscle() as muscle, self.assertRaises(supercoil.OutcomeError) as raised:
             muscle.identify()
@@ -121,7 +121,7 @@ class Local(unittest.TestCase):
                          r"identify ended: too_little_motion: the muscle moved by less .* maximum power; theta1_kept$")
         self.assertEqual(raised.exception.notes, ("theta1_kept", "too_little_motion"))
 
-    def test_what_is_learned_and_known_is_told(self):
+    def test_learned_and_known_values_are_available(self):
         with self.muscle() as muscle:
             self.assertEqual(muscle.identify(), (supercoil.Result.found, ("theta2_uncertain", "friction")))
             told = muscle.quantities()
@@ -136,7 +136,7 @@ class Local(unittest.TestCase):
                                         "nothing is known about channel 2: wrong: channel 'playback'"):
                 muscle.play([0.0, 1.0], [0.003, 0.003], settle_s=0.0)
 
-    def test_a_controller_is_tuned_and_the_boards_reason_for_a_refusal_is_told(self):
+    def test_tuning_reports_the_boards_reason_for_a_refusal(self):
         for of, value in (("in_use", "1500"), ("configured", "2000"), ("stored", "2000"), ("prepared", "1500")):
             self.daemon.answers[f"tuning 2 1 proportional_W_per_m {of}"] = value
             self.daemon.answers[f"tuning 2 1 kind {of}"] = "1"
@@ -165,7 +165,7 @@ class Local(unittest.TestCase):
             with self.assertRaisesRegex(supercoil.SupercoilError, "not a command"):
                 muscle.tuning()
 
-    def test_one_that_is_cancelled_leaves_no_answer_for_the_next(self):
+    def test_a_cancelled_command_leaves_no_stale_answer(self):
         self.daemon.waits_s["2 store"] = 0.2
         self.daemon.answers.update({"2 store": "refused: not_ready", "tuning 2 0 kind in_use": "1"})
 
@@ -180,14 +180,14 @@ class Local(unittest.TestCase):
                 return (await muscle.tuning())["kind"].in_use
         self.assertEqual(asyncio.run(cancelled()), "pi")
 
-    def test_channels_of_one_board_start_at_one_of_its_times(self):
+    def test_channels_of_one_board_share_the_start_time(self):
         clock = SocketClock.of(self.path)
         self.assertIs(SocketClock.of(self.path), clock)
         first = clock.next_number()
         self.assertEqual([clock.start_s(first, board_s, 0.1) for board_s in (10.0, 10.02)], [10.1, 10.1])
         self.assertEqual(clock.start_s(clock.next_number(), 20.0, 0.1), 20.1)
 
-    def test_every_command_is_one_of_the_boards_lines(self):
+    def test_every_command_becomes_a_line_for_the_board(self):
         with self.muscle() as muscle:
             muscle.scale(0.0101)
             muscle.use_controller(1)
@@ -205,7 +205,7 @@ class Local(unittest.TestCase):
         self.assertLessEqual({line.split()[1] for line in self.daemon.lines}, known)
         self.assertLessEqual({opcode.name for opcode in Opcode} - {"compare", "claim_of_version_3", "lease"}, known)
 
-    def test_a_channel_that_is_not_there_is_named(self):
+    def test_a_missing_channel_is_named(self):
         with self.assertRaisesRegex(supercoil.BusError, "nothing is known about channel 3"), sync.Muscle(self.path, 3):
             pass
 

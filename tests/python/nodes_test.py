@@ -56,7 +56,7 @@ class ThreeNodes(unittest.TestCase):
                 return done.stdout
         self.fail(done.stderr)
 
-    def test_supercoil_commands_and_tunes_each_alone(self):
+    def test_each_node_is_commanded_and_tuned_separately(self):
         for node in NODES:
             self.supercoil("command", str(node), "arm")
             armed = [State.armed if one == node else State.disarmed for one in NODES]
@@ -68,7 +68,7 @@ class ThreeNodes(unittest.TestCase):
                          [2000.0, 1234.0, 2000.0])
 
     @patient
-    def test_one_call_moves_all_each_to_its_own_set_point(self):
+    def test_one_call_moves_each_node_to_its_own_set_point(self):
         async def in_step():
             muscles = [supercoil.Muscle(self.address, node, deadline_s=60.0) for node in NODES]
             for muscle in muscles:
@@ -88,7 +88,7 @@ class ThreeNodes(unittest.TestCase):
         self.assertEqual(asyncio.run(in_step()), [0.00059, 0.00069, 0.00079])
 
     @patient
-    def test_a_fault_is_its_nodes_and_all_on_the_bus_hear_of_it(self):
+    def test_a_fault_affects_only_its_node(self):
         with sync.Muscle(self.address, 2, deadline_s=60.0) as other:
             other.arm()
             self.supercoil("command", "3", "arm")
@@ -116,7 +116,7 @@ class ThreeNodes(unittest.TestCase):
             os.close(screen)
         return seen
 
-    def test_on_a_terminal_what_takes_its_time_says_how_far_it_is(self):
+    def test_progress_is_shown_on_a_terminal(self):
         for words in (("1", "identify", "--for", "600"), ("1", "power", "0.1", "--for", "100")):
             for _ in range(TRIES):
                 self.setUp()
@@ -125,7 +125,7 @@ class ThreeNodes(unittest.TestCase):
                     break
             self.assertRegex(seen, rf"\r\x1b\[K{' '.join(words[:-2])}: \d+ %, \d+ (s|min) left")
 
-    def test_in_a_pipe_nothing_is_said_of_it(self):
+    def test_progress_is_not_shown_in_a_pipe(self):
         for _ in range(TRIES):
             self.setUp()
             self.supercoil("command", "1", "arm")
@@ -136,7 +136,7 @@ class ThreeNodes(unittest.TestCase):
                 break
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_all_are_listed(self):
+    def test_all_nodes_are_listed(self):
         self.assertEqual([found.node for found in sync.discover(self.address)], [1, 2, 3])
         told = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
         self.assertEqual([one["node"] for one in told], [1, 2, 3])

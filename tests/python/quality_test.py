@@ -32,11 +32,11 @@ def parameters(function):
 class Quality(unittest.TestCase):
     cache = pathlib.Path(os.environ["PYTHON_CACHE"])
 
-    def test_its_types_are_right(self):
+    def test_types_pass_mypy(self):
         done = run("mypy", "--cache-dir", self.cache / "mypy")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_its_style_is_ruffs(self):
+    def test_style_passes_ruff(self):
         for folder, options in ((PACKAGE, ()), (ROOT / "tests" / "python", ("--ignore", "ANN")),
                                 (ROOT / "tests" / "ros", ("--ignore", "ANN,E402")),
                                 (ROOT / "examples" / "python", ("--ignore", "ANN", "--exclude", "move_muscle.py"))):
@@ -44,7 +44,7 @@ class Quality(unittest.TestCase):
                        *options, folder)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_the_synchronous_half_has_all_of_the_asynchronous_one(self):
+    def test_synchronous_and_asynchronous_interfaces_match(self):
         for asynchronous, synchronous in ((supercoil.Muscle, sync.Muscle), (supercoil.Simulation, sync.Simulation)):
             theirs, ours = public(asynchronous), public(synchronous)
             ours.pop("of")
@@ -54,7 +54,7 @@ class Quality(unittest.TestCase):
                 if inspect.isfunction(member):
                     self.assertEqual(parameters(member), parameters(ours[name]), name)
 
-    def test_its_wheel_is_pure_typed_and_of_the_projects_version(self):
+    def test_wheel_is_pure_typed_and_of_the_projects_version(self):
         project, = re.findall(r"project\(supercoil VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
         self.assertEqual(supercoil.__version__, project)
         with tempfile.TemporaryDirectory() as folder:
@@ -69,7 +69,7 @@ class Quality(unittest.TestCase):
         self.assertRegex(metadata, r"Requires-Python: >=3\.11\n")
         self.assertEqual(re.findall(r"^Requires-Dist: ([^;\n]+)$", metadata, re.M), ["python-can>=4.1"])
 
-    def test_it_is_imported_without_numpy_pandas_and_matplotlib(self):
+    def test_import_does_not_load_numpy_pandas_or_matplotlib(self):
         done = subprocess.run([sys.executable, "-c", "import supercoil, sys; "
                                "sys.exit(bool({'numpy', 'pandas', 'matplotlib', 'cantools'} & set(sys.modules)))"])
         self.assertEqual(done.returncode, 0)

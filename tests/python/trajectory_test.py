@@ -81,7 +81,7 @@ class Trajectories(unittest.TestCase):
         return playing
 
     @patient
-    def test_the_reference_follows_the_knots_and_the_muscle_rests_at_the_end(self):
+    def test_the_reference_follows_the_knots_and_then_rests(self):
         muscle = self.muscle()
         with muscle.record("Tracking") as recording:
             muscle.play(TIMES_S, way(TIMES_S), settle_s=0.3)
@@ -93,7 +93,7 @@ class Trajectories(unittest.TestCase):
         np.testing.assert_allclose(told_m, way(since_start_s), atol=NEAR_M)
 
     @patient
-    def test_held_it_stays_at_its_last_knot(self):
+    def test_hold_keeps_the_last_knot(self):
         async def play(muscle):
             await muscle.play([5.0, 5.5, 6.0], [FIRST_M, FIRST_M + 0.0002, FIRST_M + 0.0003], settle_s=0.0, hold=True)
             await muscle.hold(0.5)  # together more than a command lasts
@@ -103,7 +103,7 @@ class Trajectories(unittest.TestCase):
         self.assertAlmostEqual(reference_m, FIRST_M + 0.0003, 6)
 
     @patient
-    def test_several_go_in_step(self):
+    def test_several_muscles_move_in_step(self):
         muscles = [self.muscle(node) for node in NODES]
         scales = (1.0, 0.5)
         recordings = [muscle.record("Tracking").start() for muscle in muscles]
@@ -122,7 +122,7 @@ class Trajectories(unittest.TestCase):
         self.assertEqual([muscle.state for muscle in muscles], [State.active] * 2)
 
     @patient
-    def test_what_a_muscle_cannot_do_is_refused_with_the_time_of_its_knot(self):
+    def test_an_infeasible_knot_is_refused_with_its_time(self):
         muscle = self.muscle()
         with self.assertRaises(supercoil.refusals.Infeasible) as raised:
             muscle.play([7.0, 8.0, 8.2, 8.4], [0.002, 0.0022, 0.02, 0.02], settle_s=0.0)
@@ -134,7 +134,7 @@ class Trajectories(unittest.TestCase):
         self.assertEqual(raised.exception.time_s, 4.0)
 
     @patient
-    def test_one_that_cannot_ends_the_motions_of_all(self):
+    def test_one_infeasible_motion_ends_all(self):
         one, two = (self.muscle(node) for node in NODES)
         with self.assertRaises(supercoil.refusals.Infeasible) as raised:
             sync.play([one.make_motion(TIMES_S, way(TIMES_S)), two.make_motion([0.0, 0.2], [0.002, 0.02])],
@@ -148,7 +148,7 @@ class Trajectories(unittest.TestCase):
             muscle.play([0.0, 1.0], [FIRST_M, FIRST_M])
 
     @patient
-    def test_a_knot_that_comes_too_late_lets_the_muscle_rest(self):
+    def test_a_late_knot_lets_the_muscle_rest(self):
         muscle = self.muscle()
         send = CanLink.knot
         sent = []
@@ -167,7 +167,7 @@ class Trajectories(unittest.TestCase):
         self.assertEqual(muscle.state, State.armed)
 
     @patient
-    def test_a_number_of_a_sync_that_the_board_has_heard_before_starts_nothing(self):
+    def test_reused_sync_numbers_are_skipped(self):
         muscle = self.muscle()
         clock = muscle._muscle._link.clock
         for _ in range(2):  # with the same numbers
@@ -176,7 +176,7 @@ class Trajectories(unittest.TestCase):
             self.assertLess(clock._number, 20)  # it went on from there
 
     @patient
-    def test_a_motion_that_is_cancelled_lets_the_muscle_rest(self):
+    def test_a_cancelled_motion_lets_the_muscle_rest(self):
         async def cancel(muscle):
             playing = await self.under_way(muscle, Playback.playing)
             playing.cancel()

@@ -19,7 +19,7 @@ class Live(Bridged):
     options = ("--nodes", "2")
     joints = JOINTS
 
-    def test_states_are_what_the_boards_tell(self):
+    def test_states_match_the_boards(self):
         state = self.wait(lambda: next((one for one in self.states.take() if np.all(np.isfinite(one.position))), None))
         self.assertEqual(list(state.name), list(JOINTS))
         self.assertEqual((len(state.velocity), len(state.effort)), (0, 0))
@@ -27,27 +27,27 @@ class Live(Bridged):
             self.assertAlmostEqual(position_m, self.position_m(joint), delta=1e-4)
         self.assertLess(abs(state.header.stamp.sec - time.time()), 60.0)
 
-    def test_bytes_are_read_by_humble_and_jazzy(self):
+    def test_humble_and_jazzy_read_the_messages(self):
         for peer in self.peers.values():
             states = peer.reader("rt/joint_states", "sensor_msgs/msg/JointState")
             diagnostics = peer.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
             self.assertEqual(list(self.wait(states.take)[-1].name), list(JOINTS))
             self.assertTrue(self.wait(diagnostics.take)[-1].status)
 
-    def test_publishers_tell_ros_the_type_they_have(self):
+    def test_publishers_announce_their_type_hash(self):
         publication = self.states.dds.get_matched_publications()[0]
         told = self.states.dds.get_matched_publication_data(publication)
         self.assertIn(b"typehash=RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e;",
                       [policy.data for policy in told.qos if type(policy).__name__ == "Userdata"])
 
-    def test_a_command_moves_an_armed_muscle_and_holds_for_its_time(self):
+    def test_a_command_moves_an_armed_muscle_until_it_expires(self):
         self.arm()
         wanted = {"finger": 0.001, "somebody_elses": 5.0, "thumb": 0.0015}
         self.wait(lambda: self.near("finger", 0.001) and self.near("thumb", 0.0015), self.again(wanted))
         # Silence: it rests, and stays armed.
         self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
 
-    def test_what_a_board_refuses_is_diagnosed(self):
+    def test_refusals_are_diagnosed(self):
         told = self.diagnosis_of("finger", "is disarmed: it cannot move", lambda: self.command({"finger": 0.001}))
         self.assertEqual((told.level, told.hardware_id), (WARN, f"{self.simulation.address} node 1"))
         self.assertEqual({value.key: value.value for value in told.values}["state"], "disarmed")
@@ -61,12 +61,12 @@ class Live(Bridged):
                                    np.array([0.001]), empty, empty)
         self.diagnosis_of("thumb", "a command has 1 positions for 2 names", lambda: self.commands.write(uneven))
 
-    def test_a_muscle_that_moves_rests_when_it_is_told_what_it_cannot(self):
+    def test_a_moving_muscle_rests_after_an_invalid_command(self):
         self.arm()
         self.wait(lambda: self.observers["thumb"].state == State.active, self.again({"thumb": 0.001}))
         self.wait(lambda: self.observers["thumb"].state != State.active, self.again({"thumb": -1.0}))
 
-    def test_a_trajectory_is_followed_and_its_end_held_while_its_sender_is_there(self):
+    def test_a_trajectory_is_followed_and_held_while_its_sender_exists(self):
         writers = [self.trajectory_writer()]
 
         def send():
@@ -85,7 +85,7 @@ class Live(Bridged):
         writers.clear()  # as when a program ends
         self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
 
-    def test_a_trajectory_that_cannot_be_is_refused_whole(self):
+    def test_an_invalid_trajectory_is_refused_entirely(self):
         writer = self.trajectory_writer()
         self.arm()
         for points, names, why in (
@@ -100,7 +100,7 @@ class Live(Bridged):
             self.assertEqual(told.level, WARN)
             self.assertNotIn(State.active, [one.state for one in self.observers.values()], why)
 
-    def test_an_emergency_stop_of_any_publisher_disarms_all_until_it_is_released(self):
+    def test_an_emergency_stop_disarms_all_until_released(self):
         for reliable in (True, False):
             self.arm()
             self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
@@ -111,7 +111,7 @@ class Live(Bridged):
             self.stop(False)
             self.assertNotIn(State.active, [one.state for one in self.observers.values()])
 
-    def test_while_the_stop_is_set_what_others_arm_is_disarmed(self):
+    def test_the_emergency_stop_disarms_what_others_arm(self):
         # A bridge that has commanded nothing yet holds no lease, so others may.
         self.end_bridge()
         self.start_bridge()
@@ -125,7 +125,7 @@ class Live(Bridged):
             self.wait(lambda: other.state == State.disarmed)
         self.stop(False)
 
-    def test_a_stop_that_is_released_at_once_has_stopped(self):
+    def test_a_briefly_set_emergency_stop_still_disarms(self):
         writer = self.peer.writer("rt/supercoil/emergency_stop", STOP_TYPE)
         self.wait(lambda: writer.matched() == 2)
         self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
@@ -133,21 +133,21 @@ class Live(Bridged):
             writer.write(self.peer.message(STOP_TYPE, stop))
         self.wait(lambda: all(one.state in (State.disarmed, State.fault) for one in self.observers.values()))
 
-    def test_each_joint_is_armed_and_disarmed_alone(self):
+    def test_each_joint_is_armed_and_disarmed_separately(self):
         self.wait(lambda: self.call("thumb/arm")[0])
         self.wait(lambda: self.observers["thumb"].state == State.armed)
         self.assertEqual(self.observers["finger"].state, State.disarmed)
         self.assertEqual(self.call("thumb/disarm"), (True, "thumb: disarmed"))
         self.assertEqual(self.call("thumb/reset"), (True, "thumb: has no fault"))
 
-    def test_damaged_messages_are_left_out(self):
+    def test_damaged_messages_are_ignored(self):
         for data in (b"", b"\0\1\0\0", b"\0\1\0\0" + b"\xff" * 40, os.urandom(200)):
             with contextlib.suppress(Exception):  # Cyclone itself refuses to send some of it
                 self.commands.write_bytes(data)
         self.arm()
         self.wait(lambda: self.near("finger", 0.001), self.again({"finger": 0.001, "thumb": 0.0005}))
 
-    def test_a_bridge_that_hangs_or_dies_lets_the_muscles_cool(self):
+    def test_muscles_cool_when_the_bridge_hangs_or_dies(self):
         for number in (signal.SIGSTOP, signal.SIGKILL):
             self.arm()
             self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
@@ -163,7 +163,7 @@ class Live(Bridged):
         self.end_bridge()
         self.start_bridge()
 
-    def test_a_fault_is_diagnosed_with_its_meaning_until_it_is_reset(self):
+    def test_a_fault_is_diagnosed_until_it_is_reset(self):
         self.arm()
         self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
         self.bridge.send_signal(signal.SIGSTOP)
@@ -175,7 +175,7 @@ class Live(Bridged):
         self.wait(lambda: self.call(f"{in_fault}/reset")[0])
         self.wait(lambda: self.observers[in_fault].fault == Fault.none)
 
-    def test_a_command_that_is_over_at_once_leaves_nothing_hot(self):
+    def test_a_very_short_command_timeout_leaves_nothing_heated(self):
         self.end_bridge()
         self.start_bridge("--command-timeout", "0.05")
         self.wait(lambda: self.commands.matched())
@@ -190,7 +190,7 @@ class Live(Bridged):
         self.end_bridge()
         self.start_bridge()
 
-    def test_it_ends_also_when_its_bus_ends_first(self):
+    def test_it_exits_even_if_its_bus_ends_first(self):
         with sync.Simulation(QUICK, deadline_s=1e6) as alone:
             bridge = self.another_bridge(alone.address, "last", "--joint", "last=1", "--arm")
             commands = self.peer.writer("rt/last/joint_commands", "sensor_msgs/msg/JointState")
@@ -198,7 +198,7 @@ class Live(Bridged):
         bridge.send_signal(signal.SIGTERM)
         self.assertEqual(bridge.wait(DEADLINE_S), 0)
 
-    def test_a_board_that_falls_silent_is_stale_and_comes_back(self):
+    def test_a_silent_board_is_stale_until_it_returns(self):
         with sync.Simulation(QUICK, deadline_s=1e6) as alone:
             bridge = self.another_bridge(alone.address, "mute", "--joint", "mute=1", "--arm")
 
@@ -214,7 +214,7 @@ class Live(Bridged):
             board.send_signal(signal.SIGCONT)
             seen(lambda: self.diagnosed("mute") not in (None, STALE))
 
-    def test_at_the_end_it_disarms(self):
+    def test_it_disarms_on_exit(self):
         self.arm()
         self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
         self.bridge.send_signal(signal.SIGTERM)
@@ -240,7 +240,7 @@ class Live(Bridged):
         self.end_bridge()
         return armed
 
-    def test_a_board_that_is_not_there_is_stale_and_comes_later(self):
+    def test_a_missing_board_is_stale(self):
         self.another_bridge(self.simulation.address, "other", "--joint", "ghost=9")
         told = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
                                        if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))

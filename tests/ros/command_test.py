@@ -17,7 +17,7 @@ def run(*words, code="from supercoil.ros.cli import main; raise SystemExit(main(
 
 
 class Command(unittest.TestCase):
-    def test_what_is_wrong_is_told_with_what_is_right(self):
+    def test_invalid_arguments_are_reported_with_the_allowed_values(self):
         for words, told in (
                 (["can0"], "the following arguments are required: --joint"),
                 (["can0", "--joint", "finger"], "finger: must be NAME=NODE, with a node of 1 to 63, as finger=1"),
@@ -35,17 +35,17 @@ class Command(unittest.TestCase):
                 self.assertIn(told, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
 
-    def test_without_cyclone_it_says_what_to_install(self):
+    def test_without_cyclone_it_names_what_to_install(self):
         code = ("import sys; from importlib import util; util.find_spec = lambda name: None; "
                 "from supercoil.ros.cli import main; raise SystemExit(main())")
         done = run("can0", "--joint", "a=1", code=code)
         self.assertEqual((done.returncode, done.stderr),
                          (1, 'supercoil-ros: needs Eclipse Cyclone DDS: pip install "supercoil[ros]"\n'))
 
-    def test_what_a_launch_file_of_ros_adds_is_passed_over(self):
+    def test_arguments_of_ros_launch_files_are_ignored(self):
         self.assertEqual(run("can0", "--version", "--ros-args", "-r", "__node:=x").returncode, 0)
 
-    def test_the_example_of_ros2_control_fits_the_bridge(self):
+    def test_the_ros2_control_example_matches_the_bridge(self):
         system = ElementTree.parse(EXAMPLES / "finger.urdf").getroot().find("ros2_control")
         told = {param.get("name"): param.text for param in system.iter("param")}
         launch = (EXAMPLES / "finger.launch.py").read_text()

@@ -28,7 +28,7 @@ class Known(unittest.TestCase):
             time.sleep(0.005)
         return seen
 
-    def test_a_publisher_is_known_by_its_messages_until_it_is_gone(self):
+    def test_a_publisher_is_known_until_it_disappears(self):
         subscription = self.graph.subscription("/known", Bool, (True,))
         for _ in range(20):  # handles are random: with and without a sign
             writer = Writer(self.peer, "rt/known", KIND, reliable=True)
@@ -40,7 +40,7 @@ class Known(unittest.TestCase):
             del writer
             self.wait(lambda publisher=publisher: not subscription.has(publisher))
 
-    def test_best_effort_publishers_are_heard_where_it_is_asked_for(self):
+    def test_best_effort_publishers_are_received_if_requested(self):
         both = self.graph.subscription("/both", Bool, (True, False))
         reliable = self.graph.subscription("/reliable", Bool, (True,))
         heard = self.peer.writer("rt/both", KIND, reliable=False)
@@ -53,7 +53,7 @@ class Known(unittest.TestCase):
         self.wait(both.take)
         self.assertEqual([message.data for message, _ in self.wait(reliable.take)], [False])
 
-    def test_both_readers_tell_in_the_order_of_sending(self):
+    def test_both_readers_keep_the_order_of_sending(self):
         both = self.graph.subscription("/order", Bool, (True, False))
         reliable, other = (self.peer.writer("rt/order", KIND, reliable=each) for each in (True, False))
         self.wait(lambda: reliable.matched() == 2 and other.matched() == 1)

@@ -107,14 +107,14 @@ class Connected(unittest.IsolatedAsyncioTestCase):
 
 
 class JointAlone(Connected):
-    async def test_an_error_on_the_way_out_does_not_keep_it(self):
+    async def test_an_error_on_closing_does_not_block_cancellation(self):
         self.muscle.at_close = BusError("the bus is gone")
         self.running.cancel()
         done, _ = await asyncio.wait([self.running], timeout=WITHIN_S)
         self.assertEqual(done, {self.running})
         self.assertTrue(self.running.cancelled())
 
-    async def test_while_a_silent_board_is_let_go_it_is_not_there(self):
+    async def test_a_silent_board_is_stale_while_it_is_released(self):
         self.muscle.let_go.clear()
         self.muscle.silent.set()
         await self.until(lambda: "close" in self.muscle.told)
@@ -128,7 +128,7 @@ class JointAlone(Connected):
         told = diagnostics_of([self.joint], stopped=False).status[1]
         self.assertEqual((told.level, told.message), (STALE, "no Status within 2 s"))
 
-    async def test_a_board_that_was_silent_is_looked_for_again(self):
+    async def test_a_silent_board_is_reconnected(self):
         patched = mock.patch.object(joints, "_TRY_AGAIN_S", 0.0)
         patched.start()
         self.addCleanup(patched.stop)
@@ -138,7 +138,7 @@ class JointAlone(Connected):
         self.want(0.001)
         await self.until(lambda: 0.001 in MADE[-1].told)
 
-    async def test_an_error_without_a_text_is_diagnosed_by_its_kind(self):
+    async def test_an_error_without_text_is_diagnosed_by_its_type(self):
         self.muscle.at_close = BusError()
         self.muscle.silent.set()
         await self.until(lambda: self.muscle.told == ["close"] and self.joint.muscle is None)
@@ -146,7 +146,7 @@ class JointAlone(Connected):
         told = diagnostics_of([self.joint], stopped=False).status[1]
         self.assertEqual((told.level, told.message), (STALE, "BusError"))
 
-    async def test_a_refusal_without_a_text_is_diagnosed_by_its_kind(self):
+    async def test_a_refusal_without_text_is_diagnosed_by_its_type(self):
         async def refuse(position_m):
             raise FaultWithoutText(1, math.nan, math.nan)
         self.muscle.refuses = refuse
@@ -155,13 +155,13 @@ class JointAlone(Connected):
         told = diagnostics_of([self.joint], stopped=False).status[1]
         self.assertEqual((told.level, told.message), (WARN, "FaultWithoutText"))
 
-    async def test_a_set_point_that_is_let_go_before_a_heartbeat_rests(self):
+    async def test_a_released_set_point_rests_before_the_next_heartbeat(self):
         self.want(0.001)
         await self.until(lambda: 0.001 in self.muscle.told)
         self.want(None)  # told as armed until now
         await self.until(lambda: "rest" in self.muscle.told)
 
-    async def test_an_arm_that_waits_ends_with_a_disarm(self):
+    async def test_disarm_ends_a_waiting_arm(self):
         self.muscle.state = State.disarmed
         arming = asyncio.create_task(self.joint.arm())
         await self.muscle.arming.wait()
@@ -169,7 +169,7 @@ class JointAlone(Connected):
         with self.assertRaises(NotReachedError):
             await asyncio.wait_for(arming, WITHIN_S)
 
-    async def test_a_refusal_tells_of_the_position_that_was_refused(self):
+    async def test_a_refusal_refers_to_the_refused_position(self):
         async def refuse(position_m):
             if position_m > 0.004:
                 self.want(0.001)  # meanwhile
@@ -195,7 +195,7 @@ class JointOfTwo(Connected):
         self.addCleanup(Muscle.PAIRS.clear)
         await super().asyncSetUp()
 
-    async def test_radians_become_metres_by_the_table_and_metres_radians(self):
+    async def test_radians_and_metres_convert_by_the_lever_table(self):
         self.want(0.2)
         await self.until(lambda: self.muscle.told)
         self.assertAlmostEqual(self.muscle.told[0], self.TABLE.arc_m(0.2), 12)
@@ -204,13 +204,13 @@ class JointOfTwo(Connected):
         self.assertAlmostEqual(self.joint.position, -0.3, 12)
         self.assertEqual(self.joint.unit, "rad")
 
-    async def test_its_other_muscle_is_listened_to_and_not_commanded(self):
+    async def test_the_antagonist_is_observed_and_not_commanded(self):
         await self.until(lambda: self.joint.antagonist is not None)
         self.want(0.2)
         await self.until(lambda: self.muscle.told)
         self.assertEqual((self.joint.antagonist.node, self.joint.antagonist.told), (2, []))
 
-    async def test_the_other_muscle_is_no_joint(self):
+    async def test_the_antagonist_is_not_a_joint(self):
         led = joints.Joint("back", "can0", 2)
         running = asyncio.create_task(led.run())
         self.addCleanup(running.cancel)
@@ -221,7 +221,7 @@ class JointOfTwo(Connected):
         await self.until(lambda: led.refusal)
         self.assertEqual((led.refusal, led.muscle.told), ("is the antagonist of a joint: command node 1 instead", []))
 
-    async def test_what_is_known_of_the_lever_is_asked_again_before_it_is_armed(self):
+    async def test_the_lever_is_read_again_before_arming(self):
         Muscle.PAIRS[1] = pairs.Joint(0.020, 2)
         self.muscle.state = State.disarmed
         arming = asyncio.create_task(self.joint.arm())

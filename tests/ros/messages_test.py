@@ -41,7 +41,7 @@ def examples(store):
 
 
 class Messages(unittest.TestCase):
-    def test_each_has_the_bytes_of_an_independent_library(self):
+    def test_serialisation_matches_an_independent_library(self):
         seen = set()
         for release, store in STORES.items():
             for ours, theirs in examples(store):
@@ -55,14 +55,14 @@ class Messages(unittest.TestCase):
                     self.assertEqual(repr(again), repr(ours))
         self.assertEqual(len(seen), 6)
 
-    def test_hashes_are_those_of_the_definitions(self):
+    def test_type_hashes_match_the_definitions(self):
         self.assertEqual(len(messages.TYPE_HASHES), 4)
         for kind, told in messages.TYPE_HASHES.items():
             package, _, _, own = kind.__idl_typename__.split("::")
             for store in STORES.values():
                 self.assertEqual(told, store.hash_rihs01(f"{package}/msg/{own.rstrip('_')}"))
 
-    def test_names(self):
+    def test_names_are_resolved(self):
         self.assertEqual(names.resolved("joint_states", "supercoil"), "/joint_states")
         self.assertEqual(names.resolved("~/arm", "hand"), "/hand/arm")
         self.assertEqual(names.topic("/joint_states"), "rt/joint_states")

@@ -32,7 +32,7 @@ class Motion(unittest.TestCase):
         held = Held(0.002, 10.0)
         self.assertEqual((held.at(9.999), held.at(10.0)), (0.002, None))
 
-    def test_with_velocities_it_is_hermites_cubic(self):
+    def test_with_velocities_it_is_a_cubic_hermite_spline(self):
         times, positions, speeds = [0.0, 0.5, 2.0], [0.002, 0.004, 0.001], [0.0, 0.003, -0.001]
         points = [point(t, [0.0, x], [9.0, v]) for t, x, v in zip(times, positions, speeds, strict=True)]
         motion = there(trajectory(*points, names=("other", "finger")), joint=1)
@@ -40,30 +40,30 @@ class Motion(unittest.TestCase):
         for after_s in np.linspace(0.0, 1.999, 41):
             self.assertAlmostEqual(motion.at(NOW_S + after_s), float(spline(after_s)), delta=1e-15)
 
-    def test_without_velocities_it_is_straight_from_where_it_was(self):
+    def test_without_velocities_it_is_linear(self):
         motion = there(trajectory(point(1.0, [0.003]), point(3.0, [0.001])))
         for after_s, wanted_m in ((0.0, 0.001), (0.5, 0.002), (1.0, 0.003), (2.0, 0.002), (3.0, 0.001)):
             self.assertAlmostEqual(motion.at(NOW_S + after_s), wanted_m, delta=1e-15)
 
-    def test_from_rest_the_first_cubic_begins_with_no_velocity(self):
+    def test_from_rest_the_first_cubic_starts_at_zero_velocity(self):
         motion = there(trajectory(point(1.0, [0.003], [0.0])))
         spline = CubicHermiteSpline([0.0, 1.0], [0.001, 0.003], [0.0, 0.0])
         self.assertAlmostEqual(motion.at(NOW_S + 0.3), float(spline(0.3)), delta=1e-15)
 
-    def test_one_with_a_time_begins_then(self):
+    def test_a_trajectory_starts_at_its_time_stamp(self):
         later = there(trajectory(point(1.0, [0.003]), begins_s=WALL_S + 2.0))
         self.assertEqual((later.at(NOW_S), later.at(NOW_S + 1.9)), (0.001, 0.001))
         self.assertAlmostEqual(later.at(NOW_S + 2.5), 0.002, delta=1e-12)
         under_way = there(trajectory(point(0.0, [0.0]), point(2.0, [0.004]), begins_s=WALL_S - 1.0))
         self.assertAlmostEqual(under_way.at(NOW_S), 0.002, delta=1e-12)
 
-    def test_its_end_is_held_while_the_sender_is_there(self):
+    def test_its_end_is_held_while_the_sender_exists(self):
         message = trajectory(point(1.0, [0.003]))
         self.assertEqual(there(message, sender=True).at(NOW_S + 500.0), 0.003)
         self.assertIsNone(there(message, sender=False).at(NOW_S + 1.0))
         self.assertIsNotNone(there(message, sender=False).at(NOW_S + 0.999))
 
-    def test_what_cannot_be_followed_is_refused_with_the_reason(self):
+    def test_invalid_trajectories_are_refused_with_the_reason(self):
         for message, why in (
                 (trajectory(), "has no points"),
                 (trajectory(point(1.0, [])), "points[0].positions has 0 values for 1 joints"),

@@ -60,7 +60,7 @@ class Turning(Bridged):
             return told if told and judge({value.key: value.value for value in told.values}) else None
         return self.wait(as_wanted, meanwhile)
 
-    def test_it_is_one_joint_that_turns_to_an_angle(self):
+    def test_a_joint_turns_to_an_angle(self):
         self.arm()
         self.wait(lambda: abs(self.reference_m() - arc_m(WANTED_RAD)) < 1e-6, self.again({"elbow": WANTED_RAD}))
         self.wait(lambda: abs(self.state().position[0] - WANTED_RAD) < 0.01, self.again({"elbow": WANTED_RAD}))
@@ -74,7 +74,7 @@ class Turning(Bridged):
         self.assertEqual((told.hardware_id, told.message),
                          (f"{self.simulation.address} node 2", "active, antagonist in the joint of node 1"))
 
-    def test_a_trajectory_is_of_radians_and_their_speeds(self):
+    def test_a_trajectory_is_in_radians(self):
         writer = self.trajectory_writer()
         speed_rad_per_s, lasts_s = -0.1, 8.0
         # A cubic from 0 to 0 that begins and ends with this speed: by hand, so far to either side of it.
@@ -95,14 +95,14 @@ class Turning(Bridged):
         self.assertAlmostEqual(np.nanmin(told_m), arc_m(-furthest_rad), delta=1e-5)
         self.assertAlmostEqual(np.nanmax(told_m), arc_m(furthest_rad), delta=1e-5)
 
-    def test_what_is_out_of_its_range_is_told_in_radians(self):
+    def test_out_of_range_positions_are_reported_in_radians(self):
         self.arm()
         told = self.diagnosis_of("elbow", "rad is in", self.again({"elbow": 1.5}))
         self.assertEqual(told.level, WARN)
         self.assertIn("1.500000 rad is out of range", told.message)
         self.diagnosis_of("elbow", "a command of nan rad is ignored", self.again({"elbow": math.nan}))
 
-    def test_the_muscle_that_turns_it_back_is_no_joint_also_where_it_is_named(self):
+    def test_an_antagonist_is_not_a_joint_even_if_named(self):
         # A bridge that has commanded nothing yet holds no lease, so another master may.
         self.end_bridge()
         self.start_bridge()

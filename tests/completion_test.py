@@ -39,7 +39,7 @@ class Completion(unittest.TestCase):
         self.path = pathlib.Path(folder.name)
         (self.path / "my-muscle.toml").touch()
 
-    def test_is_what_the_programs_say(self):
+    def test_matches_the_programs(self):
         subprocess.run([ROOT / "toolchain/generate-completion", PROGRAMS, self.path], check=True)
         for kept in KEPT.glob("*/*"):
             name = kept.relative_to(KEPT)

@@ -47,7 +47,7 @@ class ImageSbom(unittest.TestCase):
         self.assertEqual((bom.metadata.component.name, bom.metadata.component.version), ("supercoil-x-arm64", "0.2.0+deb12"))
         return {component.name: (component.version, {licence.name for licence in component.licenses}) for component in bom.components}
 
-    def test_each_installed_package_is_there_with_its_licences(self):
+    def test_every_installed_package_is_listed_with_its_licences(self):
         self.install("supercoil", "0.2.0+deb12")
         self.document("supercoil", FIELDS.format("Apache-2.0", "Apache-2.0", "Apache-2.0"))
         self.install("libfoo1", "1:2.3~rc1-4")
@@ -66,7 +66,7 @@ class ImageSbom(unittest.TestCase):
             "old": ("1.0-1", {"LGPL-2.1", "GPL-2"}), "prose": ("1.0-1", {"in /usr/share/doc/prose/copyright"}),
             "undocumented": ("1.0-1", {"in /usr/share/doc/undocumented/copyright"})})
 
-    def test_a_package_that_was_only_unpacked_is_there_too(self):
+    def test_an_unpacked_package_is_listed_too(self):
         self.install("supercoil", "0.2.0+deb12")
         firmware = self.root.parent / "firmware"
         folder = self.document("raspi-firmware", FIELDS.format("GPL-2", "GPL-2+", "Broadcom"), firmware)

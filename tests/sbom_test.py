@@ -74,7 +74,7 @@ class Sbom(unittest.TestCase):
         output_of("dpkg-deb", "--build", control.parents[1], self.folder / "p.deb")
         return subprocess.run(["/usr/bin/python3", PROGRAM, self.folder / "p.deb"], capture_output=True, text=True)
 
-    def test_what_sources_include_is_listed_and_nothing_else(self):
+    def test_exactly_the_included_libraries_are_listed(self):
         names = {name for file in files("*.cpp", "*.hpp")
                  for name in re.findall(r"^#include <(.*)>", file.read_text(), re.M)}
         found = [path for name in names for path in (pathlib.Path(folder, name) for folder in HEADERS) if path.exists()]
@@ -84,7 +84,7 @@ class Sbom(unittest.TestCase):
         self.assertEqual([pattern for pattern, some in zip(listed, matching, strict=True) if len(some) != 1], [])
         self.assertEqual(packages - set().union(*matching), set())
 
-    def test_what_cmake_looks_for_is_listed_and_nothing_else(self):
+    def test_exactly_the_cmake_dependencies_are_listed(self):
         found = {name for file in files("CMakeLists.txt") for name in LOOKED_FOR.findall(file.read_text())}
         self.assertEqual(found - {"PkgConfig", "Threads"},
                          {component["cmake"] for component in self.components if "cmake" in component})
@@ -94,7 +94,7 @@ class Sbom(unittest.TestCase):
             known = [component["name"] for component in self.components if self.sbom.has_library(component, package)]
             self.assertEqual(len(known), 1, package)
 
-    def test_packages_of_other_debians_are_known_by_their_names(self):
+    def test_package_names_of_other_debian_releases_are_known(self):
         for package, name in (("libgpiod3", "libgpiod"), ("libtomlplusplus3t64", "toml++"),
                               ("libcpp-httplib0.18", "cpp-httplib"), ("libssl3t64", "OpenSSL"),
                               ("libstdc++6", "GNU C++ library"), ("libc6", "GNU C library")):
@@ -107,7 +107,7 @@ class Sbom(unittest.TestCase):
             self.assertEqual(told.errors, [], component["name"])
         self.assertIn("License: Apache-2.0", (ROOT / "toolchain/debian/source/copyright").read_text())
 
-    def test_the_notice_of_what_is_compiled_in_is_in_the_package(self):
+    def test_notices_of_compiled_in_libraries_are_in_the_package(self):
         notices = (ROOT / "toolchain/debian/source/copyright").read_text()
         declarations_only = {"NLopt", "libgpiod"}  # their headers have no code
         for component in self.components:
@@ -118,7 +118,7 @@ class Sbom(unittest.TestCase):
                 name = {"MIT": "Expat"}.get(licence, licence)  # Debian's name for it
                 self.assertIn(f"\nLicense: {name}\n ", notices)
 
-    def test_a_package_is_described_by_a_valid_document(self):
+    def test_the_document_of_a_package_is_valid(self):
         done = self.package(*(f"{package} (>= 1.0)" for package in self.packages), "systemd")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIsNone(JsonStrictValidator(SchemaVersion.V1_6).validate_str(done.stdout))
@@ -141,7 +141,7 @@ class Sbom(unittest.TestCase):
         self.assertEqual({dependency.ref.value for dependency in told.dependencies},
                          {component.bom_ref.value for component in bom.components})
 
-    def test_what_is_in_one_package_alone_is_not_told_of_the_other(self):
+    def test_a_package_lists_only_its_own_contents(self):
         for name, has, has_not in (("supercoil", {"uplot", "libcpp-httplib-dev", "libgpiod-dev"}, {"libnlopt-dev"}),
                                    ("supercoil-sim", {"uplot", "libcpp-httplib-dev", "libgpiod-dev", "libnlopt-dev"}, set())):
             done = self.package("libc6", name=name)
@@ -149,7 +149,7 @@ class Sbom(unittest.TestCase):
             self.assertLessEqual(has, told)
             self.assertEqual(has_not & told, set())
 
-    def test_a_dependency_that_is_not_listed_is_an_error(self):
+    def test_an_unlisted_dependency_is_an_error(self):
         done = self.package("libc6", "libfoo1")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("libfoo1, a dependency, has 0 entries", done.stderr)

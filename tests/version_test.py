@@ -49,21 +49,21 @@ class Version(unittest.TestCase):
         self.assertEqual(subprocess.run(["dpkg", "--compare-versions", older, "lt", newer]).returncode, 0,
                          f"{older} is not older than {newer}")
 
-    def test_without_git_it_is_the_release(self):
+    def test_without_git_the_version_is_the_release(self):
         self.assertEqual(self.version(), "0.2.0")
 
-    def test_a_commit_without_a_tag_is_told_with_time_and_hash(self):
+    def test_an_untagged_commit_has_time_and_hash(self):
         commit = self.commit()
         self.assertEqual(self.version(), f"0.2.0+git20261122.150233.{commit}")
 
-    def test_the_tag_of_this_release_alone_makes_it_one(self):
+    def test_only_the_matching_tag_makes_a_release(self):
         self.commit()
         self.git("tag", "v0.1.0")
         self.assertIn("+git", self.version())
         self.git("tag", "--annotate", "--message=m", "v0.2.0")
         self.assertEqual(self.version(), "0.2.0")
 
-    def test_a_shallow_clone_without_tags_tells_the_commit_too(self):
+    def test_a_shallow_clone_has_time_and_hash(self):
         self.commit()
         self.git("tag", "v0.1.0")
         commit = self.commit("2026-11-23T08:00:00+0000")
@@ -71,13 +71,13 @@ class Version(unittest.TestCase):
         self.git("clone", "--quiet", "--depth=1", "--no-tags", f"file://{self.tree}", shallow)
         self.assertEqual(self.version(shallow), f"0.2.0+git20261123.080000.{commit}")
 
-    def test_a_later_commit_is_newer_wherever_it_was_made(self):
+    def test_a_later_commit_is_newer_in_any_time_zone(self):
         self.commit("2026-11-22T15:02:33+0900")
         first = self.version()
         self.commit("2026-11-22T10:00:00-0300")  # seven hours later, although its local time is earlier
         self.assert_older(first, self.version())
 
-    def test_a_release_is_newer_than_what_led_to_it_and_older_than_what_follows(self):
+    def test_a_release_sorts_between_its_neighbours(self):
         self.commit()
         before = self.version()
         self.is_of("0.3.0")

@@ -69,7 +69,7 @@ class DocsTest(unittest.TestCase):
             for absent in ("/none.html", "/docs/"):
                 self.assertEqual(docs.ask(absent)[0], 404, absent)
 
-    def test_nothing_outside_of_the_site_is_served(self):
+    def test_nothing_outside_the_site_is_served(self):
         (self.site / "link.txt").symlink_to(self.folder / "secret.txt")
         (self.site / "up").symlink_to(self.folder)
         beside = self.folder / "html-beside"
@@ -83,7 +83,7 @@ class DocsTest(unittest.TestCase):
                 self.assertIn(status, (400, 404), path)
                 self.assertNotIn(b"secret", body, path)
 
-    def test_it_only_reads(self):
+    def test_only_reading_is_allowed(self):
         with Docs(self.site) as docs:
             status, _, body = docs.ask("/", "HEAD")
             self.assertEqual((status, body), (200, b""))
@@ -91,25 +91,25 @@ class DocsTest(unittest.TestCase):
                 self.assertEqual(docs.ask("/", method)[0], 405, method)
         self.assertEqual((self.site / "index.html").read_bytes(), self.index)
 
-    def test_another_name_of_this_machine_is_refused(self):
+    def test_other_host_names_are_refused(self):
         with Docs(self.site) as docs:
             self.assertEqual(docs.ask("/", host=f"localhost:{docs.port}")[0], 200)
             self.assertEqual(docs.ask("/", host=f"elsewhere.example:{docs.port}")[0], 403)
 
-    def test_only_loopback_is_listened_on(self):
+    def test_it_listens_only_on_loopback(self):
         with Docs(self.site) as docs:
             listening = pathlib.Path("/proc/net/tcp").read_text() + pathlib.Path("/proc/net/tcp6").read_text()
             addresses = re.findall(rf"^ *\d+: ([0-9A-F]+):{docs.port:04X} \S+ 0A ", listening, re.M)
             self.assertEqual(addresses, ["0100007F"])
 
-    def test_ctrl_c_and_sigterm_end_it_well(self):
+    def test_ctrl_c_and_sigterm_end_it_normally(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with Docs(self.site) as docs:
                 docs.process.send_signal(number)
                 said = docs.process.communicate(timeout=PATIENCE_S)
                 self.assertEqual((docs.process.returncode, *said), (0, "", ""))
 
-    def test_without_a_site_it_says_what_to_install_or_build(self):
+    def test_without_a_site_it_names_what_to_install_or_build(self):
         done = subprocess.run([SUPERCOIL, "docs", "--folder", self.folder], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         for word in (str(self.folder), "supercoil-doc", "toolchain/docs", "--folder"):
@@ -137,7 +137,7 @@ class DocsTest(unittest.TestCase):
                 time.sleep(0.02)
             self.assertEqual(asked.read_text().strip(), docs.address)
 
-    def test_without_a_browser_it_serves_and_says_so(self):
+    def test_without_a_browser_it_still_serves(self):
         with Docs(self.site, "--open", PATH=str(self.folder)) as docs:
             self.assertIn("xdg-open", docs.process.stderr.readline())
             self.assertEqual(docs.ask("/")[0], 200)

@@ -98,7 +98,7 @@ class SiteTest(unittest.TestCase):
             self.assertLess(time.monotonic(), end, f"not there in time: {what}")
             time.sleep(0.05)
 
-    def test_every_source_is_a_page_and_is_reached_from_the_start_page(self):
+    def test_every_source_is_a_page_reachable_from_the_start(self):
         files = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "docs").glob("man/*.[1-8]")]
         sources = [file.relative_to(ROOT).with_suffix(".html").as_posix() for file in files]
         self.assertGreater(len(sources), 60)
@@ -111,7 +111,7 @@ class SiteTest(unittest.TestCase):
             ahead += [target[0] for link in self.pages[page].links if (target := resolved(page, link))]
         self.assertEqual(sorted(set(sources) - reached), [])
 
-    def test_no_link_and_no_anchor_is_dead(self):
+    def test_no_link_or_anchor_is_dead(self):
         dead = []
         for page, parsed in self.pages.items():
             for link in parsed.links:
@@ -125,7 +125,7 @@ class SiteTest(unittest.TestCase):
                     dead.append(f"{page}: {link}: no such anchor")
         self.assertEqual(dead, [], "\n" + "\n".join(dead))
 
-    def test_every_command_has_its_page_with_an_anchor_for_each_option(self):
+    def test_every_command_has_a_page_with_an_anchor_per_option(self):
         for manual in sorted((ROOT / "docs" / "man").glob("*.[1-8]")):
             with self.subTest(manual.stem):
                 name = f"docs/man/{manual.stem}.html"
@@ -145,7 +145,7 @@ class SiteTest(unittest.TestCase):
             self.assertIn(text, page)
         self.assertIn("../simulation.html", self.pages["docs/man/supercoil-sim.html"].links)
 
-    def test_the_package_has_the_site_where_supercoil_docs_looks_for_it(self):
+    def test_the_package_installs_the_site_where_it_is_served(self):
         package, = self.out.glob("supercoil-doc_*_all.deb")
         control = subprocess.run(["dpkg-deb", "--field", package], capture_output=True, text=True, check=True).stdout
         self.assertIn("Package: supercoil-doc\n", control)
@@ -200,7 +200,7 @@ class SiteTest(unittest.TestCase):
                 self.assertIn("the API reference has gaps", built.stderr)
                 self.assertIn(said, built.stderr)
 
-    def test_nothing_is_asked_of_another_machine(self):
+    def test_nothing_is_requested_from_other_hosts(self):
         for page in ("", "docs/paper.html", "docs/safety.html"):
             self.open(page)
         self.wait(lambda: self.shown(".drawn-diagram svg"), "the diagram")

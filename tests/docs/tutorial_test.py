@@ -78,7 +78,7 @@ class Tutorial(unittest.TestCase):
         checked = subprocess.run(command, cwd=self.folder / "tutorial", capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
-    def test_live_commands_have_only_options_that_their_help_has(self):
+    def test_live_commands_use_only_documented_options(self):
         live = [line for kind, text, _ in blocks() if kind == "sh" for line in text.splitlines() if LIVE in line]
         self.assertGreater(len(live), 4)
         for line in live:

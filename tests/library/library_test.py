@@ -77,7 +77,7 @@ class Library(unittest.TestCase):
         self.tracks(built / "track_muscle")
         self.drives(built / "own_board")
 
-    def test_find_package_says_what_is_missing(self):
+    def test_find_package_names_what_is_missing(self):
         self.install("--component", "development")
         for wanted, why in (("COMPONENTS page", "has no component page: control, firmware, can_client"),
                             ("0.1 COMPONENTS control", "version: 0.2.")):

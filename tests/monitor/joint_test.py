@@ -42,7 +42,7 @@ TOLD = """const { JointCard } = await import("/joint_card.js");
 """
 
 
-class Told(ModulesCase):
+class JointView(ModulesCase):
     def test_both_nodes_show_the_same_joint(self):
         told = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
             hear(3, "Measurement", { position_m: 0.01 }); hear(3, "Tracking", { reference_m: 0.0104 });

@@ -18,7 +18,7 @@ EQUIVALENTS = pathlib.Path(__file__).parent / "equivalent"
 
 
 class Interval(unittest.TestCase):
-    def test_is_the_one_of_the_literature(self):
+    def test_matches_the_literature(self):
         # Clopper and Pearson, Biometrika 26 (1934), table for n = 10 and 95 %.
         for killed, low, high in ((0, 0.0, 0.3085), (5, 0.1871, 0.8129), (10, 0.6915, 1.0)):
             found = results.interval(killed, 10)
@@ -33,7 +33,7 @@ class Sample(unittest.TestCase):
                 mock.patch.object(pathlib.Path, "read_text", return_value=""):
             return sample.strata(["a"], pathlib.Path(), count, 1)[0]
 
-    def test_has_every_mutant_of_every_line_once_in_runs_of_neighbours(self):
+    def test_runs_partition_all_mutants_in_order(self):
         runs = self.of_lines(10, 47)
         self.assertEqual(len(runs), 10)
         self.assertEqual(sorted((m.line, m.after) for run in runs for m in run),
@@ -45,7 +45,7 @@ class Sample(unittest.TestCase):
     def test_is_the_same_for_the_same_seed(self):
         self.assertEqual(self.of_lines(5, 20), self.of_lines(5, 20))
 
-    def test_leaves_out_what_changes_a_text_or_a_type(self):
+    def test_excludes_changes_of_texts_and_types(self):
         self.assertEqual(sample.squeezed('fail("a b", 1)'), sample.squeezed('fail("", 1)'))
         self.assertEqual(sample.squeezed("a;  // 5 %"), sample.squeezed("a;  // 6 %"))
         for before, after in (("Handle* h) {", "Handle% h) {"), ("std::vector<int> a;", "std::vector<=int> a;"),
@@ -77,25 +77,25 @@ class Kept(unittest.TestCase):
     def test_is_everything_when_nothing_changed(self):
         self.assertEqual(self.verdicts(["a"]), ["killed", "survived", "invalid"])
 
-    def test_is_all_but_the_survivors_when_tests_were_added(self):
+    def test_excludes_survivors_when_tests_were_added(self):
         self.assertEqual(self.verdicts(["b", "a", "c"]), ["killed", "invalid"])
         self.assertEqual(self.verdicts(["b", "a", "c"]), ["killed", "invalid"], "as it was stored")
 
-    def test_is_nothing_when_a_line_of_a_test_is_gone_or_the_code_changed(self):
+    def test_is_empty_when_a_test_line_or_the_code_changed(self):
         self.assertEqual(self.verdicts(["b"]), [])
         self.assertEqual(self.verdicts(["a"], of="other code"), [])
 
-    def test_is_no_survivor_that_is_now_listed_as_equivalent(self):
+    def test_excludes_survivors_listed_as_equivalent(self):
         self.assertEqual(self.verdicts(["a"], known={("f", "x", "survived")}), ["killed", "invalid"])
 
 
 class Parts(unittest.TestCase):
-    def test_have_of_an_archive_what_the_linker_took(self):
+    def test_contain_the_archive_members_that_the_linker_used(self):
         archives = {"l/a.a": {"x.o": ["l/x.o"], "y.o": ["l/y.o", "l/m/y.o"]}}
         for traced in ("t.o\nl/a.a(y.o)\n/usr/lib/c.a(x.o)\n", "t.o\n(l/a.a)y.o\n(/usr/lib/c.a)x.o\n"):
             self.assertEqual(list(parts.pulled(traced, archives)), ["l/y.o", "l/m/y.o"])
 
-    def test_the_linker_says_what_it_took(self):
+    def test_the_linker_reports_the_members_it_used(self):
         with tempfile.TemporaryDirectory() as folder:
             def run(*command):
                 return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
@@ -116,7 +116,7 @@ class Parts(unittest.TestCase):
 
 
 class Judged(unittest.TestCase):
-    def test_code_of_a_header_is_known_while_its_objects_wait_to_be_compiled(self):
+    def test_code_of_a_header_is_known_before_its_objects_are_compiled(self):
         with tempfile.TemporaryDirectory() as folder:
             shop = workshop.Workshop(ROOT, pathlib.Path(folder) / "0", (), 1, {})
             for there in (shop.tree, shop.build):
@@ -141,19 +141,19 @@ class Judged(unittest.TestCase):
         shop.judge_by.side_effect = [(verdict, "") for verdict in verdicts]
         return workshop.Workshop.judge(shop, mock.Mock(file="f.hpp"), (), 1.0)[0]
 
-    def test_what_no_program_has_survives(self):
+    def test_code_in_no_program_survives(self):
         self.assertEqual(self.judge("in no program", "in no program"), "survived")
         self.assertEqual(self.judge("same code", "killed"), "killed")
         self.assertEqual(self.judge("same code", "same code"), "same code")
 
-    def test_survives_only_what_all_that_includes_it_does_not_notice(self):
+    def test_survives_only_if_no_including_file_notices(self):
         self.assertEqual(self.judge("survived", "killed"), "killed")
         self.assertEqual(self.judge("survived", "invalid"), "invalid")
         self.assertEqual(self.judge("survived", "survived"), "survived")
 
 
 class Equivalents(unittest.TestCase):
-    def test_are_of_lines_that_are_still_there(self):
+    def test_refer_to_existing_lines(self):
         for file, before, after in results.equivalents(EQUIVALENTS):
             lines = [line.strip() for line in (ROOT / file).read_text().splitlines()]
             self.assertIn(before, lines, f"{file}: an equivalent is listed of a line that is gone")

@@ -24,7 +24,7 @@ struct Worst {
   std::array<double, 3> error{};  ///< largest of each, θ2 to θ4
   double max_s = 0.0;
   double hottest_C = 0.0;
-  double hottest_told_C = 0.0;
+  double hottest_published_C = 0.0;
   double max_m = 0.0;
   double min_m = 0.0;
   double tracking_m = 0.0;
@@ -33,7 +33,7 @@ struct Worst {
 void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, int seed) {
   row.max_s = std::max(row.max_s, run.took_s);
   row.hottest_C = std::max(row.hottest_C, run.hottest_C);
-  row.hottest_told_C = std::max(row.hottest_told_C, run.hottest_told_C);
+  row.hottest_published_C = std::max(row.hottest_published_C, run.hottest_published_C);
   row.max_m = std::max(row.max_m, run.max_m);
   row.min_m = std::min(row.min_m, run.min_m);
   if (run.result != ModeResult::found) {
@@ -60,7 +60,7 @@ void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, 
 void print(const MuscleKind& kind, const Worst& r, int seeds, bool track) {
   std::printf("| %s | %d/%d | %d | %.2g / %.2g / %.2g | %.0f | %.0f (%.0f) | %.1f to %.1f |",
               kind.name.data(), r.found, seeds, r.kept_theta1, 100.0 * r.error[0],
-              100.0 * r.error[1], 100.0 * r.error[2], r.max_s, r.hottest_C, r.hottest_told_C,
+              100.0 * r.error[1], 100.0 * r.error[2], r.max_s, r.hottest_C, r.hottest_published_C,
               1e3 * r.min_m, 1e3 * r.max_m);
   if (track) std::printf(" %.1f |", 1e6 * r.tracking_m);
   std::printf("\n");

@@ -220,7 +220,7 @@ class Operated {
     return (control::theta_from(muscle).cwiseQuotient(nearest) - control::Theta::Ones()).tail<3>();
   }
   /// The standard deviations that the board reports for them.
-  control::Vector<double, 3> told_ratio(std::size_t channel) const {
+  control::Vector<double, 3> deviation_ratio(std::size_t channel) const {
     const Channel& of = simulation_.loop().channel(channel);
     return {of.known(known_theta1_deviation + 1), of.known(known_theta1_deviation + 2),
             of.known(known_theta1_deviation + 3)};
@@ -326,7 +326,7 @@ void print_identified(OpposedBy opposed_by, int seeds) {
   int all_found = 0;
   std::array<control::Vector<double, 3>, 2> worst{};
   worst.fill(control::Vector<double, 3>::Zero());
-  std::array<control::Vector<double, 3>, 2> told = worst;
+  std::array<control::Vector<double, 3>, 2> reported = worst;
   std::array<control::Vector<double, 3>, 2> in_deviations = worst;
   for (int seed = 1; seed <= seeds; ++seed) {
     const auto scenario =
@@ -341,8 +341,9 @@ void print_identified(OpposedBy opposed_by, int seeds) {
     for (std::size_t i = 0; i < joint.channels(); ++i) {
       const control::Vector<double, 3> error = joint.error_ratio(i).cwiseAbs();
       worst.at(i) = worst.at(i).cwiseMax(error);
-      told.at(i) = told.at(i).cwiseMax(joint.told_ratio(i));
-      in_deviations.at(i) = in_deviations.at(i).cwiseMax(error.cwiseQuotient(joint.told_ratio(i)));
+      reported.at(i) = reported.at(i).cwiseMax(joint.deviation_ratio(i));
+      in_deviations.at(i) =
+          in_deviations.at(i).cwiseMax(error.cwiseQuotient(joint.deviation_ratio(i)));
     }
   }
   std::printf("identify, %s: %d of %d joints\n",
@@ -351,9 +352,9 @@ void print_identified(OpposedBy opposed_by, int seeds) {
     std::printf(
         "  channel %zu: θ2, θ3, θ4 at most %.2g / %.2g / %.2g %% off, told %.2g / %.2g / "
         "%.2g %%; %.1f / %.1f / %.1f deviations\n",
-        i + 1, 100.0 * worst[i][0], 100.0 * worst[i][1], 100.0 * worst[i][2], 100.0 * told[i][0],
-        100.0 * told[i][1], 100.0 * told[i][2], in_deviations[i][0], in_deviations[i][1],
-        in_deviations[i][2]);
+        i + 1, 100.0 * worst[i][0], 100.0 * worst[i][1], 100.0 * worst[i][2],
+        100.0 * reported[i][0], 100.0 * reported[i][1], 100.0 * reported[i][2], in_deviations[i][0],
+        in_deviations[i][1], in_deviations[i][2]);
   }
   std::fflush(stdout);
 }

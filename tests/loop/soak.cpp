@@ -77,7 +77,7 @@ class Soak {
   bool cycle();
   void follow();
   bool fail_and_recover(const InjectedFault& injected);
-  bool told(bool holds, const char* what) {
+  bool require(bool holds, const char* what) {
     if (!holds) {
       std::printf("cycle %ld, tick %ld: %s; state %d, fault %d\n", cycles_, ticks(), what,
                   static_cast<int>(rig_.state()), static_cast<int>(rig_.fault()));
@@ -125,34 +125,34 @@ void Soak::follow() {
 bool Soak::fail_and_recover(const InjectedFault& injected) {
   injected.inject(rig_);
   rig_.run(0.5);
-  if (!told(rig_.fault() == injected.fault, "another fault than was injected")) return false;
-  if (!told(rig_.muscle().true_power_W() == 0.0, "a fault, and it heats")) return false;
+  if (!require(rig_.fault() == injected.fault, "another fault than was injected")) return false;
+  if (!require(rig_.muscle().true_power_W() == 0.0, "a fault, and it heats")) return false;
   injected.remove(rig_);
   rig_.task = Task::nothing;
   rig_.run(1.0);
   rig_.send(Verb::reset);
   rig_.run(0.5);
-  return told(rig_.state() == State::disarmed && rig_.loop.board_fault() == Fault::none,
-              "it cannot be reset");
+  return require(rig_.state() == State::disarmed && rig_.loop.board_fault() == Fault::none,
+                 "it cannot be reset");
 }
 
 bool Soak::nothing_drifted() {
   const hal::Duration apart = rig_.board.true_time() - rig_.snapshot().time;
   const bool together =
       apart >= hal::Duration{} && apart < hal::duration_from(2.0 * rig_.period_s());
-  return told(together, "the loop's time is not the board's") &&
-         told(rig_.loop.overruns() == overruns_, "overruns were counted wrongly") &&
-         told(rig_.loop.timing().lost_rows.load() == 0, "rows were lost") &&
-         told(!rig_.interval_missed, "the muscle's temperature left its interval") &&
-         told(rig_.last_refusal == Refusal::none, "a command was refused");
+  return require(together, "the loop's time is not the board's") &&
+         require(rig_.loop.overruns() == overruns_, "overruns were counted wrongly") &&
+         require(rig_.loop.timing().lost_rows.load() == 0, "rows were lost") &&
+         require(!rig_.interval_missed, "the muscle's temperature left its interval") &&
+         require(rig_.last_refusal == Refusal::none, "a command was refused");
 }
 
 bool Soak::cycle() {
   rig_.arm();
   rig_.run(0.2);
-  if (!told(rig_.state() == State::armed, "it cannot be armed")) return false;
+  if (!require(rig_.state() == State::armed, "it cannot be armed")) return false;
   follow();
-  if (!told(rig_.state() == State::active, "it does not heat any more")) return false;
+  if (!require(rig_.state() == State::active, "it does not heat any more")) return false;
   const InjectedFault& injected =
       injected_faults[static_cast<std::size_t>(cycles_) % injected_faults.size()];
   if (injected.fault == Fault::overrun) overruns_ += 10;
@@ -178,8 +178,8 @@ bool Soak::run(long ticks_asked) {
     }
   }
   print("last");
-  return told(now_.resident_MB <= first_.resident_MB + 1.0, "it needs more and more memory") &&
-         told(now_.error_m <= 1.5 * first_.error_m, "it follows worse and worse");
+  return require(now_.resident_MB <= first_.resident_MB + 1.0, "it needs more and more memory") &&
+         require(now_.error_m <= 1.5 * first_.error_m, "it follows worse and worse");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void run(Rig& rig, double time_s, Seen& seen) {
 }
 
 /// The load swings while the zero is taken.
-void calibrate_in_vain(Rig& rig, Seen& seen) {
+void fail_to_calibrate(Rig& rig, Seen& seen) {
   host_sim::MuscleChannelSettings swinging = rough_board().board.channels[Rig::tested];
   rig.heat(Task::calibrate);
   for (int i = 0; i < 300; ++i) {
@@ -41,7 +41,7 @@ void calibrate_in_vain(Rig& rig, Seen& seen) {
 }
 
 /// Commands that are not obeyed, each for another reason.
-void ask_in_vain(Rig& rig, Seen& seen) {
+void send_refused_commands(Rig& rig, Seen& seen) {
   rig.send(Verb::none);
   rig.send(Verb::position, std::nan(""));
   rig.send(Verb::scale, 100.0);
@@ -81,7 +81,7 @@ void live(Seen& seen) {
   rig.loop.send({Rig::neighbour, Verb::position, 0.008});
   rig.heat(Task::calibrate);
   run(rig, 8.0, seen);
-  calibrate_in_vain(rig, seen);
+  fail_to_calibrate(rig, seen);
   rig.heat(Task::identify);
   run(rig, 61.0, seen);
   rig.heat(Task::identify);
@@ -98,7 +98,7 @@ void live(Seen& seen) {
   rig.heat(Task::power);
   run(rig, 5.0, seen);
   rig.send(Verb::scale, rig.snapshot().position_m);
-  ask_in_vain(rig, seen);
+  send_refused_commands(rig, seen);
   rig.board.stop_circuit.level.high = false;
   run(rig, 0.2, seen);
   rig.board.stop_circuit.level.high = true;

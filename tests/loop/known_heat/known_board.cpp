@@ -46,7 +46,7 @@ struct Truth {
 };
 
 /// Gives a converter a gain error that the board does not know of.
-void lie(host_sim::ConverterSettings& converter, double true_over_measured) {
+void set_gain_error(host_sim::ConverterSettings& converter, double true_over_measured) {
   converter.low *= true_over_measured;
   converter.high *= true_over_measured;
 }
@@ -75,11 +75,11 @@ class Life {
         board_(simulated_),
         loop_(settings_, board_.devices()),
         executive_(loop_, board_, settings_.rate_Hz) {
-    host_sim::MuscleChannelSettings lying = simulated_.channels[0];
-    lie(lying.current, truth.current_gain);
-    board_.channel(0).current.set(lying.current);
+    host_sim::MuscleChannelSettings miscalibrated = simulated_.channels[0];
+    set_gain_error(miscalibrated.current, truth.current_gain);
+    board_.channel(0).current.set(miscalibrated.current);
     host_sim::ConverterSettings supply = simulated_.supply;
-    lie(supply, truth.supply_gain);
+    set_gain_error(supply, truth.supply_gain);
     board_.supply.set(supply);
     run(Verb::none, 0.0, 1.0);
     run(Verb::none, 0.0, 2.0 * believed_s());

@@ -64,7 +64,7 @@ std::string try_joint(const FaultCase& c, Situation situation) {
   Rig rig(settings);
   bring_to_joint(c, situation, rig);
   if (rig.fault() != Fault::none) return "before the injection there was " + text(rig.fault());
-  const double asked = rig.scale;
+  const double demanded_scale = rig.scale;
   c.inject(rig);
   // Holding still demands nothing from a muscle whose sensor has stopped, so the reference moves;
   // but not for more than the power there is, which would be muscle_loose.
@@ -73,7 +73,7 @@ std::string try_joint(const FaultCase& c, Situation situation) {
       rig.scale = joint_scale * (1.0 + 0.4 * std::sin(0.5 * rig.time_s()));
     };
   }
-  if (rig.scale != asked) rig.scale = std::min(rig.scale * joint_scale, max_joint_scale);
+  if (rig.scale != demanded_scale) rig.scale = std::min(rig.scale * joint_scale, max_joint_scale);
   rig.run_until([&] { return rig.state() == State::fault; }, c.within.at(rig.period_s()));
   if (std::string wrong = wrong_of_both(rig, c.first ? c.first(situation) : c.fault);
       !wrong.empty())

@@ -72,7 +72,7 @@ struct BundleCase : Utest {
     }
   }
   /// Runs until the mode has ended by itself.
-  bool measures_to_the_end(Verb mode, double max_s) {
+  bool completes_mode(Verb mode, double max_s) {
     CHECK(rig.answer_of(leader, mode) == Refusal::none);
     return rig.run_until(
         [&] {

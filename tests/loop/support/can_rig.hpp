@@ -22,7 +22,7 @@ class CanRig {
         executive(loop, board, settings.firmware.rate_Hz),
         bus(board, can.bit_rate),
         link(can, settings.firmware, loop, bus, std::mt19937(1)) {
-    bus.listener = [this](const hal::CanFrame& frame) { hear(frame); };
+    bus.listener = [this](const hal::CanFrame& frame) { receive(frame); };
   }
   CanRig(const CanRig&) = delete;
   CanRig& operator=(const CanRig&) = delete;
@@ -42,24 +42,24 @@ class CanRig {
       tick();
   }
   /// Sends a command and waits for its answer.
-  Refusal command(Master& who, std::uint8_t opcode, float value = 0.0F) {
+  Refusal command(Master& sender, std::uint8_t opcode, float value = 0.0F) {
     answers.clear();
-    bus.deliver(who.frame(opcode, value));
+    bus.deliver(sender.frame(opcode, value));
     for (int i = 0; i < 20 && answers.empty(); ++i)
       tick();
     return answers.empty() ? Refusal::no_such_channel
                            : static_cast<Refusal>(answers.back().refusal);
   }
-  Refusal command(Master& who, Verb verb, float value = 0.0F) {
-    return command(who, static_cast<std::uint8_t>(verb), value);
+  Refusal command(Master& sender, Verb verb, float value = 0.0F) {
+    return command(sender, static_cast<std::uint8_t>(verb), value);
   }
   /// The board's answer to a frame about settings; all zero: none.
-  supercoil_setting_t ask_setting(const hal::CanFrame& frame) {
-    settings_told.clear();
+  supercoil_setting_t request_setting(const hal::CanFrame& frame) {
+    setting_answers.clear();
     bus.deliver(frame);
-    for (int i = 0; i < 20 && settings_told.empty(); ++i)
+    for (int i = 0; i < 20 && setting_answers.empty(); ++i)
       tick();
-    return settings_told.empty() ? supercoil_setting_t{} : settings_told.back();
+    return setting_answers.empty() ? supercoil_setting_t{} : setting_answers.back();
   }
   /// NaN: not known, or not answered.
   double muscle(std::uint8_t quantity) {
@@ -67,26 +67,27 @@ class CanRig {
     bus.deliver({SUPERCOIL_MUSCLE_READ_FRAME_ID, 1, {quantity}, {}});
     for (int i = 0; i < 20 && !last_of.contains(SUPERCOIL_MUSCLE_FRAME_ID); ++i)
       tick();
-    supercoil_muscle_t told{};
+    supercoil_muscle_t received{};
     const hal::CanFrame& frame = last_of[SUPERCOIL_MUSCLE_FRAME_ID];
-    supercoil_muscle_unpack(&told, frame.data.data(), frame.length);
-    return told.quantity == quantity ? static_cast<double>(told.value) : NAN;
+    supercoil_muscle_unpack(&received, frame.data.data(), frame.length);
+    return received.quantity == quantity ? static_cast<double>(received.value) : NAN;
   }
-  Refusal claim(Master& who) {
-    who.session = who.name;
-    Refusal refusal = command(who, telemetry::Opcode::lease, telemetry::claim_value);
+  Refusal claim(Master& sender) {
+    sender.session = sender.name;
+    Refusal refusal = command(sender, telemetry::Opcode::lease, telemetry::claim_value);
     if (refusal == Refusal::claim_again)
-      refusal = command(who, telemetry::Opcode::lease, static_cast<float>(answers.back().granted));
-    if (!answers.empty()) who.session = answers.back().granted;
+      refusal =
+          command(sender, telemetry::Opcode::lease, static_cast<float>(answers.back().granted));
+    if (!answers.empty()) sender.session = answers.back().granted;
     return refusal;
   }
   /// Booted, cool, claimed, armed, and at a position.
-  void start(Master& who) {
+  void start(Master& sender) {
     run(16.0);
-    claim(who);
-    command(who, Verb::arm);
+    claim(sender);
+    command(sender, Verb::arm);
     run(0.2);
-    command(who, Verb::position, 0.012F);
+    command(sender, Verb::position, 0.012F);
   }
 
   State state() const { return loop.channel(0).state().state(); }
@@ -101,23 +102,23 @@ class CanRig {
   host_sim::SimulatedCanBus bus;
   telemetry::CanEndpoint link;
   std::vector<supercoil_acknowledge_t> answers;
-  std::vector<supercoil_setting_t> settings_told;
+  std::vector<supercoil_setting_t> setting_answers;
   std::vector<supercoil_refused_value_t> refused_values;
   std::vector<hal::CanFrame> emergencies;
   std::vector<hal::CanFrame> first_causes;
   std::vector<hal::CanFrame> trajectories;  ///< of either channel
-  long heard = 0;
-  std::map<std::uint16_t, int> heard_of;  ///< by identifier
+  long received_frames = 0;
+  std::map<std::uint16_t, int> received_count;  ///< by identifier
   std::map<std::uint16_t, hal::CanFrame> last_of;
 
  private:
-  void hear(const hal::CanFrame& frame) {
-    ++heard;
-    ++heard_of[frame.id];
+  void receive(const hal::CanFrame& frame) {
+    ++received_frames;
+    ++received_count[frame.id];
     last_of[frame.id] = frame;
     if (frame.id == SUPERCOIL_TRAJECTORY_FRAME_ID || frame.id == SUPERCOIL_TRAJECTORY_FRAME_ID + 1)
       trajectories.push_back(frame);
-    if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
+    if (frame.id == SUPERCOIL_SETTING_FRAME_ID) setting_answers.push_back(read_setting(frame));
     // Of either channel.
     if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID ||
         frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID + 1)

@@ -73,17 +73,17 @@ Identified run_identify(const MuscleKind& kind, int seed, Heat heat) {
   done.truth = muscle_of(kind);
   const double air_C = scenario.start.ambient.air_C;
   bool moved = false;
-  bool asked = false;
-  double asked_s = 0.0;
+  bool started = false;
+  double started_s = 0.0;
   while (!simulation.done()) {
     const TickRecord r = simulation.step();
-    if (!asked) asked_s = r.time_s;
-    asked = asked || snapshot.result == ModeResult::running;
+    if (!started) started_s = r.time_s;
+    started = started || snapshot.result == ModeResult::running;
     done.ended_s = r.time_s;
-    done.took_s = r.time_s - asked_s;
+    done.took_s = r.time_s - started_s;
     done.fault = r.fault;
     done.hottest_C = std::max(done.hottest_C, air_C + r.temperature_rise_K);
-    done.hottest_told_C = std::max(done.hottest_told_C, air_C + r.hottest_K);
+    done.hottest_published_C = std::max(done.hottest_published_C, air_C + r.hottest_K);
     done.max_m = std::max(done.max_m, r.position_m);
     moved = moved || r.position_m > 0.001;
     if (moved) done.min_m = std::min(done.min_m, r.position_m);
@@ -91,7 +91,7 @@ Identified run_identify(const MuscleKind& kind, int seed, Heat heat) {
       done.position_m.push_back(r.measured_m);
       done.power_W.push_back(r.applied_power_W);
     }
-    if (asked && snapshot.result != ModeResult::running) break;
+    if (started && snapshot.result != ModeResult::running) break;
   }
   done.result = snapshot.result;
   done.notes = snapshot.identify_notes;

@@ -48,7 +48,7 @@ struct Identified {
   double ended_s = 0.0;               ///< time in the scenario
   double took_s = 0.0;                ///< since the command
   double hottest_C = 0.0;             ///< the true temperature
-  double hottest_told_C = 0.0;        ///< the hot end of the board's interval
+  double hottest_published_C = 0.0;   ///< the hot end of the board's interval
   double max_m = 0.0;
   double min_m = 0.0;  ///< at most 0: how far below its start it came, once it had moved
   /// What it did, sampled at 100 Hz.

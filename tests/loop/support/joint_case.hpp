@@ -40,7 +40,7 @@ inline void begin(Rig& rig) {
 }
 
 /// Starts the mode at the agonist; whether it ends before max_s, with all that it goes on to.
-inline bool measures_to_the_end(Rig& rig, Verb mode, double max_s) {
+inline bool completes_mode(Rig& rig, Verb mode, double max_s) {
   CHECK(rig.answer_of(agonist, mode) == Refusal::none);
   return rig.run_until(
       [&] {
@@ -51,8 +51,8 @@ inline bool measures_to_the_end(Rig& rig, Verb mode, double max_s) {
 }
 
 /// Whether it ends in a fault before max_s.
-inline bool follows_until_fault(Rig& rig, double max_s,
-                                const std::function<double()>& reference_m) {
+inline bool faults_while_following(Rig& rig, double max_s,
+                                   const std::function<double()>& reference_m) {
   return rig.run_until(
       [&] {
         rig.send(Verb::position, reference_m());

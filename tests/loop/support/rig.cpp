@@ -117,7 +117,7 @@ Rig::Rig(const RigSettings& settings)
       period_s_(settings.firmware.step_s()),
       ambient_C_(settings.firmware.channels[tested].thermal.air.warmest_C) {}
 
-void Rig::ask() {
+void Rig::send_task_command() {
   if (!commands_flow) return;
   // Scaled commands are constant: they do not wait for the wave's crest.
   const double wave = scale == 1.0 ? std::sin(0.8 * time_s()) : 1.0;
@@ -137,15 +137,15 @@ void Rig::ask() {
   }
 }
 
-void Rig::ask_neighbour() {
+void Rig::send_neighbour_command() {
   if (!neighbour_follows_ || loop.channel(neighbour).state().state() != State::active) return;
   loop.send({neighbour, Verb::position, 0.008 + 0.003 * std::sin(0.6 * time_s())});
 }
 
 void Rig::tick() {
   before_tick();
-  if (state() == State::active) ask();
-  ask_neighbour();
+  if (state() == State::active) send_task_command();
+  send_neighbour_command();
   executive.run_tick();
   if (telemetry_lives) loop.health().telemetry_heartbeats.store(++beats_);
   Row row;

@@ -82,8 +82,8 @@ class Rig {
   bool interval_missed = false;               ///< a muscle's temperature left the firmware's bounds
 
  private:
-  void ask();
-  void ask_neighbour();
+  void send_task_command();
+  void send_neighbour_command();
   void watch_heat();
   double period_s_;
   double ambient_C_;

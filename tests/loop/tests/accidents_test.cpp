@@ -68,10 +68,10 @@ TEST(Accidents, SensorWireComesOffAtFullPower) {
 
 TEST(Accidents, OneOfThreeParallelThreadsBreaksAndOverloadsTheOthers) {
   // Each gets a third of the power that is measured; once one breaks, the two left get a half each.
-  for (const char* asked : {"kind = 'pi'", "kind = 'learned_ff'"}) {
+  for (const char* controller : {"kind = 'pi'", "kind = 'learned_ff'"}) {
     const Aftermath after =
         aftermath_of(std::string("simulation.duration_s = 60.0\nreference = ") + constant("0.020") +
-                     "[controller]\n" + asked +
+                     "[controller]\n" + controller +
                      "\n[[event]]\nat_s = 20.0\nplant.resistance_Ohm = 15.0\npower.gain = 1.5\n");
     check_cold(after, Fault::resistance_drift);
     DOUBLES_EQUAL(20.8, after.fault_s, 0.3);

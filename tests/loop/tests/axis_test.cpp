@@ -50,8 +50,8 @@ TEST(Axis, UnexplainedRatioSurvivesARestart) {
   for (const double stored : {0.0, 0.25}) {
     settings.firmware.channels[0].unexplained_ratio = stored;
     rig_.reset();
-    const double told = rig().loop.channel(0).known(known_unexplained_ratio);
-    CHECK_TRUE(stored > 0.0 ? told == stored : std::isnan(told));
+    const double reported = rig().loop.channel(0).known(known_unexplained_ratio);
+    CHECK_TRUE(stored > 0.0 ? reported == stored : std::isnan(reported));
     rig().arm();
     CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
     DOUBLES_EQUAL(stored, update()->unexplained_ratio, 0.0);

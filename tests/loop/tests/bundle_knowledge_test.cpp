@@ -18,7 +18,7 @@ void hold_bundle(Rig& rig, double power_W, double time_s) {
   rig.run_until([&] { return rig.send(Verb::power, power_W), false; }, time_s);
 }
 
-bool measures_bundle(Rig& rig, Verb mode) {
+bool bundle_completes(Rig& rig, Verb mode) {
   CHECK(rig.answer_of(leader, mode) == Refusal::none);
   return rig.run_until(
       [&] {
@@ -140,7 +140,7 @@ TEST(BundleKnowledge, EveryMuscleExpectsWhatIdentifyFound) {
     return fresh.loop.channel(channel).axis().heater().heat().metres_per_K();
   };
   const double believed = metres_per_K(leader);
-  CHECK(measures_bundle(fresh, Verb::identify));
+  CHECK(bundle_completes(fresh, Verb::identify));
   CHECK(fresh.snapshot().result == ModeResult::found);
   fresh.run_ticks(3);
   CHECK_COMPARE(metres_per_K(leader), <, 0.8 * believed);

@@ -37,10 +37,10 @@ TEST(Bundle, FollowsAPositionWithTemperaturesInTheirIntervals) {
 
 TEST(Bundle, ArmsRestsAndCoolsAsOne) {
   arm();
-  for (const std::uint8_t asked : {leader, follower}) {
+  for (const std::uint8_t addressed : {leader, follower}) {
     hold(Verb::position, 0.005, 0.5);
     CHECK(all(State::active));
-    CHECK(rig.answer_of(asked, Verb::rest) == Refusal::none);
+    CHECK(rig.answer_of(addressed, Verb::rest) == Refusal::none);
     CHECK(all(State::armed));
     CHECK(of(last).mode == Mode::rest);
   }
@@ -219,10 +219,10 @@ TEST(Bundle, InterruptedCalibrateIsNotReportedAsFound) {
         200.0));
   };
   // A command to any node ends it, even to one that waits for its turn.
-  for (const std::uint8_t asked : {leader, follower, last}) {
+  for (const std::uint8_t addressed : {leader, follower, last}) {
     Rig fresh(bundle_board());
     calibrates_second(fresh);
-    fresh.loop.send({asked, Verb::rest, 0.0});
+    fresh.loop.send({addressed, Verb::rest, 0.0});
     fresh.run(0.1);
     CHECK(fresh.snapshot().result == ModeResult::interrupted);
     for (std::size_t i = 0; i < muscles; ++i)
@@ -238,17 +238,17 @@ TEST(Bundle, IdentifyRespectsTheLowestPowerLimit) {
   arm();
   rig.loop.channel(last).allow_power(2.0);
   CHECK(rig.answer_of(leader, Verb::identify) == Refusal::none);
-  double asked_W = 0.0;
+  double demanded_W = 0.0;
   CHECK(rig.run_until(
       [&] {
         rig.send(Verb::renew);
-        asked_W = std::max(asked_W, of(leader).demanded_W);
+        demanded_W = std::max(demanded_W, of(leader).demanded_W);
         return state_of(leader) != State::active;
       },
       400.0));
   CHECK(of(leader).result == ModeResult::found);
-  CHECK_COMPARE(asked_W, <=, 2.0);
-  CHECK_COMPARE(asked_W, >, 1.5);
+  CHECK_COMPARE(demanded_W, <=, 2.0);
+  CHECK_COMPARE(demanded_W, >, 1.5);
 }
 
 TEST(Bundle, DitherStaysBelowTheLowestPowerLimit) {
@@ -256,18 +256,18 @@ TEST(Bundle, DitherStaysBelowTheLowestPowerLimit) {
   rig.loop.channel(last).allow_power(1.5);
   rig.run(0.01);
   // The demand is more than the weakest may have: the dither has room below that limit.
-  double most_W = 0.0;
+  double max_W = 0.0;
   double apart_W = 0.0;
   const double from_s = rig.time_s();
   while (rig.time_s() - from_s < 60.0) {
     rig.send(Verb::power, 2.5);
     rig.tick();
     for (const std::uint8_t i : {leader, follower, last}) {
-      most_W = std::max(most_W, of(i).applied_W);
+      max_W = std::max(max_W, of(i).applied_W);
       apart_W = std::max(apart_W, std::abs(of(i).applied_W - of(leader).applied_W));
     }
   }
-  CHECK_COMPARE(most_W, <, 1.52);
+  CHECK_COMPARE(max_W, <, 1.52);
   CHECK_COMPARE(apart_W, <, 0.02);
   CHECK(all(State::active));
   CHECK(of(leader).limited_by != LimitedBy::unproven);
@@ -275,7 +275,7 @@ TEST(Bundle, DitherStaysBelowTheLowestPowerLimit) {
 
 TEST(Bundle, IdentifiesTheBundleAsOneMuscle) {
   arm();
-  CHECK(measures_to_the_end(Verb::identify, 400.0));
+  CHECK(completes_mode(Verb::identify, 400.0));
   CHECK(of(leader).result == ModeResult::found);
   CHECK(all(State::armed));
   double gain_m_per_W = 0.0;
@@ -314,31 +314,34 @@ TEST(Bundle, ComparesEachMusclesSensesAtOneCommonPower) {
   RigSettings settings = bundle_board();
   settings.board.channels[follower].current.low /= current_gain;
   settings.board.channels[follower].current.high /= current_gain;
-  Rig lying(settings);
-  lying.boot();
-  lying.arm();
-  lying.run(0.2);
+  Rig miscalibrated(settings);
+  miscalibrated.boot();
+  miscalibrated.arm();
+  miscalibrated.run(0.2);
   double charge_As = 0.0;
   const auto hold_for = [&](Verb verb, double value, double time_s) {
     charge_As = 0.0;
-    for (int i = 0; i < std::lround(time_s / lying.period_s()); ++i) {
-      lying.send(verb, value);
-      lying.tick();
-      charge_As += lying.period_s() * lying.board.channel(follower).true_power_W() / supply_V;
+    for (int i = 0; i < std::lround(time_s / miscalibrated.period_s()); ++i) {
+      miscalibrated.send(verb, value);
+      miscalibrated.tick();
+      charge_As += miscalibrated.period_s() * miscalibrated.board.channel(follower).true_power_W() /
+                   supply_V;
     }
   };
   for (const double power_W : {0.5, 1.0}) {
     hold_for(Verb::power, power_W, 2.5);
-    CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::none);
-    CHECK(lying.answer_of(follower, Verb::compare_current, charge_As / 2.5) == Refusal::none);
+    CHECK(miscalibrated.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::none);
+    CHECK(miscalibrated.answer_of(follower, Verb::compare_current, charge_As / 2.5) ==
+          Refusal::none);
   }
-  DOUBLES_EQUAL(1.0 / current_gain, lying.loop.channel(follower).senses().current_gain, 0.02);
-  CHECK_FALSE(lying.loop.channel(leader).senses().compared());
+  DOUBLES_EQUAL(1.0 / current_gain, miscalibrated.loop.channel(follower).senses().current_gain,
+                0.02);
+  CHECK_FALSE(miscalibrated.loop.channel(leader).senses().compared());
   // A change of power restarts the average, and a controller changes the power all the time.
   hold_for(Verb::power, 1.8, 0.1);
-  CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
+  CHECK(miscalibrated.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
   hold_for(Verb::position, 0.005, 3.0);
-  CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
+  CHECK(miscalibrated.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
 }
 
 TEST(Bundle, SharedMotionDoesNotYieldATimeConstant) {

@@ -22,9 +22,9 @@ TEST(NodesOnCan, TwoBoardsWithTheSameNodeBothReportNodeConflict) {
   rig.start(master);
   twin.run(16.0);
   CHECK(rig.state() == State::active);
-  const auto hear = rig.bus.listener;
+  const auto receive = rig.bus.listener;
   rig.bus.listener = [&](const hal::CanFrame& frame) {
-    hear(frame);
+    receive(frame);
     twin.bus.deliver(frame);
   };
   twin.bus.listener = [&](const hal::CanFrame& frame) { rig.bus.deliver(frame); };
@@ -45,7 +45,7 @@ TEST(NodesOnCan, TwoBoardsWithTheSameNodeBothReportNodeConflict) {
 
   // The other one is taken off the bus.
   twin.bus.listener = [](const hal::CanFrame&) {};
-  rig.bus.listener = hear;
+  rig.bus.listener = receive;
   rig.run(3.0);
   rig.claim(master);
   CHECK(rig.command(master, Verb::reset) == Refusal::none);
@@ -117,47 +117,47 @@ TEST(NodesOnCan, AgonistNodePublishesTheJointAndBothHeaters) {
   joint.run(0.2);
   seconds(3);
   CHECK(joint.command(master, Verb::renew) == Refusal::none);
-  joint.heard_of.clear();
-  std::array<supercoil_joint_t, telemetry::joint_parts(true)> told{};
-  const auto hear = joint.bus.listener;
+  joint.received_count.clear();
+  std::array<supercoil_joint_t, telemetry::joint_parts(true)> parts{};
+  const auto receive = joint.bus.listener;
   joint.bus.listener = [&](const hal::CanFrame& frame) {
-    hear(frame);
+    receive(frame);
     if (frame.id != SUPERCOIL_JOINT_FRAME_ID) return;
     const auto m = unpacked(frame, supercoil_joint_unpack);
-    told.at(m.part) = m;
+    parts.at(m.part) = m;
   };
   joint.run(0.2);
   const Snapshot& agonist_now = joint.loop.channel(0).snapshot();
   const Snapshot& antagonist_now = joint.loop.channel(1).snapshot();
-  DOUBLES_EQUAL(10, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID], 2);
-  LONGS_EQUAL(0, joint.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);
+  DOUBLES_EQUAL(10, joint.received_count[SUPERCOIL_JOINT_FRAME_ID], 2);
+  LONGS_EQUAL(0, joint.received_count[SUPERCOIL_JOINT_FRAME_ID + 1]);
   CHECK(agonist_now.mode == Mode::position && antagonist_now.mode == Mode::joint);
 
   constexpr double deg_per_m = 180.0 / 3.14159265358979 / 0.015;
-  for (const supercoil_joint_t& part : told) {
+  for (const supercoil_joint_t& part : parts) {
     DOUBLES_EQUAL(deg_per_m * agonist_now.position_m,
                   supercoil_joint_angle_deg_decode(part.angle_deg), 0.3);
   }
-  DOUBLES_EQUAL(-0.002 * deg_per_m, supercoil_joint_reference_deg_decode(told[0].reference_deg),
+  DOUBLES_EQUAL(-0.002 * deg_per_m, supercoil_joint_reference_deg_decode(parts[0].reference_deg),
                 0.001);
   DOUBLES_EQUAL(antagonist_now.demanded_W,
-                supercoil_joint_co_contraction_w_decode(told[1].co_contraction_w), 0.05);
+                supercoil_joint_co_contraction_w_decode(parts[1].co_contraction_w), 0.05);
   const auto is_of = [](const Snapshot& muscle, double hottest_C, double applied_W, double Ohm) {
     DOUBLES_EQUAL(muscle.hottest_C, hottest_C, 1.0);
     DOUBLES_EQUAL(muscle.applied_W, applied_W, 0.3);  // with the noise of the sensor
     DOUBLES_EQUAL(muscle.resistance_Ohm, Ohm, 0.1);
   };
-  is_of(agonist_now, supercoil_joint_agonist_hottest_c_decode(told[2].agonist_hottest_c),
-        supercoil_joint_agonist_applied_w_decode(told[3].agonist_applied_w),
-        supercoil_joint_agonist_resistance_ohm_decode(told[3].agonist_resistance_ohm));
-  is_of(antagonist_now, supercoil_joint_antagonist_hottest_c_decode(told[4].antagonist_hottest_c),
-        supercoil_joint_antagonist_applied_w_decode(told[5].antagonist_applied_w),
-        supercoil_joint_antagonist_resistance_ohm_decode(told[5].antagonist_resistance_ohm));
+  is_of(agonist_now, supercoil_joint_agonist_hottest_c_decode(parts[2].agonist_hottest_c),
+        supercoil_joint_agonist_applied_w_decode(parts[3].agonist_applied_w),
+        supercoil_joint_agonist_resistance_ohm_decode(parts[3].agonist_resistance_ohm));
+  is_of(antagonist_now, supercoil_joint_antagonist_hottest_c_decode(parts[4].antagonist_hottest_c),
+        supercoil_joint_antagonist_applied_w_decode(parts[5].antagonist_applied_w),
+        supercoil_joint_antagonist_resistance_ohm_decode(parts[5].antagonist_resistance_ohm));
   CHECK(antagonist_now.hottest_C > agonist_now.hottest_C + 2.0);
 }
 
 TEST(NodesOnCan, NoJointFramesWithoutAJoint) {
   rig.run(1.0);
-  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID]);
-  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_JOINT_FRAME_ID + 1]);
+  LONGS_EQUAL(0, rig.received_count[SUPERCOIL_JOINT_FRAME_ID]);
+  LONGS_EQUAL(0, rig.received_count[SUPERCOIL_JOINT_FRAME_ID + 1]);
 }

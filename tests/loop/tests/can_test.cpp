@@ -82,17 +82,17 @@ TEST(OverCan, EachNodeReportsItsOwnMuscle) {
 
 TEST(OverCan, EachNodeSendsItsProgramVersionOncePerSecond) {
   rig.run(10.0);
-  DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID], 1);
-  DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID + 1], 1);
-  supercoil_boot_t told{};
+  DOUBLES_EQUAL(10, rig.received_count[SUPERCOIL_BOOT_FRAME_ID], 1);
+  DOUBLES_EQUAL(10, rig.received_count[SUPERCOIL_BOOT_FRAME_ID + 1], 1);
+  supercoil_boot_t received{};
   const hal::CanFrame& frame = rig.last_of[SUPERCOIL_BOOT_FRAME_ID];
-  LONGS_EQUAL(0, supercoil_boot_unpack(&told, frame.data.data(), frame.length));
+  LONGS_EQUAL(0, supercoil_boot_unpack(&received, frame.data.data(), frame.length));
   const hal::CanFrame expected = telemetry::boot(1, program_version());
   MEMCMP_EQUAL(expected.data.data(), frame.data.data(), frame.length);
-  const int before = rig.heard_of[SUPERCOIL_BOOT_FRAME_ID];
+  const int before = rig.received_count[SUPERCOIL_BOOT_FRAME_ID];
   for (int i = 0; i < 10'000; ++i)
     rig.link.poll(rig.board.now() + i * std::chrono::milliseconds(1));
-  CHECK(rig.heard_of[SUPERCOIL_BOOT_FRAME_ID] <= before + 1);
+  CHECK(rig.received_count[SUPERCOIL_BOOT_FRAME_ID] <= before + 1);
 }
 
 /// Asking needs no lease; once calibrate has found something, that is what the board reports.
@@ -198,9 +198,9 @@ TEST(OverCan, BusLossIsAFaultAndItsRecoveryIsNot) {
     DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
     CHECK(rig.link.publisher().dropped() > 0);
     rig.bus.link = hal::CanState::active;
-    const long before = rig.heard;
+    const long before = rig.received_frames;
     rig.run(1.0);
-    CHECK(rig.heard - before > 300);
+    CHECK(rig.received_frames - before > 300);
     rig.claim(master);
     CHECK(rig.command(master, Verb::reset) == Refusal::none);
     CHECK(rig.fault() == Fault::none);
@@ -275,10 +275,10 @@ TEST(OverCan, AClientOfVersion3IsRefusedAndCanStillDisarm) {
   other.session = other.name;
   CHECK(rig.command(other, claim_of_3) == Refusal::protocol_mismatch);
   // The client takes this for its answer, but not for a lease.
-  const supercoil_acknowledge_t told = rig.answers.back();
-  LONGS_EQUAL(other.name, told.session);
-  LONGS_EQUAL(claim_of_3, told.opcode);
-  LONGS_EQUAL(0, told.granted);
+  const supercoil_acknowledge_t answer = rig.answers.back();
+  LONGS_EQUAL(other.name, answer.session);
+  LONGS_EQUAL(claim_of_3, answer.opcode);
+  LONGS_EQUAL(0, answer.granted);
   CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_lease_holder);
   // The heartbeat names the version where version 3 had it.
   hold(0.3);
@@ -319,8 +319,8 @@ TEST(OverCan, AReplayedSessionGetsNoLeaseAndNoHeat) {
       DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
     }
   }
-  for (const auto& told : rig.answers)
-    CHECK(told.refusal != 0);
+  for (const auto& answer : rig.answers)
+    CHECK(answer.refusal != 0);
 }
 
 TEST(OverCan, TheHeartbeatOfAnotherNodeIsNotAConflict) {

@@ -29,7 +29,7 @@ TEST(BundleGroup, CalibrateStopsAtAFailureOfTheLeader) {
     pulled.load_N = -0.05 * rig.time_s();
     muscle_of(leader).set(pulled);
   };
-  CHECK(measures_to_the_end(Verb::calibrate, 200.0));
+  CHECK(completes_mode(Verb::calibrate, 200.0));
   CHECK(of(leader).result == ModeResult::moved);
   for (const std::uint8_t i : {follower, last}) {
     CHECK(of(i).result == ModeResult::none);
@@ -60,6 +60,6 @@ TEST(JointGroup, CoContractionIsClippedToTheAntagonistsLimit) {
   settings.firmware.channels[antagonist].limiter.max_W = max_W;
   Rig fresh(settings);
   begin(fresh);
-  CHECK_FALSE(follows_until_fault(fresh, 0.1, [] { return 0.0; }));
+  CHECK_FALSE(faults_while_following(fresh, 0.1, [] { return 0.0; }));
   DOUBLES_EQUAL(max_W, fresh.loop.channel(antagonist).snapshot().reference, 1e-9);
 }

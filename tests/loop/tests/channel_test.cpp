@@ -43,16 +43,16 @@ TEST(Channel, SnapshotIsZeroBeforeTheFirstTick) {
 
 TEST(Channel, PublishesEveryDetectorsMarginWithin55Ticks) {
   rig.boot();
-  std::set<Fault> told;
+  std::set<Fault> published;
   for (int i = 0; i < 55; ++i) {
     rig.tick();
     const Snapshot& s = rig.snapshot();
-    told.insert(s.margin_selector);
+    published.insert(s.margin_selector);
     if (s.margin_selector != Fault::over_temperature) continue;
     DOUBLES_EQUAL(s.hottest_C, s.margin.measured, 0.1);
     DOUBLES_EQUAL(160.0, s.margin.limit, 0.0);
   }
-  UNSIGNED_LONGS_EQUAL(all_faults().size(), told.size());
+  UNSIGNED_LONGS_EQUAL(all_faults().size(), published.size());
 }
 
 TEST(Channel, PublishesTheMarginOfABoardFault) {

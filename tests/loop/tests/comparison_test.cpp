@@ -16,23 +16,23 @@ TEST_GROUP(Comparison) {
   static constexpr double supply_V = 12.0;
 
   /// Makes a converter read `gain` times the truth without the board knowing.
-  static void lie(host_sim::ConverterSettings & converter, double gain) {
+  static void set_gain_error(host_sim::ConverterSettings & converter, double gain) {
     converter.low /= gain;
     converter.high /= gain;
   }
-  static test::RigSettings lying_board() {
-    test::RigSettings lying = test::rough_board();
-    lying.firmware.supervision.min_supply_V = 9.0;
-    lying.firmware.supervision.max_supply_V = 15.0;
-    lie(lying.board.supply, supply_gain);
-    lie(lying.board.channels[0].current, current_gain);
+  static test::RigSettings miscalibrated_board() {
+    test::RigSettings wrong = test::rough_board();
+    wrong.firmware.supervision.min_supply_V = 9.0;
+    wrong.firmware.supervision.max_supply_V = 15.0;
+    set_gain_error(wrong.board.supply, supply_gain);
+    set_gain_error(wrong.board.channels[0].current, current_gain);
     // With a resistance that tells its temperature, sensors_disagree would notice such a lie.
-    lying.board.channels[0].temperature_coefficient_per_K = 0.0;
-    lying.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
-    return lying;
+    wrong.board.channels[0].temperature_coefficient_per_K = 0.0;
+    wrong.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
+    return wrong;
   }
 
-  test::RigSettings settings = lying_board();
+  test::RigSettings settings = miscalibrated_board();
   test::Rig rig{settings};
 
   Channel& channel() {
@@ -46,7 +46,7 @@ TEST_GROUP(Comparison) {
   void hold(double power_W, double time_s = 2.5) {
     rig.hold_power(power_W, time_s);
   }
-  Refusal ask(Verb verb, double value) {
+  Refusal answer_to(Verb verb, double value) {
     return rig.answer_to(verb, value);
   }
   /// The mean current, as a meter in the line shows it.
@@ -60,20 +60,20 @@ TEST_GROUP(Comparison) {
     return sum_A / 100.0;
   }
   /// The power given when 4 W are demanded, and whether the proof of response limits it.
-  std::pair<double, bool> given_of_4_W(test::Rig & asked) {
+  std::pair<double, bool> given_of_4_W(test::Rig & tested) {
     for (int i = 0; i < 20; ++i) {
-      asked.send(Verb::power, 4.0);
-      asked.run(0.05);
+      tested.send(Verb::power, 4.0);
+      tested.run(0.05);
     }
-    const Snapshot& s = asked.snapshot();
+    const Snapshot& s = tested.snapshot();
     return {s.applied_W, s.limited_by == LimitedBy::unproven};
   }
   void check(Refusal expected, Refusal refusal) {
     STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
   }
   void read_both() {
-    check(Refusal::none, ask(Verb::compare_supply, supply_V));
-    check(Refusal::none, ask(Verb::compare_current, line_A()));
+    check(Refusal::none, answer_to(Verb::compare_supply, supply_V));
+    check(Refusal::none, answer_to(Verb::compare_current, line_A()));
   }
   std::optional<board::Learned> update() {
     board::LearnedUpdate update;
@@ -139,8 +139,8 @@ TEST(Comparison, OneMistypedReadingChangesNothing) {
   hold(0.5);
   read_both();
   hold(1.0);
-  check(Refusal::none, ask(Verb::compare_supply, supply_V));
-  check(Refusal::out_of_range, ask(Verb::compare_current, 1.1 * line_A()));
+  check(Refusal::none, answer_to(Verb::compare_supply, supply_V));
+  check(Refusal::out_of_range, answer_to(Verb::compare_current, 1.1 * line_A()));
   check_nothing_changed();
   // Which reading was wrong is not known, so a right one alone does not help either.
   read_both();
@@ -151,8 +151,8 @@ TEST(Comparison, SwappedReadingsChangeNothing) {
   start();
   for (const double power_W : {0.5, 1.0}) {
     hold(power_W);
-    check(Refusal::out_of_range, ask(Verb::compare_supply, line_A()));
-    check(Refusal::out_of_range, ask(Verb::compare_current, supply_V));
+    check(Refusal::out_of_range, answer_to(Verb::compare_supply, line_A()));
+    check(Refusal::out_of_range, answer_to(Verb::compare_current, supply_V));
   }
   check_nothing_changed();
 }
@@ -163,7 +163,7 @@ TEST(Comparison, ReadingsOfOnePowerChangeNothing) {
   read_both();
   read_both();
   hold(0.6);
-  check(Refusal::not_ready, ask(Verb::compare_supply, supply_V));
+  check(Refusal::not_ready, answer_to(Verb::compare_supply, supply_V));
   check_nothing_changed();
 }
 
@@ -182,13 +182,13 @@ TEST(Comparison, ReadingsFromBeforeADisarmAreForgotten) {
 
 TEST(Comparison, RequiresASteadyPower) {
   start();
-  check(Refusal::wrong_state, ask(Verb::compare_supply, supply_V));
+  check(Refusal::wrong_state, answer_to(Verb::compare_supply, supply_V));
   hold(0.5, 0.6);
-  check(Refusal::not_ready, ask(Verb::compare_supply, supply_V));
+  check(Refusal::not_ready, answer_to(Verb::compare_supply, supply_V));
   rig.send(Verb::position, 0.002);
   rig.run(0.1);
-  check(Refusal::wrong_state, ask(Verb::compare_supply, supply_V));
-  check(Refusal::wrong_state, ask(Verb::compare_current, 0.05));
+  check(Refusal::wrong_state, answer_to(Verb::compare_supply, supply_V));
+  check(Refusal::wrong_state, answer_to(Verb::compare_current, 0.05));
   check_nothing_changed();
 }
 
@@ -199,9 +199,9 @@ TEST(Comparison, IsForgottenOnRequest) {
     read_both();
   }
   CHECK(update()->senses.compared());
-  check(Refusal::wrong_state, ask(Verb::compare_supply, 0.0));
+  check(Refusal::wrong_state, answer_to(Verb::compare_supply, 0.0));
   rig.send(Verb::rest);
-  check(Refusal::none, ask(Verb::compare_supply, 0.0));
+  check(Refusal::none, answer_to(Verb::compare_supply, 0.0));
   const auto forgotten = update();
   CHECK(forgotten.has_value());
   CHECK(forgotten->senses == board::SenseComparison{});
@@ -274,7 +274,7 @@ TEST(Comparison, CorrectsTheCalibratedResistance) {
 }
 
 TEST(Comparison, WorksOverCan) {
-  test::CanRig can(lying_board());
+  test::CanRig can(miscalibrated_board());
   test::Master master;
   can.run(16.0);
   can.claim(master);
@@ -324,7 +324,7 @@ TEST(Comparison, AtLowPowerIsNotDisturbedByProbes) {
     DOUBLES_EQUAL(1.0 / current_gain, senses.current_gain, senses.error_ratio / current_gain);
     CHECK_COMPARE(senses.error_ratio, <, 0.1);
     rig.send(Verb::rest);
-    check(Refusal::none, ask(Verb::compare_supply, 0.0));
+    check(Refusal::none, answer_to(Verb::compare_supply, 0.0));
     update();
   }
 }
@@ -332,10 +332,10 @@ TEST(Comparison, AtLowPowerIsNotDisturbedByProbes) {
 TEST(Comparison, SuspendsProbesUntilBothMetersAreRead) {
   start();
   hold(0.1, 6.0);
-  check(Refusal::none, ask(Verb::compare_supply, supply_V));
+  check(Refusal::none, answer_to(Verb::compare_supply, supply_V));
   const int before = probes(0.1, 30.0);
   CHECK_EQUAL(0, before);
-  check(Refusal::none, ask(Verb::compare_current, line_A()));
+  check(Refusal::none, answer_to(Verb::compare_current, line_A()));
   const int between = probes(0.2, 30.0);
   CHECK_EQUAL(0, between);
   read_both();
@@ -348,7 +348,7 @@ TEST(Comparison, SuspendsProbesUntilBothMetersAreRead) {
 TEST(Comparison, AbandonedComparisonLetsProbesResume) {
   start();
   hold(0.1, 6.0);
-  check(Refusal::none, ask(Verb::compare_supply, supply_V));
+  check(Refusal::none, answer_to(Verb::compare_supply, supply_V));
   const int meanwhile = probes(0.1, 590.0);
   CHECK_EQUAL(0, meanwhile);
   const int at_last = probes(0.1, 20.0);

@@ -153,7 +153,7 @@ TEST(Heat, IsContainedAfterEveryHeaterFault) {
 namespace {
 
 /// Senses that lie, on a muscle so stiff that 11 W hardly move it.
-struct LyingSenses {
+struct SenseGains {
   double supply_gain = 1.0;  ///< measured over true
   double current_gain = 1.0;
   bool compared = false;  ///< the board believes that they were compared with a meter
@@ -165,7 +165,7 @@ void scale(ConverterSettings& converter, double gain) {
   converter.high /= gain;
 }
 
-Heat heat_of_power(const LyingSenses& senses, double power_W) {
+Heat heat_of_power(const SenseGains& senses, double power_W) {
   test::RigSettings settings = test::rough_board();
   // A range so wide that 0.83 times 12 V is no fault.
   settings.firmware.supervision.min_supply_V = 9.0;
@@ -207,15 +207,16 @@ Heat heat_of_power(const LyingSenses& senses, double power_W) {
 
 TEST(Heat, IsContainedWithUncomparedSenses) {
   // Wrong by less than resistance_drift notices, in the direction that heats more.
-  struct Lie {
+  struct WrongGains {
     const char* what;
-    LyingSenses senses;
+    SenseGains senses;
   };
-  for (const Lie& lie :
-       {Lie{"current x 0.78", {1.0, 0.78}}, Lie{"supply x 0.83", {0.83, 1.0}},
-        Lie{"supply x 0.83, current x 0.64", {0.83, 0.64}}, Lie{"both x 0.83", {0.83, 0.83}}}) {
-    const Heat heat = heat_of_power(lie.senses, 11.0);
-    printf("%-28s hottest %6.1f C, fault %d\n", lie.what, heat.hottest_C,
+  for (const WrongGains& wrong :
+       {WrongGains{"current x 0.78", {1.0, 0.78}}, WrongGains{"supply x 0.83", {0.83, 1.0}},
+        WrongGains{"supply x 0.83, current x 0.64", {0.83, 0.64}},
+        WrongGains{"both x 0.83", {0.83, 0.83}}}) {
+    const Heat heat = heat_of_power(wrong.senses, 11.0);
+    printf("%-28s hottest %6.1f C, fault %d\n", wrong.what, heat.hottest_C,
            static_cast<int>(heat.fault));
     LONGS_EQUAL(0, heat.outside_ticks);
     CHECK_COMPARE(heat.hottest_C, <, trip_C + overshoot_K);

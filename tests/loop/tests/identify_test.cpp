@@ -47,7 +47,7 @@ TEST(Identify, FindsEveryMuscleWithinTravelAndTemperatureLimits) {
                        text.c_str());
       CHECK_TEXT(run.max_m < 0.6 * sensor_travel_m, text.c_str());
       CHECK_TEXT(run.min_m >= 0.0, text.c_str());
-      CHECK_TEXT(run.hottest_told_C < hottest_allowed_C, text.c_str());
+      CHECK_TEXT(run.hottest_published_C < hottest_allowed_C, text.c_str());
       const control::Theta truth = control::theta_from(run.truth);
       const control::Theta found = control::theta_from(run.learned->muscle);
       for (int i = 1; i < 4 && is_linear(kind); ++i)

@@ -99,9 +99,9 @@ TEST(JointFault, ALooseMuscleIsFoundWithinTwoSeconds) {
       settings.board.joints[0].plant.max_angle_rad = 0.4;
       Rig fresh(settings);
       begin(fresh);
-      CHECK_FALSE(follows_until_fault(fresh, 20.0, [] { return 0.0; }));
+      CHECK_FALSE(faults_while_following(fresh, 20.0, [] { return 0.0; }));
       inject(fresh.board.channel(loose).faults);
-      CHECK(follows_until_fault(fresh, 2.0, [] { return 0.0; }));
+      CHECK(faults_while_following(fresh, 2.0, [] { return 0.0; }));
       CHECK(fresh.fault() == Fault::muscle_loose);
       CHECK(fresh.loop.channel(antagonist).state().first_cause() == Fault::muscle_loose);
       CHECK_FALSE(fresh.interval_missed);
@@ -115,7 +115,7 @@ TEST(JointFault, ASensorWithTheWrongSignIsFoundAtTheFirstMotion) {
     Rig fresh(known_joint(0.8));
     fresh.board.channel(agonist).position.set(host_sim::ConverterFaults{.gain = -1.0});
     begin(fresh);
-    CHECK(follows_until_fault(fresh, 3.0, [=] { return to_m; }));
+    CHECK(faults_while_following(fresh, 3.0, [=] { return to_m; }));
     CHECK(fresh.fault() == Fault::muscle_loose);
     CHECK_COMPARE(std::abs(fresh.board.joint(0).plant().position_m()), <, 0.006);
   }
@@ -146,7 +146,7 @@ TEST(JointFault, IdentifyRestartsBothMusclesWindows) {
   settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 1.4;
   Rig fresh(settings);
   begin(fresh);
-  CHECK(measures_to_the_end(fresh, Verb::identify, 400.0));
+  CHECK(completes_mode(fresh, Verb::identify, 400.0));
   CHECK(fresh.snapshot().result == ModeResult::found);
   fresh.run_ticks(3);
   for (const std::uint8_t channel : {agonist, antagonist}) {
@@ -163,11 +163,11 @@ TEST(JointFault, AMovingLoadIsNotALooseMuscle) {
   for (const double load_Nm : {-0.0008, 0.0008, -0.004, 0.004}) {
     Rig fresh(known_joint(0.8));
     begin(fresh);
-    CHECK_FALSE(follows_until_fault(fresh, 20.0, [] { return 0.0; }));
+    CHECK_FALSE(faults_while_following(fresh, 20.0, [] { return 0.0; }));
     host_sim::SimulatedJointSettings loaded = fresh.board.joint(0).settings();
     loaded.load_Nm = load_Nm;
     fresh.board.joint(0).set(loaded);
-    CHECK_FALSE(follows_until_fault(fresh, 60.0, [&] {
+    CHECK_FALSE(faults_while_following(fresh, 60.0, [&] {
       for (const std::uint8_t channel : {agonist, antagonist}) {
         if (fresh.loop.channel(channel).snapshot().limited) limited_s += fresh.period_s();
       }

@@ -35,7 +35,7 @@ TEST(JointLever, TurnsToTheAngleWithALeverTable) {
     const double wanted_rad = wanted_deg / 180.0 * std::numbers::pi;
     const double position_m = plant.settings().lever.arc_m(wanted_rad);
     CHECK_COMPARE(std::abs(position_m), <, 0.97 * std::abs(wanted_deg * degree_m));
-    CHECK_FALSE(follows_until_fault(turned, 25.0, [=] { return position_m; }));
+    CHECK_FALSE(faults_while_following(turned, 25.0, [=] { return position_m; }));
     DOUBLES_EQUAL(wanted_deg, plant.angle_rad() * 180.0 / std::numbers::pi, 0.05);
     DOUBLES_EQUAL(plant.position_m(), turned.loop.channel(agonist).snapshot().position_m, 30e-6);
     DOUBLES_EQUAL(-plant.position_m(), turned.loop.channel(antagonist).snapshot().position_m,
@@ -54,7 +54,7 @@ TEST(JointLever, FindsItsZeroAwayFromTheTablesReference) {
   shifted.arm();
   CHECK_COMPARE(std::abs(shifted.loop.channel(agonist).snapshot().position_m), <, 0.995 * away_m);
   shifted.run(60.0);
-  CHECK(measures_to_the_end(shifted, Verb::calibrate, 600.0));
+  CHECK(completes_mode(shifted, Verb::calibrate, 600.0));
   CHECK(shifted.loop.channel(agonist).snapshot().result == ModeResult::found);
   DOUBLES_EQUAL(away_m, shifted.loop.channel(agonist).known(known_position_offset), 10e-6);
 }

@@ -20,11 +20,11 @@ TEST(JointPull, AntagonistPowerSetsTheCoContractionWithoutTurningTheJoint) {
   CHECK(rig.answer_of(antagonist, Verb::power, 2.0 * before_W) == Refusal::none);
   hold(5.0 * degree_m, 3.0);
   const double soon_N = plant.tension_N(0) + plant.tension_N(1);
-  double most_deg = 0.0;
+  double max_deg = 0.0;
   follow_for(
       60.0, [](double) { return 5.0 * degree_m; },
-      [&] { most_deg = std::fmax(most_deg, std::abs(angle_deg() - 5.0)); });
-  CHECK_COMPARE(most_deg, <, 0.1);
+      [&] { max_deg = std::fmax(max_deg, std::abs(angle_deg() - 5.0)); });
+  CHECK_COMPARE(max_deg, <, 0.1);
   const double after_N = plant.tension_N(0) + plant.tension_N(1);
   CHECK_COMPARE(after_N, >, before_N + 0.05);
   // Slow compared with every controller.
@@ -46,10 +46,10 @@ TEST(JointPull, RespectsTheCoContractionLimit) {
                             settings.firmware.channels[agonist].muscle.dc_gain_m_per_W();
   Rig fresh(settings);
   begin(fresh);
-  CHECK_FALSE(follows_until_fault(fresh, 1.0, [] { return 0.0; }));
+  CHECK_FALSE(faults_while_following(fresh, 1.0, [] { return 0.0; }));
   CHECK(fresh.answer_of(antagonist, Verb::power, 1.21 / gain_ratio) == Refusal::out_of_range);
   CHECK(fresh.answer_of(antagonist, Verb::power, 1.2 / gain_ratio) == Refusal::none);
-  CHECK_FALSE(follows_until_fault(fresh, 60.0, [] { return 0.0; }));
+  CHECK_FALSE(faults_while_following(fresh, 60.0, [] { return 0.0; }));
   CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, <, 1.25 / gain_ratio);
   CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, >, 0.9 / gain_ratio);
   // Driven by itself, the muscle may have all that its heater may.
@@ -139,7 +139,7 @@ TEST(JointPull, LimitFollowsWhatIsLearnedOfTheAntagonist) {
       },
       400.0));
   CHECK_COMPARE(std::abs(gain_ratio() / before - 1.0), >, 0.1);
-  CHECK_FALSE(follows_until_fault(fresh, 0.1, [] { return 0.0; }));
+  CHECK_FALSE(faults_while_following(fresh, 0.1, [] { return 0.0; }));
   CHECK(fresh.answer_of(antagonist, Verb::power, 1.02 * max_W / gain_ratio()) ==
         Refusal::out_of_range);
   CHECK(fresh.answer_of(antagonist, Verb::power, 0.98 * max_W / gain_ratio()) == Refusal::none);
@@ -152,7 +152,7 @@ TEST(JointPull, CoContractsForMinutesWithoutAFault) {
       channel.muscle_identified = known;
     Rig fresh(settings);
     begin(fresh);
-    CHECK_FALSE(follows_until_fault(fresh, 300.0, [] { return 0.0; }));
+    CHECK_FALSE(faults_while_following(fresh, 300.0, [] { return 0.0; }));
     CHECK_FALSE(fresh.interval_missed);
   }
 }
@@ -166,7 +166,7 @@ TEST(JointPull, ReducesCoContractionWhenOneMuscleIsDerated) {
   settings.firmware.channels[agonist].limiter.derate_to_C = 90.0;
   Rig fresh(settings);
   begin(fresh);
-  CHECK_FALSE(follows_until_fault(fresh, 300.0, [] { return 0.0; }));
+  CHECK_FALSE(faults_while_following(fresh, 300.0, [] { return 0.0; }));
   DOUBLES_EQUAL(0.0, fresh.snapshot().position_m, 0.1e-3);
   CHECK(fresh.snapshot().limited_by == LimitedBy::nothing);
 }

@@ -32,7 +32,7 @@ RigSettings loose_joint(double max_co_contraction_W, bool known) {
 TEST_GROUP_BASE(JointSlack, JointCase) {
   /// Each muscle's values, at the end.
   struct Held {
-    std::array<bool, 2> told{};
+    std::array<bool, 2> slack{};
     std::array<double, 2> pull_N{};
   };
   /// The load, in N at the lever, grows gradually and turns the joint to positive positions.
@@ -40,7 +40,7 @@ TEST_GROUP_BASE(JointSlack, JointCase) {
     Rig fresh(settings);
     begin(fresh);
     const auto holds = [&](double time_s) {
-      CHECK_FALSE(follows_until_fault(fresh, time_s, [=] { return position_m; }));
+      CHECK_FALSE(faults_while_following(fresh, time_s, [=] { return position_m; }));
     };
     holds(20.0);
     host_sim::SimulatedJointSettings joint = fresh.board.joint(0).settings();
@@ -52,7 +52,7 @@ TEST_GROUP_BASE(JointSlack, JointCase) {
     holds(60.0);
     Held held;
     for (std::uint8_t i = 0; i < 2; ++i) {
-      held.told.at(i) = fresh.loop.channel(i).snapshot().slack;
+      held.slack.at(i) = fresh.loop.channel(i).snapshot().slack;
       held.pull_N.at(i) = fresh.board.joint(0).plant().tension_N(i);
     }
     return held;
@@ -64,14 +64,14 @@ TEST(JointSlack, ReportsTheMuscleThatALoadSlackens) {
   for (const double way : {1.0, -1.0}) {
     const Held loaded = held(loose_joint(0.0, true), way * 4e-3, way * 0.25);
     const std::size_t loose = way > 0.0 ? agonist : antagonist;
-    CHECK_TRUE(loaded.told.at(loose));
-    CHECK_FALSE(loaded.told.at(1 - loose));
+    CHECK_TRUE(loaded.slack.at(loose));
+    CHECK_FALSE(loaded.slack.at(1 - loose));
     DOUBLES_EQUAL(0.0, loaded.pull_N.at(loose), 0.0);
     DOUBLES_EQUAL(0.25, loaded.pull_N.at(1 - loose), 0.01);
   }
   const Held free = held(loose_joint(0.0, true), 4e-3, 0.0);
   for (const std::size_t i : {agonist, antagonist}) {
-    CHECK_FALSE(free.told.at(i));
+    CHECK_FALSE(free.slack.at(i));
     CHECK_COMPARE(free.pull_N.at(i), >, 0.0);
   }
 }
@@ -79,7 +79,7 @@ TEST(JointSlack, ReportsTheMuscleThatALoadSlackens) {
 TEST(JointSlack, IsNotReportedWithoutAKnownPretension) {
   const Held loaded = held(loose_joint(0.0, false), 4e-3, 0.25);
   DOUBLES_EQUAL(0.0, loaded.pull_N[agonist], 0.0);
-  CHECK_FALSE(loaded.told[agonist] || loaded.told[antagonist]);
+  CHECK_FALSE(loaded.slack[agonist] || loaded.slack[antagonist]);
 }
 
 /// Both pull harder than was commanded, as far as max_co_contraction_W allows it.
@@ -89,7 +89,7 @@ TEST(JointSlack, IsAvoidedByCoContraction) {
     const Held left = held(loose_joint(3.0, false), way * 4e-3, way * 0.25);
     DOUBLES_EQUAL(0.0, left.pull_N.at(loose), 0.0);
     const Held taut = held(loose_joint(3.0, true), way * 4e-3, way * 0.25);
-    CHECK_FALSE(taut.told.at(loose));
+    CHECK_FALSE(taut.slack.at(loose));
     CHECK_COMPARE(taut.pull_N.at(loose), >, 0.002);
     CHECK_COMPARE(taut.pull_N.at(loose), <, 0.03);
   }

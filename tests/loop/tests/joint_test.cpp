@@ -158,7 +158,7 @@ TEST(Joint, ZeroIsTakenWhenBothMusclesAreCold) {
     rig.run(0.1);
   }
   CHECK(rig.answer_of(antagonist, Verb::rest) == Refusal::none);
-  CHECK(measures_to_the_end(rig, Verb::calibrate, 600.0));
+  CHECK(completes_mode(rig, Verb::calibrate, 600.0));
   CHECK(of(agonist).result == ModeResult::found);
   DOUBLES_EQUAL(0.0, rig.loop.channel(agonist).known(known_position_offset), 50e-6);
 }
@@ -173,7 +173,7 @@ TEST(Joint, StandingStillDoesNotProveThatTheMusclesAreCold) {
            settings.firmware.channels[antagonist].thermal.air.warmest_C;
   };
   CHECK_COMPARE(hottest_K(), >, 20.0);
-  CHECK(measures_to_the_end(fresh, Verb::calibrate, 600.0));
+  CHECK(completes_mode(fresh, Verb::calibrate, 600.0));
   CHECK(fresh.loop.channel(agonist).snapshot().result == ModeResult::found);
   CHECK_COMPARE(hottest_K(), <, 1.0);
 }
@@ -187,10 +187,10 @@ TEST(Joint, ReturnsWithoutWindupFromAnUnreachableAngle) {
   fresh.send(Verb::controller, 1);  // pi, which has an integral
   double reference_m = -0.0075;
   const auto wanted = [&] { return reference_m; };
-  CHECK_FALSE(follows_until_fault(fresh, 60.0, wanted));
+  CHECK_FALSE(faults_while_following(fresh, 60.0, wanted));
   CHECK_COMPARE(fresh.snapshot().position_m, >, -0.006);
   reference_m = 0.0;
-  CHECK_FALSE(follows_until_fault(fresh, 6.0, wanted));
+  CHECK_FALSE(faults_while_following(fresh, 6.0, wanted));
   DOUBLES_EQUAL(0.0, fresh.snapshot().position_m, 0.3e-3);
 }
 
@@ -275,7 +275,7 @@ TEST(Joint, RefusesPowerWhileTheOtherMuscleIsMeasured) {
 
 TEST(Joint, CalibrateOfTheAgonistContinuesWithTheAntagonist) {
   arm();
-  CHECK(measures_to_the_end(rig, Verb::calibrate, 200.0));
+  CHECK(completes_mode(rig, Verb::calibrate, 200.0));
   for (const std::uint8_t channel : {agonist, antagonist})
     CHECK(of(channel).result == ModeResult::found);
 }

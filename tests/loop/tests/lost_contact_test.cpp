@@ -15,7 +15,7 @@ using test::Rig;
 namespace {
 
 /// Resistance does not tell temperature: only the position can show that something is wrong.
-test::RigSettings deaf_board(bool identified) {
+test::RigSettings constant_resistance_board(bool identified) {
   test::RigSettings s = test::rough_board();
   s.firmware.channels[Rig::tested].heater.temperature_coefficient_per_K = 0.0;
   s.board.channels[Rig::tested].temperature_coefficient_per_K = 0.0;
@@ -33,11 +33,11 @@ class LostContact {
     rig.boot();
   }
 
-  /// Commands `ask` from now on: a verb and its value, as a function of the time since then.
-  void start(Verb verb, const std::function<double(double)>& ask) {
+  /// Commands `demand` from now on: a verb and its value, as a function of the time since then.
+  void start(Verb verb, const std::function<double(double)>& demand) {
     arm();
     verb_ = verb;
-    ask_ = ask;
+    demand_ = demand;
     start_s_ = rig.time_s();
   }
   void arm() {
@@ -56,16 +56,16 @@ class LostContact {
   /// Nothing is asked for.
   void rest(double time_s) {
     rig.send(Verb::rest);
-    asks_ = false;
+    commanding_ = false;
     run(time_s);
-    asks_ = true;
+    commanding_ = true;
   }
   /// Runs until a fault, or for time_s.
   void run(double time_s) {
     const double end_s = rig.time_s() + time_s;
     while (rig.time_s() < end_s && rig.state() != State::fault) {
-      const bool asks = asks_ && rig.state() != State::disarmed;
-      if (asks) rig.send(verb_, ask_(rig.time_s() - start_s_));
+      const bool commanding = commanding_ && rig.state() != State::disarmed;
+      if (commanding) rig.send(verb_, demand_(rig.time_s() - start_s_));
       rig.tick();
       hottest_C = std::max(hottest_C, 25.0 + rig.muscle().plant().temperature_rise_K());
       const Snapshot& s = rig.snapshot();
@@ -81,8 +81,8 @@ class LostContact {
  private:
   test::RigSettings settings_;
   Verb verb_ = Verb::power;
-  std::function<double(double)> ask_;
-  bool asks_ = true;
+  std::function<double(double)> demand_;
+  bool commanding_ = true;
   double start_s_ = 0.0;
 
  public:
@@ -97,7 +97,7 @@ class LostContact {
 test::RigSettings slow_board() {
   constexpr double slower = 12.0;
   constexpr double weaker = 0.2;
-  test::RigSettings s = deaf_board(true);
+  test::RigSettings s = constant_resistance_board(true);
   ChannelSettings& channel = s.firmware.channels[Rig::tested];
   for (control::PhysicalParameters* muscle :
        {&channel.muscle, &s.board.channels[Rig::tested].plant}) {
@@ -110,8 +110,8 @@ test::RigSettings slow_board() {
   return s;
 }
 
-test::RigSettings rubbing_board(double friction_ratio, double response_ratio) {
-  test::RigSettings s = deaf_board(true);
+test::RigSettings friction_board(double friction_ratio, double response_ratio) {
+  test::RigSettings s = constant_resistance_board(true);
   s.board.channels[Rig::tested].effects.friction_ratio = friction_ratio;
   s.firmware.channels[Rig::tested].response_ratio = response_ratio;
   return s;
@@ -150,7 +150,7 @@ void check_found(const LostContact& muscle, double hottest_C) {
 TEST_GROUP(LostContact){};
 
 TEST(LostContact, IsFoundDespiteRearmingEvery12Seconds) {
-  LostContact muscle(deaf_board(false));
+  LostContact muscle(constant_resistance_board(false));
   muscle.start(Verb::power, always(2.9));  // 154 °C in the end
   muscle.run(10.0);
   muscle.lose_contact();
@@ -159,7 +159,7 @@ TEST(LostContact, IsFoundDespiteRearmingEvery12Seconds) {
 }
 
 TEST(LostContact, IsFoundDespiteRearmingAnIdentifiedMuscle) {
-  LostContact muscle(deaf_board(true));
+  LostContact muscle(constant_resistance_board(true));
   muscle.start(Verb::power, always(4.0));  // 24 mm; the limit is 25 mm
   muscle.run(5.0);
   muscle.lose_contact();
@@ -169,7 +169,7 @@ TEST(LostContact, IsFoundDespiteRearmingAnIdentifiedMuscle) {
 
 TEST(LostContact, IsFoundDespiteRepeatedRests) {
   for (const auto& [heated_s, rests_s] : {std::pair(1.0, 0.1), {0.5, 0.05}}) {
-    LostContact muscle(deaf_board(true));
+    LostContact muscle(constant_resistance_board(true));
     muscle.start(Verb::power, always(4.0));
     run_resting(muscle, heated_s, rests_s, 15.0);
     CHECK(muscle.rig.fault() == Fault::none);
@@ -195,7 +195,7 @@ TEST(LostContact, IsFoundOrLimitedForASlowMuscleThatRestsRepeatedly) {
 TEST(LostContact, IsFoundAtConstantPower) {
   for (const double power_W : {1.5, 3.0, 4.0}) {
     for (const double moment_s : {15.0, 15.3, 15.6}) {
-      LostContact muscle(deaf_board(true));
+      LostContact muscle(constant_resistance_board(true));
       muscle.start(Verb::power, always(power_W));
       muscle.run(moment_s);
       muscle.lose_contact();
@@ -208,7 +208,7 @@ TEST(LostContact, IsFoundAtConstantPower) {
 TEST(LostContact, IsFoundAtAConstantPosition) {
   for (const double controller : {0.0, 1.0, 2.0}) {
     for (const double position_m : {0.010, 0.020}) {
-      LostContact muscle(deaf_board(true));
+      LostContact muscle(constant_resistance_board(true));
       muscle.rig.send(Verb::controller, controller);
       muscle.start(Verb::position, always(position_m));
       muscle.run(15.0);
@@ -220,7 +220,7 @@ TEST(LostContact, IsFoundAtAConstantPosition) {
 }
 
 TEST(LostContact, IsFoundInASlowRamp) {
-  LostContact muscle(deaf_board(true));
+  LostContact muscle(constant_resistance_board(true));
   muscle.start(Verb::power, [](double t) { return std::min(4.0, 0.04 * t); });
   muscle.run(20.0);
   muscle.lose_contact();
@@ -230,13 +230,13 @@ TEST(LostContact, IsFoundInASlowRamp) {
 
 TEST(LostContact, IsNotReportedWhenIdentifyMeasuredTheFriction) {
   // As if all of a small motion arrived: the proof fails, power is cut to zero, then limited.
-  LostContact unmeasured(rubbing_board(0.002, 0.0));
+  LostContact unmeasured(friction_board(0.002, 0.0));
   unmeasured.start(Verb::power, always(1.5));
   unmeasured.run(60.0);
   CHECK(unmeasured.limited);
   DOUBLES_EQUAL(0.0, unmeasured.min_W, 1e-9);
 
-  LostContact measured(rubbing_board(0.002, 0.17));
+  LostContact measured(friction_board(0.002, 0.17));
   measured.start(Verb::power, always(1.5));
   measured.run(60.0);
   CHECK(measured.rig.fault() == Fault::none);
@@ -248,7 +248,7 @@ TEST(LostContact, IsNotReportedWhenIdentifyMeasuredTheFriction) {
 }
 
 TEST(LostContact, NoDitherAtTheSafePowerWhenFrictionHidesIt) {
-  LostContact muscle(rubbing_board(0.01, 0.001));
+  LostContact muscle(friction_board(0.01, 0.001));
   muscle.start(Verb::power, always(3.0));
   muscle.run(60.0);
   CHECK(muscle.rig.fault() == Fault::none);
@@ -260,7 +260,7 @@ TEST(LostContact, NoDitherAtTheSafePowerWhenFrictionHidesIt) {
 }
 
 TEST(LostContact, IsFoundForABlockedMuscle) {
-  LostContact muscle(deaf_board(true));
+  LostContact muscle(constant_resistance_board(true));
   muscle.start(Verb::position, always(0.015));
   muscle.run(15.0);
   muscle.rig.muscle().faults.slack = true;
@@ -270,7 +270,7 @@ TEST(LostContact, IsFoundForABlockedMuscle) {
 
 TEST(LostContact, RowsReportThatTheProofIsOff) {
   for (const bool wanted : {true, false}) {
-    test::RigSettings settings = deaf_board(true);
+    test::RigSettings settings = constant_resistance_board(true);
     settings.firmware.channels[Rig::tested].supervision.proof_of_response = wanted;
     const LostContact muscle(settings);
     CHECK(((row_of(muscle.rig.snapshot()).flags & row_proof_off) == 0) == wanted);
@@ -278,7 +278,7 @@ TEST(LostContact, RowsReportThatTheProofIsOff) {
 }
 
 TEST(LostContact, IsNotReportedForAWrappedMuscle) {
-  LostContact held(deaf_board(true));
+  LostContact held(constant_resistance_board(true));
   held.start(Verb::position, always(0.018));
   held.run(15.0);
   held.cool(0.25);
@@ -286,7 +286,7 @@ TEST(LostContact, IsNotReportedForAWrappedMuscle) {
   CHECK(held.rig.fault() == Fault::none);
   CHECK_COMPARE(held.hottest_C, <, 100.0);
 
-  LostContact driven(deaf_board(true));
+  LostContact driven(constant_resistance_board(true));
   driven.start(Verb::power, always(3.0));
   driven.run(15.0);
   driven.cool(0.25);
@@ -296,7 +296,7 @@ TEST(LostContact, IsNotReportedForAWrappedMuscle) {
 
 TEST(LostContact, IsNotReportedInADraught) {
   for (const double controller : {0.0, 1.0, 2.0}) {
-    LostContact muscle(deaf_board(true));
+    LostContact muscle(constant_resistance_board(true));
     muscle.rig.send(Verb::controller, controller);
     muscle.start(Verb::position, always(0.012));
     muscle.run(30.0);
@@ -313,7 +313,7 @@ TEST(LostContact, IsNotReportedInADraught) {
 /// The jump of a still position by a new scale is not a response. Without the proof the muscle
 /// would reach 148 °C meanwhile.
 TEST(LostContact, IsNotHiddenByScaleCommands) {
-  LostContact muscle(deaf_board(true));
+  LostContact muscle(constant_resistance_board(true));
   muscle.start(Verb::power, always(3.0));
   muscle.run(20.0);
   muscle.lose_contact();
@@ -328,7 +328,7 @@ TEST(LostContact, IsNotHiddenByScaleCommands) {
 }
 
 TEST(LostContact, SineMotionProvesContactWithoutADither) {
-  LostContact muscle(deaf_board(true));
+  LostContact muscle(constant_resistance_board(true));
   muscle.rig.send(Verb::controller, 2.0);
   muscle.start(Verb::position, [](double t) { return 0.011 + 0.009 * std::sin(0.25 * t); });
   muscle.run(60.0);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double max_boot_s = 2.0;
 
-bool tested_at_last(Rig& rig) {
+bool completes_self_test(Rig& rig) {
   return rig.run_until(
       [&] { return rig.loop.self_test().passed() || rig.loop.self_test().failed(); }, max_boot_s);
 }
@@ -28,7 +28,7 @@ TEST(Senses, SelfTestChecksTheCurrentOfEveryChannel) {
   for (const std::size_t broken : {0U, 1U}) {
     Rig each(rough_board());
     each.board.channel(broken).faults.switch_stuck_on = true;
-    CHECK(tested_at_last(each));
+    CHECK(completes_self_test(each));
     CHECK(each.loop.self_test().outcome() == SelfTest::Outcome::enable_does_not_cut);
     each.run_ticks(2);
     CHECK(each.loop.board_fault() == Fault::self_test_failed);
@@ -46,7 +46,7 @@ TEST(Senses, SelfTestWaitsForTheFirstCurrentOfEveryChannel) {
       CHECK_FALSE(each.board.supply_closed());
     }
     each.board.channel(late).current.set(host_sim::ConverterFaults{});
-    CHECK(tested_at_last(each));
+    CHECK(completes_self_test(each));
     CHECK(each.loop.self_test().passed());
     CHECK(each.fault() == Fault::none);
   }

@@ -24,8 +24,8 @@ hal::CanFrame read_frame(std::uint8_t setting) {
   return frame;
 }
 
-Refusal refusal_in(const supercoil_setting_t& told) {
-  return static_cast<Refusal>(told.refusal);
+Refusal refusal_in(const supercoil_setting_t& answer) {
+  return static_cast<Refusal>(answer.refusal);
 }
 
 }  // namespace
@@ -47,10 +47,10 @@ TEST_GROUP(Settings) {
   Master master;
 
   Refusal write(std::uint8_t setting, float value) {
-    return refusal_in(rig.ask_setting(master.setting(setting, value)));
+    return refusal_in(rig.request_setting(master.setting(setting, value)));
   }
   double read(std::uint8_t setting) {
-    return static_cast<double>(rig.ask_setting(read_frame(setting)).value);
+    return static_cast<double>(rig.request_setting(read_frame(setting)).value);
   }
 };
 
@@ -59,11 +59,12 @@ TEST(Settings, AreReadableWithoutALease) {
   DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
   DOUBLES_EQUAL(100.0, read(position_rate), 0.0);
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
-    const auto told = rig.ask_setting(read_frame(i));
-    LONGS_EQUAL(i, told.setting);
-    CHECK(refusal_in(told) == Refusal::none);
+    const auto answer = rig.request_setting(read_frame(i));
+    LONGS_EQUAL(i, answer.setting);
+    CHECK(refusal_in(answer) == Refusal::none);
   }
-  CHECK(refusal_in(rig.ask_setting(read_frame(telemetry::run_settings))) == Refusal::out_of_range);
+  CHECK(refusal_in(rig.request_setting(read_frame(telemetry::run_settings))) ==
+        Refusal::out_of_range);
 }
 
 TEST(Settings, AreWritableOnlyUnderTheLease) {
@@ -72,11 +73,12 @@ TEST(Settings, AreWritableOnlyUnderTheLease) {
   CHECK(rig.claim(master) == Refusal::none);
   Master other;
   other.session = static_cast<std::uint16_t>(master.session + 1);
-  CHECK(refusal_in(rig.ask_setting(other.setting(max_power, 1.0F))) == Refusal::not_lease_holder);
+  CHECK(refusal_in(rig.request_setting(other.setting(max_power, 1.0F))) ==
+        Refusal::not_lease_holder);
   DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
-  const auto told = rig.ask_setting(master.setting(max_power, 1.0F));
-  CHECK(refusal_in(told) == Refusal::none);
-  LONGS_EQUAL(master.session & 0xFF, told.session_low);
+  const auto answer = rig.request_setting(master.setting(max_power, 1.0F));
+  CHECK(refusal_in(answer) == Refusal::none);
+  LONGS_EQUAL(master.session & 0xFF, answer.session_low);
   DOUBLES_EQUAL(1.0, read(max_power), 0.0);
 }
 
@@ -84,8 +86,8 @@ TEST(Settings, ShareTheCommandCounter) {
   rig.run(0.1);
   rig.claim(master);
   const hal::CanFrame once = master.setting(max_power, 1.0F);
-  CHECK(refusal_in(rig.ask_setting(once)) == Refusal::none);
-  CHECK(refusal_in(rig.ask_setting(once)) == Refusal::wrong_counter);
+  CHECK(refusal_in(rig.request_setting(once)) == Refusal::none);
+  CHECK(refusal_in(rig.request_setting(once)) == Refusal::wrong_counter);
   CHECK(rig.command(master, Verb::disarm) == Refusal::none);
   CHECK(write(max_power, 2.0F) == Refusal::none);
 }
@@ -120,7 +122,7 @@ TEST(Settings, TheConfiguredPowerIsAcceptedDespiteFloatRounding) {
   CanRig small(settings);
   small.run(0.1);
   small.claim(master);
-  CHECK(refusal_in(small.ask_setting(master.setting(max_power, 2.15F))) == Refusal::none);
+  CHECK(refusal_in(small.request_setting(master.setting(max_power, 2.15F))) == Refusal::none);
   DOUBLES_EQUAL(2.15, small.loop.channel(0).max_power_W(), 0.0);
 }
 
@@ -128,15 +130,15 @@ TEST(Settings, AMessageIsSentAtItsWrittenRate) {
   rig.run(0.1);
   rig.claim(master);
   CHECK(write(position_rate, 20.0F) == Refusal::none);
-  rig.heard_of.clear();
+  rig.received_count.clear();
   rig.run(2.0);
-  const int heard = rig.heard_of[SUPERCOIL_MEASUREMENT_FRAME_ID];
-  CHECK(heard >= 39 && heard <= 41);
+  const int received = rig.received_count[SUPERCOIL_MEASUREMENT_FRAME_ID];
+  CHECK(received >= 39 && received <= 41);
   rig.claim(master);
   CHECK(write(position_rate, 0.0F) == Refusal::none);
-  rig.heard_of.clear();
+  rig.received_count.clear();
   rig.run(1.0);
-  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_MEASUREMENT_FRAME_ID]);
+  LONGS_EQUAL(0, rig.received_count[SUPERCOIL_MEASUREMENT_FRAME_ID]);
 }
 
 TEST(Settings, RatesCannotSilenceTheHeartbeatOrOverloadTheBus) {
@@ -171,8 +173,8 @@ TEST(Settings, DamagedWritesAreIgnoredAndCounted) {
   for (int bit = 0; bit < 64; ++bit) {
     hal::CanFrame frame = master.setting(max_power, 1.0F);
     frame.data[static_cast<std::size_t>(bit / 8)] ^= static_cast<std::uint8_t>(1U << (bit % 8));
-    LONGS_EQUAL(0, rig.ask_setting(frame).counter);
-    CHECK(rig.settings_told.empty());
+    LONGS_EQUAL(0, rig.request_setting(frame).counter);
+    CHECK(rig.setting_answers.empty());
   }
   DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
   CHECK(rig.fault() == Fault::command_damaged);

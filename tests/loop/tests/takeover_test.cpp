@@ -75,13 +75,13 @@ double moved_m(int from, int to, bool moving, int ticks) {
 
 /// The value published next, within a second.
 double proportional_W_per_m(Rig& rig) {
-  const control::GainValue& told = rig.snapshot().gain;
-  for (int i = 0; i < 1000 && told.gain != control::Gain::proportional; ++i) {
+  const control::GainValue& published = rig.snapshot().gain;
+  for (int i = 0; i < 1000 && published.gain != control::Gain::proportional; ++i) {
     hold(rig);
     rig.tick();
   }
-  CHECK(told.gain == control::Gain::proportional);
-  return told.value;
+  CHECK(published.gain == control::Gain::proportional);
+  return published.value;
 }
 
 }  // namespace

@@ -13,28 +13,29 @@ namespace {
 
 constexpr unsigned start_at_once = 0;
 constexpr unsigned start_at_sync = 1;
-constexpr unsigned ask_only = 2;
+constexpr unsigned query_only = 2;
 
-hal::CanFrame knot_frame(Master& who, double after_s, double position_m, double velocity = 0.0) {
+hal::CanFrame knot_frame(Master& sender, double after_s, double position_m, double velocity = 0.0) {
   supercoil_knot_t m{};
-  m.counter = who.next_counter();
+  m.counter = sender.next_counter();
   m.after_s = static_cast<std::uint16_t>(std::lround(after_s * 1e3));
   m.position_m = static_cast<std::int32_t>(std::lround(position_m * 1e7));
   m.velocity_m_per_s = static_cast<std::int16_t>(std::lround(velocity * 1e5));
   hal::CanFrame frame =
-      packed(SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, who.node, m, supercoil_knot_pack);
-  can::e2e::protect(frame, who.session);
+      packed(SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, sender.node, m, supercoil_knot_pack);
+  can::e2e::protect(frame, sender.session);
   return frame;
 }
 
-hal::CanFrame play_frame(Master& who, unsigned when, std::uint8_t sync, double after_s) {
+hal::CanFrame play_frame(Master& sender, unsigned when, std::uint8_t sync, double after_s) {
   supercoil_play_t m{};
-  m.counter = who.next_counter();
+  m.counter = sender.next_counter();
   m.when = static_cast<std::uint8_t>(when);
-  m.session = who.session;
+  m.session = sender.session;
   m.sync = sync;
   m.after_s = static_cast<std::uint32_t>(std::lround(after_s * 1e5));
-  return sealed(SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, who.node, m, supercoil_play_pack);
+  return sealed(SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, sender.node, m,
+                supercoil_play_pack);
 }
 
 hal::CanFrame sync_frame(std::uint8_t number, double master_s) {
@@ -55,31 +56,31 @@ TEST_GROUP(TrajectoryOverCan) {
     second.node = 2;
     second.name = 0x2222;
     rig.run(16.0);
-    for (Master* who : {&master, &second}) {
-      rig.claim(*who);
-      rig.command(*who, Verb::arm);
+    for (Master* sender : {&master, &second}) {
+      rig.claim(*sender);
+      rig.command(*sender, Verb::arm);
       rig.run(0.2);
     }
     hold(0.005, 12.0);
   }
   /// Both at a position, renewed.
   void hold(double position_m, double time_s) {
-    for (Master* who : {&master, &second})
-      rig.command(*who, Verb::position, static_cast<float>(position_m));
+    for (Master* sender : {&master, &second})
+      rig.command(*sender, Verb::position, static_cast<float>(position_m));
     renew(time_s);
   }
   void renew(double time_s) {
     for (long i = std::lround(time_s / 0.1); i > 0; --i) {
-      for (Master* who : {&master, &second})
-        rig.bus.deliver(who->frame(Verb::renew));
+      for (Master* sender : {&master, &second})
+        rig.bus.deliver(sender->frame(Verb::renew));
       rig.run(0.1);
     }
   }
   /// The newest frame of a node; answers: only frames that answer something.
-  supercoil_trajectory_t told(const Master& who, bool answers = false) const {
+  supercoil_trajectory_t newest_state(const Master& sender, bool answers = false) const {
     supercoil_trajectory_t newest{};
     for (const hal::CanFrame& frame : rig.trajectories) {
-      if (frame.id != SUPERCOIL_TRAJECTORY_FRAME_ID + who.node - 1) continue;
+      if (frame.id != SUPERCOIL_TRAJECTORY_FRAME_ID + sender.node - 1) continue;
       supercoil_trajectory_t m{};
       supercoil_trajectory_unpack(&m, frame.data.data(), frame.length);
       CHECK(can::e2e::intact(frame, SUPERCOIL_TRAJECTORY_LENGTH));
@@ -88,22 +89,22 @@ TEST_GROUP(TrajectoryOverCan) {
     return newest;
   }
   /// no_such_channel: no answer.
-  Refusal ask(Master & who, const hal::CanFrame& frame) {
+  Refusal answer_to(Master & sender, const hal::CanFrame& frame) {
     rig.trajectories.clear();
     rig.bus.deliver(frame);
-    for (int i = 0; i < 20 && told(who, true).answers == 0; ++i)
+    for (int i = 0; i < 20 && newest_state(sender, true).answers == 0; ++i)
       rig.tick();
-    const auto answer = told(who, true);
+    const auto answer = newest_state(sender, true);
     if (answer.answers == 0) return Refusal::no_such_channel;
     LONGS_EQUAL(frame.data[1] & 15, answer.counter);
     return static_cast<Refusal>(answer.refusal);
   }
-  Refusal knot(Master & who, double after_s, double position_m, double velocity = 0.0) {
-    return ask(who, knot_frame(who, after_s, position_m, velocity));
+  Refusal knot(Master & sender, double after_s, double position_m, double velocity = 0.0) {
+    return answer_to(sender, knot_frame(sender, after_s, position_m, velocity));
   }
-  void load(Master & who, double from_m = 0.005, double to_m = 0.006) {
-    CHECK(knot(who, 0.0, from_m) == Refusal::none);
-    CHECK(knot(who, 2.0, to_m) == Refusal::none);
+  void load(Master & sender, double from_m = 0.005, double to_m = 0.006) {
+    CHECK(knot(sender, 0.0, from_m) == Refusal::none);
+    CHECK(knot(sender, 2.0, to_m) == Refusal::none);
   }
   PlaybackState state(std::size_t channel = 0) const {
     return rig.loop.channel(channel).playback().state;
@@ -115,20 +116,20 @@ TEST_GROUP(TrajectoryOverCan) {
 
 TEST(TrajectoryOverCan, IsPlayedFollowedAndHeldAtItsEnd) {
   load(master);
-  LONGS_EQUAL(1, told(master).playback);
-  LONGS_EQUAL(62, told(master).room);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
-  LONGS_EQUAL(2, told(master).playback);
+  LONGS_EQUAL(1, newest_state(master).playback);
+  LONGS_EQUAL(62, newest_state(master).room);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  LONGS_EQUAL(2, newest_state(master).playback);
   renew(1.0);
   CHECK(state() == PlaybackState::playing);
-  LONGS_EQUAL(3, told(master).playback);
+  LONGS_EQUAL(3, newest_state(master).playback);
   renew(6.0);
   CHECK(state() == PlaybackState::ended);
-  LONGS_EQUAL(4, told(master).playback);
+  LONGS_EQUAL(4, newest_state(master).playback);
   DOUBLES_EQUAL(0.006, reference_m(), 1e-7);
   DOUBLES_EQUAL(0.006, rig.loop.channel(0).snapshot().position_m, 0.0003);
-  CHECK(ask(master, play_frame(master, ask_only, 0, 0.0)) == Refusal::none);
-  LONGS_EQUAL(4, told(master).playback);
+  CHECK(answer_to(master, play_frame(master, query_only, 0, 0.0)) == Refusal::none);
+  LONGS_EQUAL(4, newest_state(master).playback);
   // The neighbour got nothing.
   CHECK(state(1) == PlaybackState::empty);
 }
@@ -139,7 +140,7 @@ TEST(TrajectoryOverCan, ReferenceModelFollowsTheKnots) {
   CHECK(knot(master, 1.0, 0.0055, 0.001) == Refusal::none);
   CHECK(knot(master, 1.0, 0.006) == Refusal::none);
   CHECK(knot(master, 1.0, 0.0055) == Refusal::none);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
   renew(0.1);
   CHECK(state() == PlaybackState::playing);
   while (state() == PlaybackState::playing) {
@@ -154,8 +155,8 @@ TEST(TrajectoryOverCan, ReferenceModelFollowsTheKnots) {
 TEST(TrajectoryOverCan, TwoChannelsStartInTheSameTickAfterASync) {
   load(master);
   load(second, 0.005, 0.0055);
-  for (Master* who : {&master, &second})
-    CHECK(ask(*who, play_frame(*who, start_at_sync, 7, 0.03)) == Refusal::none);
+  for (Master* sender : {&master, &second})
+    CHECK(answer_to(*sender, play_frame(*sender, start_at_sync, 7, 0.03)) == Refusal::none);
   rig.bus.deliver(sync_frame(6, 50.0));
   renew(0.2);
   CHECK(state() == PlaybackState::loaded && state(1) == PlaybackState::loaded);
@@ -174,7 +175,7 @@ TEST(TrajectoryOverCan, StartsByAnEarlierSync) {
   load(master);
   rig.bus.deliver(sync_frame(200, 50.0));
   renew(0.1);
-  CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.5)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 200, 0.5)) == Refusal::none);
   CHECK(state() == PlaybackState::waiting);
 }
 
@@ -184,10 +185,10 @@ TEST(TrajectoryOverCan, AStaleSyncDoesNotStartPlayback) {
   rig.bus.deliver(sync_frame(200, 50.0));
   renew(0.5);
   // According to that sync its start would be over.
-  CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.3)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 200, 0.3)) == Refusal::none);
   renew(2.0);
   // And according to that sync this one would start soon.
-  CHECK(ask(second, play_frame(second, start_at_sync, 200, 5.0)) == Refusal::none);
+  CHECK(answer_to(second, play_frame(second, start_at_sync, 200, 5.0)) == Refusal::none);
   renew(0.5);
   CHECK(state() == PlaybackState::loaded && state(1) == PlaybackState::loaded);
   rig.bus.deliver(sync_frame(200, 70.0));
@@ -201,14 +202,14 @@ TEST(TrajectoryOverCan, AStaleSyncDoesNotStartPlayback) {
 
 TEST(TrajectoryOverCan, ANewPlayReplacesAWaitingOne) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_sync, 9, 0.05)) == Refusal::none);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 9, 0.05)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
   renew(0.5);
   CHECK(state() == PlaybackState::playing);
   rig.trajectories.clear();
   rig.bus.deliver(sync_frame(9, 50.0));
   renew(0.3);
-  CHECK_EQUAL(0, told(master, true).answers);
+  CHECK_EQUAL(0, newest_state(master, true).answers);
   CHECK(state() == PlaybackState::playing);
 }
 
@@ -218,7 +219,7 @@ TEST(TrajectoryOverCan, FollowsTheMastersClock) {
   CHECK(knot(master, 2.0, 0.0052, velocity) == Refusal::none);
   for (const double position_m : {0.006, 0.0068, 0.0076, 0.0084})
     CHECK(knot(master, 4.0, position_m, velocity) == Refusal::none);
-  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.05)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 1, 0.05)) == Refusal::none);
   const hal::Time synced = rig.board.now();
   rig.bus.deliver(sync_frame(1, 50.0));
   // It goes steadily from the third knot on.
@@ -233,8 +234,8 @@ TEST(TrajectoryOverCan, FollowsTheMastersClock) {
 
 TEST(TrajectoryOverCan, PlaybackStopsWhenTheMasterFallsSilent) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.0)) == Refusal::out_of_range);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.0)) == Refusal::out_of_range);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
   rig.run(0.5);
   CHECK(rig.fault() == Fault::command_timeout);
   DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
@@ -246,7 +247,7 @@ TEST(TrajectoryOverCan, KnotsRenewThePlaybackAndItRestsASecondAfterTheLastKnot) 
   double position_m = 0.005;
   for (int i = 0; i < 3; ++i)
     CHECK(knot(master, 0.2, position_m += 0.0001, 0.0005) == Refusal::none);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
   for (int i = 0; i < 10; ++i) {
     rig.run(0.18);
     CHECK(knot(master, 0.2, position_m += 0.0001, 0.0005) == Refusal::none);
@@ -254,7 +255,7 @@ TEST(TrajectoryOverCan, KnotsRenewThePlaybackAndItRestsASecondAfterTheLastKnot) 
   CHECK(rig.state() == State::active);
   renew(1.0);
   CHECK(state() == PlaybackState::dry);
-  LONGS_EQUAL(5, told(master).playback);
+  LONGS_EQUAL(5, newest_state(master).playback);
   CHECK(rig.state() == State::active);
   for (int i = 0; i < 20 && rig.state() == State::active; ++i) {
     rig.bus.deliver(master.frame(Verb::renew));
@@ -267,7 +268,7 @@ TEST(TrajectoryOverCan, KnotsRenewThePlaybackAndItRestsASecondAfterTheLastKnot) 
 
 TEST(TrajectoryOverCan, AnotherCommandDiscardsIt) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
   renew(0.5);
   CHECK(rig.command(master, Verb::position, 0.0052F) == Refusal::none);
   rig.tick();
@@ -275,7 +276,7 @@ TEST(TrajectoryOverCan, AnotherCommandDiscardsIt) {
   DOUBLES_EQUAL(0.0052, reference_m(), 1e-8);
   renew(12.0);
   DOUBLES_EQUAL(0.0052, rig.loop.channel(0).snapshot().model_m, 2e-5);
-  CHECK(ask(second, play_frame(second, ask_only, 0, 0.0)) == Refusal::none);
+  CHECK(answer_to(second, play_frame(second, query_only, 0, 0.0)) == Refusal::none);
   load(second);
   CHECK(rig.command(second, Verb::rest) == Refusal::none);
   CHECK(state(1) == PlaybackState::empty);
@@ -284,15 +285,15 @@ TEST(TrajectoryOverCan, AnotherCommandDiscardsIt) {
 
 TEST(TrajectoryOverCan, NeedsTheLeaseTheSessionAndTheCounter) {
   const hal::CanFrame first = knot_frame(master, 0.0, 0.005);
-  CHECK(ask(master, first) == Refusal::none);
-  CHECK(ask(master, first) == Refusal::wrong_counter);
+  CHECK(answer_to(master, first) == Refusal::none);
+  CHECK(answer_to(master, first) == Refusal::wrong_counter);
   Master other = master;
   other.session = static_cast<std::uint16_t>(master.session + 1);
   // Its session enters the checksum alone, so to the board the frame is damaged.
-  CHECK(ask(other, knot_frame(other, 1.0, 0.005)) == Refusal::no_such_channel);
-  CHECK(ask(other, play_frame(other, start_at_once, 0, 0.1)) == Refusal::not_lease_holder);
+  CHECK(answer_to(other, knot_frame(other, 1.0, 0.005)) == Refusal::no_such_channel);
+  CHECK(answer_to(other, play_frame(other, start_at_once, 0, 0.1)) == Refusal::not_lease_holder);
   CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::release_value) == Refusal::none);
-  CHECK(ask(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
+  CHECK(answer_to(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
 }
 
 TEST(TrajectoryOverCan, KnotsOfAReplacedMasterAreHarmless) {
@@ -345,7 +346,7 @@ TEST(TrajectoryOverCan, SyncAloneMovesNothing) {
   CHECK(state() == PlaybackState::empty);
   // A clock that jumps is not followed.
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_sync, 44, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 44, 0.02)) == Refusal::none);
   rig.bus.deliver(sync_frame(44, 50.0));
   renew(0.3);
   rig.bus.deliver(sync_frame(45, 90.0));
@@ -356,7 +357,7 @@ TEST(TrajectoryOverCan, SyncAloneMovesNothing) {
 
 TEST(TrajectoryOverCan, SyncDoesNotCountAsACommand) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   rig.bus.deliver(sync_frame(1, 50.0));
   renew(0.1);
   CHECK(state() == PlaybackState::playing);
@@ -379,7 +380,7 @@ TEST(TrajectoryOverCan, SyncDoesNotCountAsACommand) {
 
 TEST(TrajectoryOverCan, AStartDoesNotRenewTheCommand) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   CHECK(rig.command(master, Verb::renew) == Refusal::none);
   rig.run(0.2);
   // The master is dead by now, and another program sends the time.
@@ -390,7 +391,7 @@ TEST(TrajectoryOverCan, AStartDoesNotRenewTheCommand) {
 
 TEST(TrajectoryOverCan, AWaitingStartDoesNotApplyToTheNextTrajectory) {
   load(master);
-  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  CHECK(answer_to(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
   CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);
   load(master);
   rig.bus.deliver(sync_frame(1, 50.0));

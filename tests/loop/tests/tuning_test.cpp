@@ -39,21 +39,21 @@ hal::CanFrame read_frame(std::uint8_t place, std::uint8_t which, TuningSet set) 
 struct TuningRig : CanRig {
   using CanRig::CanRig;
   /// All zero: no answer.
-  supercoil_tuning_t ask(const hal::CanFrame& frame) {
+  supercoil_tuning_t request(const hal::CanFrame& frame) {
     last_of.erase(SUPERCOIL_TUNING_FRAME_ID);
     bus.deliver(frame);
     for (int i = 0; i < 20 && !last_of.contains(SUPERCOIL_TUNING_FRAME_ID); ++i)
       tick();
-    supercoil_tuning_t told{};
+    supercoil_tuning_t received{};
     const hal::CanFrame& answer = last_of[SUPERCOIL_TUNING_FRAME_ID];
-    supercoil_tuning_unpack(&told, answer.data.data(), answer.length);
-    return told;
+    supercoil_tuning_unpack(&received, answer.data.data(), answer.length);
+    return received;
   }
   Refusal write(Master& master, std::uint8_t place, const char* name, float value) {
-    return static_cast<Refusal>(ask(write_frame(master, place, tunable(name), value)).refusal);
+    return static_cast<Refusal>(request(write_frame(master, place, tunable(name), value)).refusal);
   }
   double read(std::uint8_t place, const char* name, TuningSet set) {
-    return static_cast<double>(ask(read_frame(place, tunable(name), set)).value);
+    return static_cast<double>(request(read_frame(place, tunable(name), set)).value);
   }
   Refusal tune(Master& master, std::uint8_t place) {
     const auto sent = telemetry::encode_command(Verb::tune, place);
@@ -95,7 +95,7 @@ TEST(TuningOverCan, PreparedValuesAreUsedAfterTune) {
   DOUBLES_EQUAL(configured, value(TuningSet::configured), 0.0);
   // The way back.
   const auto back = static_cast<float>(TuningSet::configured);
-  LONGS_EQUAL(0, rig.ask(write_frame(master, pi_place, telemetry::all_tunables, back)).refusal);
+  LONGS_EQUAL(0, rig.request(write_frame(master, pi_place, telemetry::all_tunables, back)).refusal);
   CHECK(rig.tune(master, pi_place) == Refusal::none);
   DOUBLES_EQUAL(configured, value(TuningSet::in_use), 0.0);
 }
@@ -173,7 +173,7 @@ TEST(TuningOverCan, WritingNeedsTheLeaseAndReadingDoesNot) {
   // Damage counts, and is not answered.
   hal::CanFrame damaged = write_frame(master, pi_place, tunable("kind"), 2.0F);
   damaged.data[7] ^= 1U;
-  LONGS_EQUAL(0, rig.ask(damaged).crc);
+  LONGS_EQUAL(0, rig.request(damaged).crc);
   DOUBLES_EQUAL(1.0, rig.read(pi_place, "kind", TuningSet::prepared), 0.0);
 }
 

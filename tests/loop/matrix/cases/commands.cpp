@@ -17,7 +17,7 @@ void damage(Rig& rig) {
 }
 
 /// `rest` where the channel is off, `arm` everywhere else: neither is allowed there.
-void ask_for_what_is_not_allowed(Rig& rig) {
+void send_disallowed_command(Rig& rig) {
   rig.commands_flow = false;
   every_tick(rig, [&rig] {
     const bool off = rig.state() == State::disarmed || rig.state() == State::fault;
@@ -49,7 +49,7 @@ std::vector<FaultCase> command_cases() {
        .remove = nothing_more},
       {.fault = Fault::command_not_allowed,
        .within = {0.0, 11},
-       .inject = ask_for_what_is_not_allowed,
+       .inject = send_disallowed_command,
        .remove = nothing_more},
       {.fault = Fault::controller_invalid,
        .within = {2.0},

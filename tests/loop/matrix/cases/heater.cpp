@@ -16,7 +16,7 @@ Fault first_of_stuck_on(Situation s) {
 }
 
 /// Where resistance tells the temperature, `sensors_disagree` is faster.
-void deaf_resistance(RigSettings& s) {
+void constant_resistance(RigSettings& s) {
   s.firmware.channels[Rig::tested].heater.temperature_coefficient_per_K = 0.0;
   // At 10 kHz, 40 s would take as long as all other trials of that rate.
   if (s.firmware.rate_Hz > 1e3)
@@ -59,7 +59,7 @@ std::vector<FaultCase> heater_cases() {
        .why_not = "no power, no motion to expect",
        .inject = [](Rig& r) { r.muscle().faults.slack = true; },
        .remove = [](Rig& r) { r.muscle().faults.slack = false; },
-       .tune = deaf_resistance},
+       .tune = constant_resistance},
       {.fault = Fault::duty_wrong,
        .within = {0.005},
        .inject = [](Rig& r) { r.muscle().pwm.reads_wrong = true; },

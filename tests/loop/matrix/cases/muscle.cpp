@@ -26,7 +26,7 @@ void load(Rig& rig, double load_N) {
   rig.muscle().set(settings);
 }
 
-void ask_for(Rig& rig, double times_as_much) {
+void scale_demand(Rig& rig, double times_as_much) {
   rig.scale = times_as_much;
 }
 
@@ -60,8 +60,8 @@ std::vector<FaultCase> muscle_cases() {
        .within = {3.0},
        .elsewhere = not_asked,
        .why_not = "nothing asks for more heat",
-       .inject = [](Rig& r) { ask_for(r, 2.0); },
-       .remove = [](Rig& r) { ask_for(r, 1.0); },
+       .inject = [](Rig& r) { scale_demand(r, 2.0); },
+       .remove = [](Rig& r) { scale_demand(r, 1.0); },
        .tune = hot_at_85_C},
       {.fault = Fault::over_travel,
        .within = {0.3},
@@ -71,8 +71,8 @@ std::vector<FaultCase> muscle_cases() {
        .within = {10.0},
        .elsewhere = not_asked,
        .why_not = "nothing asks for more heat",
-       .inject = [](Rig& r) { ask_for(r, 1.6); },
-       .remove = [](Rig& r) { ask_for(r, 1.0); },
+       .inject = [](Rig& r) { scale_demand(r, 1.6); },
+       .remove = [](Rig& r) { scale_demand(r, 1.0); },
        .tune = small_budget},
       {.fault = Fault::resistance_drift,
        .within = {0.05},
@@ -86,7 +86,7 @@ std::vector<FaultCase> muscle_cases() {
        .why_not = "nothing asks for power, or the controller takes the surplus back",
        .inject =
            [](Rig& r) {
-             ask_for(r, 1.4);
+             scale_demand(r, 1.4);
              resistance(r, 5.3);
            },
        .remove = [](Rig& r) { resistance(r, 10.0); },

@@ -82,7 +82,7 @@ class Commander:
     def send(self, data):
         self.bus.send(can.Message(arbitration_id=COMMAND.identifier, data=data, is_extended_id=False))
 
-    def hear(self, message, wanted=lambda values: True):
+    def receive(self, message, wanted=lambda values: True):
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end:
             frame = self.bus.recv(DEADLINE_S)
@@ -90,17 +90,17 @@ class Commander:
                 return values
         raise AssertionError(f"no such {message.name}")
 
-    def ask(self, opcode, value=0.0):
+    def request(self, opcode, value=0.0):
         self.counter = (self.counter + 1) % 16
         self.send(COMMAND.encode(counter=self.counter, opcode=OPCODES[opcode], session=self.session, value=value))
         mine = {"counter": self.counter, "opcode": OPCODES[opcode], "session": self.session}
-        answer = self.hear(ACKNOWLEDGE, lambda values: mine.items() <= values.items())
+        answer = self.receive(ACKNOWLEDGE, lambda values: mine.items() <= values.items())
         return next(name for name, number in REFUSALS.items() if number == answer["refusal"]), int(answer["granted"])
 
     def claim(self):
-        refusal, number = self.ask("lease")
+        refusal, number = self.request("lease")
         if refusal == "claim_again":
-            refusal, number = self.ask("lease", float(number))
+            refusal, number = self.request("lease", float(number))
         if refusal == "none":
             self.session = number
         return refusal
@@ -143,47 +143,47 @@ class CommanderFromDocumentation(unittest.TestCase):
         for _ in range(5):
             if self.session_of(master):
                 break
-            master.ask("disarm")
+            master.request("disarm")
         else:
             self.fail("the lease ended in each of five tries")
-        self.assertEqual(master.ask("disarm")[0], "none")
-        self.hear_state(master, "disarmed")
-        self.assertEqual(master.ask("lease", -1.0)[0], "none")
-        self.assertEqual(master.ask("arm")[0], "no_lease")
+        self.assertEqual(master.request("disarm")[0], "none")
+        self.wait_for_state(master, "disarmed")
+        self.assertEqual(master.request("lease", -1.0)[0], "none")
+        self.assertEqual(master.request("arm")[0], "no_lease")
 
     def session_of(self, master):
         """False: the lease, or a command to heat, ended before its time."""
         if master.claim() != "none":
             return False
-        self.hear_state(master, "disarmed")
+        self.wait_for_state(master, "disarmed")
         for opcode in ("arm", "calibrate"):
-            refusal, _ = master.ask(opcode, 1.0)
+            refusal, _ = master.request(opcode, 1.0)
             if refusal != "out_of_range":
                 return False
-            told = master.hear(REFUSED)
-            self.assertEqual((told["value"], told["nearest"]), (1.0, 0.0))
+            refused = master.receive(REFUSED)
+            self.assertEqual((refused["value"], refused["nearest"]), (1.0, 0.0))
         # Until it must have cooled from before.
-        if self.ask_until(master, "arm", 0.0, {"not_ready"}, lambda refusal: refusal == "none"):
+        if self.request_until(master, "arm", 0.0, {"not_ready"}, lambda refusal: refusal == "none"):
             def there(_):
-                return abs(master.hear(MEASUREMENT)["position_m"] - 0.005) < 2e-4
+                return abs(master.receive(MEASUREMENT)["position_m"] - 0.005) < 2e-4
 
-            return self.ask_until(master, "position", 0.005, {"none", "busy"}, there) and master.ask("rest")[0] == "none"
+            return self.request_until(master, "position", 0.005, {"none", "busy"}, there) and master.request("rest")[0] == "none"
         return False
 
-    def ask_until(self, master, opcode, value, bearable, done):
+    def request_until(self, master, opcode, value, bearable, done):
         """Repeats about every 10 ms; False when it was refused for a reason that is not bearable."""
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end:
-            refusal, _ = master.ask(opcode, value)
+            refusal, _ = master.request(opcode, value)
             if done(refusal):
                 return True
             if refusal not in bearable:
                 return False
-            master.hear(MEASUREMENT)
+            master.receive(MEASUREMENT)
         self.fail(f"{opcode} did not come to its end")
 
-    def hear_state(self, master, name):
-        master.hear(STATUS, lambda values: values["state"] == STATES[name])
+    def wait_for_state(self, master, name):
+        master.receive(STATUS, lambda values: values["state"] == STATES[name])
 
 
 if __name__ == "__main__":

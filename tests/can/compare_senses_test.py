@@ -46,11 +46,11 @@ class CompareSenses(unittest.TestCase):
         self.fail(f"the machine is too busy: {done.stderr}")
 
     def sense_gains(self):
-        told = {}
+        settings = {}
         for line in self.supercoil("setting", "1", "--json").stdout.splitlines():
             setting = json.loads(line)
-            told[setting["setting"]] = setting["value"]
-        return told["supply_gain"], told["current_gain"], told["sense_error_ratio"]
+            settings[setting["setting"]] = setting["value"]
+        return settings["supply_gain"], settings["current_gain"], settings["sense_error_ratio"]
 
     def assert_nothing_changed(self):
         self.assertEqual(self.sense_gains(), (1.0, 1.0, 0.0))
@@ -105,11 +105,11 @@ class CompareSenses(unittest.TestCase):
                      self.bus], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as doctor:
                 first = [doctor.stdout.readline(), doctor.stdout.readline()]
                 doctor.send_signal(signal.SIGINT)
-                _, told = doctor.communicate(timeout=DEADLINE_S)
+                _, errors = doctor.communicate(timeout=DEADLINE_S)
             self.assertIn("Ctrl-C ends it at any time", first[0])
-            if "interrupted" in told:
+            if "interrupted" in errors:
                 break
-        self.assertIn("interrupted", told)
+        self.assertIn("interrupted", errors)
         self.assertEqual(doctor.returncode, 1)
         self.assert_nothing_changed()
 

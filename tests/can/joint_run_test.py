@@ -48,7 +48,7 @@ class TwoMuscles(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.trace, cls.frames = run(SCENARIO)
-        cls.told = [(tick, JOINT.decode(data)) for tick, identifier, data in cls.frames if identifier == JOINT.frame_id]
+        cls.joint_frames = [(tick, JOINT.decode(data)) for tick, identifier, data in cls.frames if identifier == JOINT.frame_id]
 
     def assert_shows(self, signal, value, tick):
         """The trace's value in this tick or the one before: frames wait for each other."""
@@ -60,16 +60,16 @@ class TwoMuscles(unittest.TestCase):
 
     def test_only_the_agonists_node_sends_all_parts_in_turn(self):
         self.assertEqual([tick for tick, identifier, _ in self.frames if identifier == JOINT.frame_id + 1], [])
-        self.assertAlmostEqual(len(self.told), 50 * DURATION_S, delta=1)
-        parts = [told["part"].value for _, told in self.told]
+        self.assertAlmostEqual(len(self.joint_frames), 50 * DURATION_S, delta=1)
+        parts = [joint["part"].value for _, joint in self.joint_frames]
         self.assertEqual(parts, [(parts[0] + i) % 6 for i in range(len(parts))])
 
     def test_decoded_values_match_the_trace(self):
         seen = set()
-        for tick, told in self.told:
-            self.assert_shows("angle_deg", told["angle_deg"], tick)
-            for name in told.keys() & COLUMNS.keys():
-                self.assert_shows(name, told[name], tick)
+        for tick, joint in self.joint_frames:
+            self.assert_shows("angle_deg", joint["angle_deg"], tick)
+            for name in joint.keys() & COLUMNS.keys():
+                self.assert_shows(name, joint[name], tick)
                 seen.add(name)
         self.assertEqual(seen, COLUMNS.keys())
 
@@ -77,13 +77,13 @@ class TwoMuscles(unittest.TestCase):
         newest, seen = {}, set()
         for _, identifier, data in self.frames:
             if identifier == JOINT.frame_id:
-                told = JOINT.decode(data)
+                joint = JOINT.decode(data)
                 for name, message, node, signal in (("agonist_resistance_Ohm", "Measurement", 1, "resistance_Ohm"),
                                                     ("antagonist_resistance_Ohm", "Measurement", 2, "resistance_Ohm"),
                                                     ("co_contraction_W", "Power", 2, "demanded_W")):
                     of_node = newest.get((message, node))
-                    if name in told and of_node and str(of_node[signal]) != "not_available":
-                        self.assertAlmostEqual(told[name], of_node[signal], delta=0.05)
+                    if name in joint and of_node and str(of_node[signal]) != "not_available":
+                        self.assertAlmostEqual(joint[name], of_node[signal], delta=0.05)
                         seen.add(name)
             for node in (1, 2):
                 for message in ("Measurement", "Power"):
@@ -93,20 +93,20 @@ class TwoMuscles(unittest.TestCase):
         self.assertEqual(len(seen), 3)
 
     def test_error_is_the_angle_minus_the_model_angle(self):
-        for tick, told in self.told:
-            if "error_deg" in told:
+        for tick, joint in self.joint_frames:
+            if "error_deg" in joint:
                 model_deg = [math.degrees(float(self.trace[at]["model_m"]) / LEVER_M) for at in (tick, max(0, tick - 1))]
-                self.assertLess(min(abs(told["angle_deg"] - model - told["error_deg"]) for model in model_deg), 0.001, tick)
+                self.assertLess(min(abs(joint["angle_deg"] - model - joint["error_deg"]) for model in model_deg), 0.001, tick)
 
 
 class OneMuscle(unittest.TestCase):
     def test_a_spring_joint_has_four_parts(self):
         _, frames = run(SCENARIO + 'opposed_by = "spring"\n')
-        told = [JOINT.decode(data) for _, identifier, data in frames if identifier == JOINT.frame_id]
-        self.assertAlmostEqual(len(told), 50 * DURATION_S, delta=1)
-        parts = [one["part"].value for one in told]
+        joints = [JOINT.decode(data) for _, identifier, data in frames if identifier == JOINT.frame_id]
+        self.assertAlmostEqual(len(joints), 50 * DURATION_S, delta=1)
+        parts = [one["part"].value for one in joints]
         self.assertEqual(parts, [(parts[0] + i) % 4 for i in range(len(parts))])
-        self.assertEqual({str(one["co_contraction_W"]) for one in told if "co_contraction_W" in one}, {"not_available"})
+        self.assertEqual({str(one["co_contraction_W"]) for one in joints if "co_contraction_W" in one}, {"not_available"})
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ def join(port):
     raise reason
 
 
-class Heard(typing.NamedTuple):
+class ReceivedMessage(typing.NamedTuple):
     message: str
     signals: dict
     time_s: float  # on the bus, by the board's clock
@@ -71,7 +71,7 @@ class Master:
         self.bus = join(port)
         self.name = self.session = name
         self.counter = 0
-        self.asked = 0  # commands that were made
+        self.commands_made = 0
         self.newest = {}  # signals of each message
         self.answers = []
         self.faults = []
@@ -79,14 +79,14 @@ class Master:
     def data(self, opcode, value=0.0):
         """The data of the next command."""
         self.counter = (self.counter + 1) % 16
-        self.asked += 1
+        self.commands_made += 1
         return e2e.protected(COMMAND.frame_id, COMMAND.encode(
             {"crc": 0, "counter": self.counter, "opcode": opcode, "session": self.session, "value": value}))
 
     def send(self, data):
         self.bus.send(can.Message(arbitration_id=COMMAND.frame_id, data=data, is_extended_id=False))
 
-    def hear(self):
+    def receive(self):
         """The board's next message, or None: it was somebody else's."""
         frame = self.bus.recv(DEADLINE_S)
         if frame is None:
@@ -101,32 +101,34 @@ class Master:
             self.answers.append(signals)
         if message.name == "Emergency" and signals["fault"] != "none":
             self.faults.append(signals["fault"])
-        return Heard(message.name, signals, frame.timestamp)
+        return ReceivedMessage(message.name, signals, frame.timestamp)
 
-    def hear_until(self, wanted):
+    def receive_until(self, wanted):
         """The first message that is wanted."""
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end:
-            heard = self.hear()
-            if heard and wanted(heard):
-                return heard
+            received = self.receive()
+            if received and wanted(received):
+                return received
         raise AssertionError("never heard")
 
-    def hear_next(self, message, count=1):
+    def receive_next(self, message, count=1):
         """The board sends them at known rates, so counting them is waiting by its clock."""
         for _ in range(count):
-            heard = self.hear_until(lambda heard: heard.message == message)
-        return heard
+            received = self.receive_until(lambda received: received.message == message)
+        return received
 
-    def ask(self, opcode, value=0.0):
+    def request(self, opcode, value=0.0):
         """A command's answer."""
         self.send(self.data(opcode, value))
         mine = {"opcode": opcode, "counter": self.counter, "session": self.session}
-        return self.hear_until(lambda heard: heard.message == "Acknowledge" and mine.items() <= heard.signals.items())
+        return self.receive_until(
+            lambda received: received.message == "Acknowledge" and mine.items() <= received.signals.items())
 
     def receive_setting(self, counter, name):
         mine = {"counter": counter, "setting": name, "session_low": counter and self.session & 0xFF}
-        return self.hear_until(lambda heard: heard.message == "Setting" and mine.items() <= heard.signals.items()).signals
+        return self.receive_until(
+            lambda received: received.message == "Setting" and mine.items() <= received.signals.items()).signals
 
     def write_setting(self, name, value):
         self.counter = self.counter % 15 + 1  # never 0, which is a read's
@@ -141,30 +143,30 @@ class Master:
         return self.receive_setting(0, name)
 
     def refusal(self, opcode, value=0.0):
-        return self.ask(opcode, value).signals["refusal"]
+        return self.request(opcode, value).signals["refusal"]
 
     def claim(self):
         """Claims the lease, or keeps it; why it was refused."""
-        told = self.ask("lease").signals
-        if told["refusal"] == "claim_again":
-            told = self.ask("lease", told["granted"]).signals
-        if told["refusal"] == "none":
-            self.session = told["granted"]
-        return told["refusal"]
+        answer = self.request("lease").signals
+        if answer["refusal"] == "claim_again":
+            answer = self.request("lease", answer["granted"]).signals
+        if answer["refusal"] == "none":
+            self.session = answer["granted"]
+        return answer["refusal"]
 
     def steer(self, position_m):
         """Commands a position, or does what must be done before; whether it was obeyed."""
         refusal = self.refusal("position", position_m)
         if refusal == "none":
-            self.hear_next("Measurement", 4)
+            self.receive_next("Measurement", 4)
             return True
         if refusal == "no_lease":
             self.session = self.name
             self.claim()
         else:
-            state = self.hear_next("Status").signals["state"]
+            state = self.receive_next("Status").signals["state"]
             if state in ("fault", "disarmed"):
-                self.ask("reset" if state == "fault" else "arm")
+                self.request("reset" if state == "fault" else "arm")
         return False
 
     def steer_until(self, position_m, reached):

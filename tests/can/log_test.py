@@ -64,8 +64,8 @@ class Log(unittest.TestCase):
         emergency = cantools.database.load_file(DBC).get_message_by_name("Emergency")
         data = emergency.encode({"fault": 30, "state": 3, "board_time_s": 2592000.123457})
         (self.path / "month.log").write_text(f"(2592000.125000) can0 081#{data.hex().upper()}\n")
-        told = {row["signal"]: row["value"] for row in self.rows("month.log")}
-        self.assertEqual(told["board_time_s"], "2592000.123457")
+        values = {row["signal"]: row["value"] for row in self.rows("month.log")}
+        self.assertEqual(values["board_time_s"], "2592000.123457")
         wide, = self.rows("month.log", "--message", "Emergency")
         self.assertEqual((wide["time_s"], wide["board_time_s"]), ("2592000.125000", "2592000.123457"))
 

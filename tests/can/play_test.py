@@ -41,15 +41,15 @@ class Recorder(threading.Thread):
             frame = self.bus.recv(0.1)
             node = frame.arbitration_id - TRACKING.frame_id + 1 if frame else 0
             if node in self.references:
-                told = TRACKING.decode(frame.data, decode_choices=False)["reference_m"]
-                if abs(told) < 0.5:
-                    self.references[node].append((frame.timestamp, told))
+                reference_m = TRACKING.decode(frame.data, decode_choices=False)["reference_m"]
+                if abs(reference_m) < 0.5:
+                    self.references[node].append((frame.timestamp, reference_m))
 
     def end(self):
         self.stopping = True
         self.join()
         self.bus.shutdown()
-        return {node: np.array(told) for node, told in self.references.items()}
+        return {node: np.array(references) for node, references in self.references.items()}
 
 
 def way(time_s):
@@ -110,18 +110,18 @@ class Refused(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         return done
 
-    def told(self, *arguments):
+    def error_of(self, *arguments):
         return self.program(*arguments).stderr
 
     def test_a_refused_knot_names_the_nearest_accepted_value(self):
         path = motion(self.folder, {1: 1.0})
-        self.assertIn("refused: out_of_range; 0.024 would be obeyed", self.told("play", path, "--settle", "0"))
+        self.assertIn("refused: out_of_range; 0.024 would be obeyed", self.error_of("play", path, "--settle", "0"))
 
     def test_a_refused_position_names_the_whole_range(self):
-        self.assertEqual(self.told("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
+        self.assertEqual(self.error_of("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
-        told = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
-        self.assertEqual(told["range"], "-0.01 to 0.025 are in range")
+        answer = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
+        self.assertEqual(answer["range"], "-0.01 to 0.025 are in range")
 
     def test_a_held_set_point_names_the_fault_that_ended_it(self):
         held = ("command", "1", "position", "0.02", "--for", "60")
@@ -133,7 +133,7 @@ class Refused(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout), {"command": "1 position 0.02", "answer": "refused: wrong_state", "cause": fault})
         # For a channel without a fault no cause is made up.
         self.answers |= {"position": "refused: wrong_state", "status": "1 disarmed none -\n"}
-        self.assertIn("refused: wrong_state: arm it first", self.told(*held))
+        self.assertIn("refused: wrong_state: arm it first", self.error_of(*held))
 
 
 class Files(PlayCase):
@@ -224,9 +224,9 @@ class Play(PlayCase):
         # The last play's: it ends with the references.
         ways = {}
         for node, scale in ((1, 1.0), (2, 0.5)):
-            times, told = references[node].T
+            times, references_m = references[node].T
             last = times > times[-1] - 2.9
-            ways[node] = times[last], (told[last] - 0.003) / scale
+            ways[node] = times[last], (references_m[last] - 0.003) / scale
         times, first = ways[1]
         second = np.interp(times, *ways[2])
         self.assertGreater(np.ptp(first), 0.0009)
@@ -262,15 +262,15 @@ class Play(PlayCase):
         def hide(room_once_at_rest):
             """Hides that there is room for the third, until the muscle is at rest or for good."""
             def change(identifier, data):
-                told = TRAJECTORY.decode(data, decode_choices=False) if identifier == TRAJECTORY.frame_id else None
-                if told is None or len(knots) < 2:
+                state = TRAJECTORY.decode(data, decode_choices=False) if identifier == TRAJECTORY.frame_id else None
+                if state is None or len(knots) < 2:
                     return data
-                if room_once_at_rest and told["playback"] == ENDED:
-                    if told["answers"] == TO_PLAY:  # it learns of the end only from the next knot's answer
-                        told["playback"] = PLAYING
+                if room_once_at_rest and state["playback"] == ENDED:
+                    if state["answers"] == TO_PLAY:  # it learns of the end only from the next knot's answer
+                        state["playback"] = PLAYING
                 else:
-                    told["room"] = 0
-                return e2e.protected(identifier, TRAJECTORY.encode(told))
+                    state["room"] = 0
+                return e2e.protected(identifier, TRAJECTORY.encode(state))
             return change
         dry = "node 1: ran dry: the knot after the one at 1.000 s came too late"
         for room_once_at_rest, sent in ((False, 2), (True, 3)):

@@ -192,12 +192,12 @@ class Run(unittest.TestCase):
         order = []
         for tick, message, _, raw in self.frames:
             if message == "Estimate":
-                told = {self.trace[tick - ago]["bias_deviation_W"] != "" for ago in (0, MOST_TICKS)}
-                order.append((told, raw["parameter"]))
-        for (_, before), (told, after) in zip(order, order[1:]):
-            self.assertIn(after, [(before + 1) % (14 if all_told else 8) for all_told in told])
-        for told, count in ((False, 8), (True, 14)):
-            self.assertEqual({parameter for ticks, parameter in order if ticks == {told}}, set(range(count)))
+                has_deviations = {self.trace[tick - ago]["bias_deviation_W"] != "" for ago in (0, MOST_TICKS)}
+                order.append((has_deviations, raw["parameter"]))
+        for (_, before), (has_deviations, after) in zip(order, order[1:]):
+            self.assertIn(after, [(before + 1) % (14 if complete else 8) for complete in has_deviations])
+        for has_deviations, count in ((False, 8), (True, 14)):
+            self.assertEqual({parameter for ticks, parameter in order if ticks == {has_deviations}}, set(range(count)))
 
     def test_multiplexed_values_are_the_newest(self):
         recorded, traced = set(), set()
@@ -236,8 +236,8 @@ class Run(unittest.TestCase):
         self.assertAlmostEqual(values["board_time_s"], 15.0 + self.fault_tick * TICK_S, delta=2 * TICK_S)
 
     def test_boot_sends_the_program_version_once_per_second(self):
-        told = subprocess.run([os.environ["SUPERCOIL_SIM"], "--version"], check=True, capture_output=True, text=True).stdout.strip()
-        numbers, _, commit = told.partition("+")
+        version = subprocess.run([os.environ["SUPERCOIL_SIM"], "--version"], check=True, capture_output=True, text=True).stdout.strip()
+        numbers, _, commit = version.partition("+")
         boots = [(tick, raw) for tick, message, _, raw in self.frames if message == "Boot"]
         self.assertLessEqual({after - before for (before, _), (after, _) in zip(boots, boots[1:])}, {999, 1000, 1001})
         self.assertGreaterEqual(len(boots), 12)

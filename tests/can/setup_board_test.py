@@ -43,9 +43,9 @@ class SetupOnABoard(SetupCase):
             self.assertRegex(done.stderr, r"muscle\.stiffness_N_per_m = 17\.84 \(the board: [\d.]+\), .*limits\.max_travel_m = 0\.025 \(the board: 0\.0\d+\)")
             self.assertIn(start, done.stderr)
         self.assertEqual(self.record.read_text(), "{}")
-        told = command("state").stdout
-        self.assertIn("node 1: armed, rest", told)
-        self.assertNotIn("last identification or calibration", told)  # it was given nothing to do
+        output = command("state").stdout
+        self.assertIn("node 1: armed, rest", output)
+        self.assertNotIn("last identification or calibration", output)  # it was given nothing to do
 
     def test_steps_missing_on_the_board_count_as_undone(self):
         self.describe()
@@ -65,14 +65,14 @@ class SetupOnABoard(SetupCase):
         done = self.patiently(lambda: self.setup_program(*bus))
         self.assertEqual(done.stdout, "every step is done; name one to do it again\n")
         remember(identify={**described, "stiffness_N_per_m": 1.001 * described["stiffness_N_per_m"]})
-        told = self.interrupted_at("identify: heats", *bus)
-        self.assertEqual(len(told), 2, told)
-        self.assertRegex(told[0], r"^  identify and all later steps must be repeated: the board uses stiffness_N_per_m = 17\.84, "
+        lines = self.interrupted_at("identify: heats", *bus)
+        self.assertEqual(len(lines), 2, lines)
+        self.assertRegex(lines[0], r"^  identify and all later steps must be repeated: the board uses stiffness_N_per_m = 17\.84, "
                          r"and \S+board\.toml\.setup\.json has 17\.858: it is another board or muscle")
         remember(calibrate={"position_offset_m": 0.0002, "cold_resistance_Ohm": 10.0})
-        told = self.interrupted_at("calibrate: takes", *bus)
-        self.assertIn("calibrate and all later steps must be repeated: the board uses position_offset_m = 0, ", told[0])
-        self.assertEqual(len(told), 2, told)  # neither describe nor senses again
+        lines = self.interrupted_at("calibrate: takes", *bus)
+        self.assertIn("calibrate and all later steps must be repeated: the board uses position_offset_m = 0, ", lines[0])
+        self.assertEqual(len(lines), 2, lines)  # neither describe nor senses again
         self.assertIn("identify", json.loads(self.record.read_text())["channel-1"])  # the other board may come back
         done = self.setup_program("--socket", self.path / "none")
         self.assertEqual(done.returncode, 1)
@@ -80,17 +80,17 @@ class SetupOnABoard(SetupCase):
 
     def interrupted_at(self, line, *arguments):
         """The lines up to one that begins with `line`; then ends the program."""
-        told = []
+        lines = []
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, *arguments], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
             for text in program.stdout:
-                told.append(text)
+                lines.append(text)
                 if text.startswith(line):
                     break
             program.send_signal(signal.SIGINT)
             _, error = program.communicate(timeout=DEADLINE_S)
-        self.assertTrue(told and told[-1].startswith(line), f"{told} {error}")
-        return told
+        self.assertTrue(lines and lines[-1].startswith(line), f"{lines} {error}")
+        return lines
 
     def test_continues_after_completed_steps_and_interruptions(self):
         self.describe()
@@ -121,12 +121,12 @@ class SetupOnABoard(SetupCase):
         bus = f"socketcand:{simulator.port}"
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
-            told = [program.stdout.readline() for _ in range(5)]
-            self.assertTrue(told[0].startswith("scale: takes"))
-            self.assertIn(f"skipped; supercoil setup scale --config {self.board} --can {bus} does it", told[1])
-            self.assertTrue(told[2].startswith("limits: finds"))
-            self.assertIn(f"skipped; supercoil setup limits --config {self.board} --can {bus} does it", told[3])
-            self.assertTrue(told[4].startswith("identify: heats"))
+            lines = [program.stdout.readline() for _ in range(5)]
+            self.assertTrue(lines[0].startswith("scale: takes"))
+            self.assertIn(f"skipped; supercoil setup scale --config {self.board} --can {bus} does it", lines[1])
+            self.assertTrue(lines[2].startswith("limits: finds"))
+            self.assertIn(f"skipped; supercoil setup limits --config {self.board} --can {bus} does it", lines[3])
+            self.assertTrue(lines[4].startswith("identify: heats"))
             time.sleep(0.5)
             program.send_signal(signal.SIGINT)
             _, error = program.communicate(timeout=DEADLINE_S)
@@ -155,14 +155,14 @@ class SetupOnABoard(SetupCase):
             time.sleep(1.0)
             heats.kill()
         until("FAULT command_timeout")
-        told = f"fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil command 1 reset {' '.join(bus)}\n"
+        fault_text = f"fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil command 1 reset {' '.join(bus)}\n"
         done = self.setup_program("calibrate", *bus, stdin=subprocess.DEVNULL)
-        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {told}"))
+        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {fault_text}"))
         self.assertIn("FAULT command_timeout", command("state").stdout)
         done = self.setup_program("calibrate", *bus, *self.script(), stdin=subprocess.DEVNULL)
-        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {told}"))
+        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {fault_text}"))
         done = self.patiently(lambda: self.setup_program("calibrate", *bus, *self.script(reset_fault=1), stdin=subprocess.DEVNULL))
-        self.assertIn(f"  channel 1: {told}", done.stdout)
+        self.assertIn(f"  channel 1: {fault_text}", done.stdout)
         self.assertIn("  1: its cause is gone, reset the fault; 0: leave it: 1\n", done.stdout)
 
     def test_on_a_terminal_an_interruption_has_its_own_line(self):
@@ -184,13 +184,13 @@ class SetupOnABoard(SetupCase):
                         terminal.until(shown)
                     except AssertionError:
                         # This tests what is shown, not whether a busy machine renews in time.
-                        if not any(why in terminal.told for why in (*STARVED, "command_timeout")):
+                        if not any(why in terminal.output for why in (*STARVED, "command_timeout")):
                             raise
                         continue
                     terminal.type("\x03")
                     terminal.ended()
-                    return terminal.told
-            raise AssertionError(terminal.told)
+                    return terminal.output
+            raise AssertionError(terminal.output)
 
         config = ("--config", self.board)
         self.assertRegex(interrupted(r"volts at the supply terminals \S+ to \S+: $", "senses", *config),
@@ -198,10 +198,10 @@ class SetupOnABoard(SetupCase):
         self.assertRegex(interrupted("channel 1 gets .* W", "senses", *config), r"\n\^C\r\nsupercoil: senses: interrupted\r\n$")
         for shown in (r"identify: \d+ %", "takes about .*\n"):  # with progress, and before it
             self.assertRegex(interrupted(shown, "identify", *config), r"\^C\r\n(\r\x1b\[K)?supercoil: identify: interrupted\r\n$")
-        told = interrupted(r"1 identify: \d+ %", "1", "identify", "--hold", program="command")
-        self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?supercoil: 1 identify ended: interrupted, by Ctrl-C\r\n$")
-        told = interrupted("1 position 0.001:", "1", "position", "0.001", "--hold", program="command")
-        self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?$")
+        output = interrupted(r"1 identify: \d+ %", "1", "identify", "--hold", program="command")
+        self.assertRegex(output, r"\^C\r\n(\r\x1b\[K)?supercoil: 1 identify ended: interrupted, by Ctrl-C\r\n$")
+        output = interrupted("1 position 0.001:", "1", "position", "0.001", "--hold", program="command")
+        self.assertRegex(output, r"\^C\r\n(\r\x1b\[K)?$")
 
     def test_the_recommended_controller_is_applied_on_confirmation(self):
         self.describe()
@@ -212,22 +212,22 @@ class SetupOnABoard(SetupCase):
         def bandwidth(*change):
             done = self.patiently(lambda: subprocess.run([SUPERCOIL, "tune", "1", *change, "--json", *bus], capture_output=True,
                                                          text=True, timeout=DEADLINE_S))
-            told = json.loads(done.stdout)["controllers"][0]["bandwidth_rad_per_s"]
-            return round(told["in_use"], 2), round(told["stored"], 2)
+            bandwidths = json.loads(done.stdout)["controllers"][0]["bandwidth_rad_per_s"]
+            return round(bandwidths["in_use"], 2), round(bandwidths["stored"], 2)
 
-        def gains(told, *arguments, **options):
+        def gains(expected, *arguments, **options):
             done = self.patiently(lambda: self.setup_program("gains", *bus, *arguments, **options))
-            self.assertIn(told, done.stdout)
+            self.assertIn(expected, done.stdout)
             return done.stdout
 
         slow = ("bandwidth_rad_per_s=3", "--store")
         self.assertEqual(bandwidth(*slow), (3.0, 3.0))
-        told = gains("kept as it is", stdin=subprocess.DEVNULL)
-        self.assertRegex(told, r"in use: controller 0, learned_ff: bandwidth_rad_per_s = 3, .*reference_model = poles, model_pole_1_rad_per_s = 3\.\d+, ")
-        self.assertRegex(told, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 3 rad/s; promises at most \d+")
-        self.assertRegex(told, r"recommended for this muscle: .*bandwidth_rad_per_s = 7\.8\d+ }: .*, 1\.88 s, in units of")
-        self.assertRegex(told, r"with reference_model = \{ kind = \"poles\", poles_rad_per_s = \[\d\.\d+, .*falls from 90 to 10 % in 4\.\d+ s by itself")
-        self.assertIn("keep the one in use (0 to 1) [1]: ", told)
+        output = gains("kept as it is", stdin=subprocess.DEVNULL)
+        self.assertRegex(output, r"in use: controller 0, learned_ff: bandwidth_rad_per_s = 3, .*reference_model = poles, model_pole_1_rad_per_s = 3\.\d+, ")
+        self.assertRegex(output, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 3 rad/s; promises at most \d+")
+        self.assertRegex(output, r"recommended for this muscle: .*bandwidth_rad_per_s = 7\.8\d+ }: .*, 1\.88 s, in units of")
+        self.assertRegex(output, r"with reference_model = \{ kind = \"poles\", poles_rad_per_s = \[\d\.\d+, .*falls from 90 to 10 % in 4\.\d+ s by itself")
+        self.assertIn("keep the one in use (0 to 1) [1]: ", output)
         gains("kept as it is", *self.script(take_gains=0))
         self.assertEqual(bandwidth(), (3.0, 3.0))
         gains("taken over, and stored", *self.script())
@@ -254,15 +254,15 @@ class SetupOnABoard(SetupCase):
                     position = re.search(r"([\d.]+) mm at [\d.]+ W", line)
                     if position and float(position[1]) > 4.0:
                         break
-                told, error = program.communicate("1\n", timeout=DEADLINE_S)
-            return program.returncode, told, error
+                output, error = program.communicate("1\n", timeout=DEADLINE_S)
+            return program.returncode, output, error
 
         for _ in range(TRIES):
-            status, told, error = answer_at_4_mm()
+            status, output, error = answer_at_4_mm()
             if not any(why in error for why in STARVED):
                 break
         self.assertEqual(status, 0, error)
-        limit = re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)
+        limit = re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", output)
         self.assertGreater(float(limit[1]), 3.5)
         written = f"max_travel_m = {1e-3 * float(limit[1]):.4g}"
         self.assertIn(written, self.board.read_text())
@@ -285,10 +285,10 @@ class SetupOnABoard(SetupCase):
             subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
             return self.setup_program(*script, *bus, stdin=subprocess.DEVNULL)
 
-        told = self.patiently(unattended, RESTART).stdout
-        self.assertIn(f"skipped; supercoil setup scale --config {self.board} {' '.join(bus)} does it", told)
-        self.assertIn("lets go where the script says", told)
-        limit = float(re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)[1])
+        output = self.patiently(unattended, RESTART).stdout
+        self.assertIn(f"skipped; supercoil setup scale --config {self.board} {' '.join(bus)} does it", output)
+        self.assertIn("lets go where the script says", output)
+        limit = float(re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", output)[1])
         self.assertTrue(3.4 < limit < 4.5, limit)
         self.assertIn(f"max_travel_m = {1e-3 * limit:.4g}", self.board.read_text())
         record = json.loads(self.record.read_text())["channel-1"]
@@ -309,13 +309,13 @@ class SetupOnABoard(SetupCase):
         done = self.setup_program("describe", "--channel", "1", *script)
         self.assertIn("Hang weights at the lever, 16 mm from the axis", done.stdout)
         self.board.write_text(self.example)
-        for step, channel, told in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
+        for step, channel, expected in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
                                     ("scale", "1", "channel 1 turns a joint: the file's m_per_count and lever_m are its scale"),
                                     ("move", "1", "start the board with")):
             done = self.setup_program(step, "--channel", channel, "--socket", self.path / "none")
             self.assertEqual(done.returncode, 1)
             self.assertIn(f"{step}: ", done.stderr)
-            self.assertIn(told, done.stderr)
+            self.assertIn(expected, done.stderr)
         record = json.loads(self.record.read_text())
         self.record.write_text(json.dumps(record | {"channel-2": record["channel-2"] | {"identify": {}}}))
         done = self.setup_program("--channel", "2", "--socket", self.path / "none")
@@ -349,8 +349,8 @@ class SetupOnABoard(SetupCase):
                     break
             return done
 
-        told = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\); -30\.\d+deg to \1 are in range\n", positioned("80deg").stderr)
-        self.assertEqual(positioned(told[1]).returncode, 0)  # to the digit
+        refusal = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\); -30\.\d+deg to \1 are in range\n", positioned("80deg").stderr)
+        self.assertEqual(positioned(refusal[1]).returncode, 0)  # to the digit
 
 if __name__ == "__main__":
     unittest.main()

@@ -31,7 +31,7 @@ class Terminal:
     def __init__(self, *arguments, command="setup"):
         terminal, self.end = pty.openpty()
         self.file = terminal
-        self.told = ""
+        self.output = ""
         self.answers = 0
         self.program = subprocess.Popen([SUPERCOIL, command, *arguments], stdin=self.end, stdout=self.end, stderr=self.end,
                                         start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
@@ -50,7 +50,7 @@ class Terminal:
         """False: the other end is closed."""
         try:
             if select.select([self.file], [], [], 0.1)[0]:
-                self.told += os.read(self.file, 65536).decode()
+                self.output += os.read(self.file, 65536).decode()
             return True
         except OSError:
             return False
@@ -58,9 +58,9 @@ class Terminal:
     def until(self, text, patience_s=DEADLINE_S):
         """text: may be a regular expression."""
         end_s = time.monotonic() + patience_s
-        while not re.search(text, self.told):
+        while not re.search(text, self.output):
             if not self.read() or time.monotonic() > end_s:
-                raise AssertionError(f"no {text!r} in {self.told!r}")
+                raise AssertionError(f"no {text!r} in {self.output!r}")
 
     def type(self, text):
         os.write(self.file, text.encode())
@@ -115,9 +115,9 @@ class SetupCase(unittest.TestCase):
         path.write_text("[muscle]\n" + "".join(f"{key} = {value}\n" for key, value in answers.items()) + "\n".join(tables))
         return "--script", path
 
-    def assert_refused(self, done, *told):
+    def assert_refused(self, done, *expected):
         self.assertEqual(done.returncode, 2, done.stderr)
-        for part in told:
+        for part in expected:
             self.assertIn(part, done.stderr)
         self.assertEqual(self.board.read_text(), self.example)
         self.assertFalse(self.record.exists())

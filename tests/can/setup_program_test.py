@@ -13,15 +13,15 @@ class SetupProgram(SetupCase):
     def test_describe_completes_the_board_file_and_keeps_comments(self):
         done = self.describe()
         self.assertIn("stiffness_N_per_m = 17.84  (stretch_weight_g and stretch_mm)", done.stdout)
-        told = re.findall("^  (holds .*|may be armed .*|controller 0.*)$", done.stdout, re.M)
-        self.assertRegex(told[2], r"controller 0: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 7\.\d+ rad/s")
+        lines = re.findall("^  (holds .*|may be armed .*|controller 0.*)$", done.stdout, re.M)
+        self.assertRegex(lines[2], r"controller 0: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 7\.\d+ rad/s")
         text = self.board.read_text()
         for line in self.example.splitlines():
             self.assertIn(line, text)
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("0: learned_ff", checked.stdout)
-        for line in told:
+        for line in lines:
             self.assertIn(f" {line}\n", checked.stdout)
         self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
         self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
@@ -50,14 +50,14 @@ class SetupProgram(SetupCase):
             for text in (*typed, "11.665", "30"):  # four slips for max_W
                 terminal.answer(text)
             terminal.until(r"(?s)(11\.664\): .*){5}$")
-            self.assertIn("by a thermometer, in K; needed, as thread_g is not known (0.1 to 200): ", terminal.told)
-            self.assertEqual(terminal.told.count("'' is refused: it must be a number from 0.1 to 200"), 1)
-            self.assertEqual(terminal.told.count("no more than the supply can give it (0.001 to 11.664): "), 5)
+            self.assertIn("by a thermometer, in K; needed, as thread_g is not known (0.1 to 200): ", terminal.output)
+            self.assertEqual(terminal.output.count("'' is refused: it must be a number from 0.1 to 200"), 1)
+            self.assertEqual(terminal.output.count("no more than the supply can give it (0.001 to 11.664): "), 5)
             terminal.answer("4.5")
             terminal.until(r"no more than its sensor can read \(0\.01 to 41\): $")
             terminal.type("\x03")
             self.assertEqual(terminal.ended(), 1)
-        self.assertTrue(terminal.told.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.told[-200:])
+        self.assertTrue(terminal.output.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.output[-200:])
         self.assertEqual(self.board.read_text(), self.example)
         self.assertEqual(self.setup_program("describe", input="\n" * 11 + "25\n\n").returncode, 0)
         text = self.board.read_text()
@@ -188,8 +188,8 @@ class SetupProgram(SetupCase):
         self.assertIn("is simulated, or another machine", done.stderr)
         self.assertIn("run supercoil doctor on the board", done.stderr)
         self.setup_program(*self.script())
-        told = self.setup_program("--can", "socketcand:1")
-        self.assertEqual(re.findall(r"^(\w+): ", told.stdout, re.M)[:2], ["doctor", "senses"])
+        resumed = self.setup_program("--can", "socketcand:1")
+        self.assertEqual(re.findall(r"^(\w+): ", resumed.stdout, re.M)[:2], ["doctor", "senses"])
 
     def files(self):
         return sorted(path.name.removeprefix("board.toml") for path in self.path.glob("board.toml*"))
@@ -272,7 +272,7 @@ class SetupProgram(SetupCase):
             with Terminal("--config", self.board, "--undo") as terminal:
                 terminal.until("undo it anyway, 0: leave it")
                 terminal.type(answer + "\n")
-                self.assertEqual(terminal.ended(), 1 if left else 0, terminal.told)
+                self.assertEqual(terminal.ended(), 1 if left else 0, terminal.output)
             self.assertEqual("# by hand" in self.board.read_text(), left)
 
     def test_undo_needs_its_record(self):
@@ -288,10 +288,10 @@ class SetupProgram(SetupCase):
         self.record.write_text("{")
         done = self.setup_program("calibrate", "--json")
         self.assertEqual(done.returncode, 1)
-        told = json.loads(done.stdout)
-        self.assertEqual(told["steps"], {})
-        self.assertIn("is damaged", told["error"])
-        self.assertEqual(done.stderr, f"supercoil: {told['error']}\n")
+        result = json.loads(done.stdout)
+        self.assertEqual(result["steps"], {})
+        self.assertIn("is damaged", result["error"])
+        self.assertEqual(done.stderr, f"supercoil: {result['error']}\n")
 
 
 if __name__ == "__main__":

@@ -24,27 +24,27 @@ class Client:
 
     def __init__(self, port):
         self.socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
-        self.heard = b""
+        self.received = b""
 
     def send(self, text):
         self.socket.sendall(text if isinstance(text, bytes) else text.encode())
 
     def element(self):
         """The next one; empty: the simulator has closed."""
-        while b">" not in self.heard:
+        while b">" not in self.received:
             more = self.socket.recv(65536)
             if not more:
                 return ""
-            self.heard += more
-        element, self.heard = self.heard.split(b">", 1)
+            self.received += more
+        element, self.received = self.received.split(b">", 1)
         return element.decode("latin-1").strip("< ")
 
-    def ask(self, text):
+    def request(self, text):
         self.send(text)
         return self.element()
 
     def opened(self):
-        assert (self.element(), self.ask("< open can0 >")) == ("hi", "ok")
+        assert (self.element(), self.request("< open can0 >")) == ("hi", "ok")
         return self
 
     def skip_to(self, text):
@@ -68,7 +68,7 @@ class HostileClients(unittest.TestCase):
     def assert_goes_on(self):
         """A program that joins now hears the board, without a frame lost."""
         master = Master(self.simulator.port)
-        counters = [master.hear_next("Status").signals["counter"] for _ in range(3)]
+        counters = [master.receive_next("Status").signals["counter"] for _ in range(3)]
         master.bus.shutdown()
         self.assertEqual([(counter - counters[0]) % 256 for counter in counters], [0, 1, 2])
 
@@ -83,7 +83,7 @@ class HostileClients(unittest.TestCase):
         client = self.client().opened()
         client.send("< ec")
         self.assert_goes_on()
-        self.assertEqual(client.ask("ho halves >"), "echo halves")
+        self.assertEqual(client.request("ho halves >"), "echo halves")
 
     def test_a_client_may_disconnect_within_an_element(self):
         client = self.client().opened()
@@ -95,15 +95,15 @@ class HostileClients(unittest.TestCase):
         client = self.client().opened()
         client.send(b"<" + b"x" * (1 << 20))
         self.assert_goes_on()
-        self.assertEqual(client.ask("< echo still here >"), "echo still here")
+        self.assertEqual(client.request("< echo still here >"), "echo still here")
 
     def test_only_classical_standard_frames_are_accepted(self):
         client = self.client().opened()
         listener = self.client().opened()
-        self.assertEqual(listener.ask("< rawmode >"), "ok")
+        self.assertEqual(listener.request("< rawmode >"), "ok")
         for text in ("< send 00000201 1 0 >", "< send 1FFFFFFF 0 >", "< send 800 0 >", "< send 123 9 1 1 1 1 1 1 1 1 1 >",
                      "< send 123 2 1 >", "< send 123 1 100 >", "< add 0 0 123 1 0 >"):
-            self.assertIn("error unknown command", client.ask(text), text)
+            self.assertIn("error unknown command", client.request(text), text)
         client.send("< send 7FE 1 5A >")
         element = ""
         while not element.startswith("frame 7FE"):
@@ -114,14 +114,14 @@ class HostileClients(unittest.TestCase):
     def test_a_bus_must_be_opened_by_its_name(self):
         client = self.client()
         self.assertEqual(client.element(), "hi")
-        self.assertEqual(client.ask("< rawmode >"), "error open a bus first")
-        self.assertEqual(client.ask("< send 123 0 >"), "error open a bus first")
-        self.assertEqual(client.ask("< open can1 >"), "error could not open bus: there is can0")
+        self.assertEqual(client.request("< rawmode >"), "error open a bus first")
+        self.assertEqual(client.request("< send 123 0 >"), "error open a bus first")
+        self.assertEqual(client.request("< open can1 >"), "error could not open bus: there is can0")
 
     def test_a_client_that_never_reads_is_disconnected(self):
         deaf, listener, loud = (self.client().opened() for _ in range(3))
         for client in (deaf, listener):
-            self.assertEqual(client.ask("< rawmode >"), "ok")
+            self.assertEqual(client.request("< rawmode >"), "ok")
         statuses, ended = [], threading.Event()
 
         def listen():
@@ -134,16 +134,16 @@ class HostileClients(unittest.TestCase):
         # This is more than the kernel holds for a connection and the simulator's mebibyte.
         for _ in range(100):
             loud.send(FLOOD)
-        self.assertEqual(loud.ask("< echo done >"), "echo done")
-        heard, more, end = 0, b"some", time.monotonic() + DEADLINE_S / 4
+        self.assertEqual(loud.request("< echo done >"), "echo done")
+        received_bytes, more, end = 0, b"some", time.monotonic() + DEADLINE_S / 4
         with contextlib.suppress(ConnectionResetError):
             while more and time.monotonic() < end:
                 more = deaf.socket.recv(1 << 20)
-                heard += len(more)
+                received_bytes += len(more)
             self.assertEqual(more, b"", "not cut off")
         ended.set()
         listening.join()
-        self.assertGreater(heard, 1 << 16)
+        self.assertGreater(received_bytes, 1 << 16)
         self.assertGreater(len(statuses), 3)
         self.assertEqual(statuses, [(statuses[0] + i) % 256 for i in range(len(statuses))])
         self.assert_goes_on()
@@ -153,10 +153,10 @@ class HostileClients(unittest.TestCase):
         time.sleep(5.0)  # the board's time stands still, this machine's does not
         self.simulator.process.send_signal(signal.SIGCONT)
         for _ in range(5):  # it asks for the controller meanwhile, which the others on the bus hear at that time or a moment later
-            told = subprocess.run([os.environ["SUPERCOIL"], "command", "state", "--can", f"socketcand:{self.simulator.port}"],
+            state = subprocess.run([os.environ["SUPERCOIL"], "command", "state", "--can", f"socketcand:{self.simulator.port}"],
                                   capture_output=True, text=True, timeout=DEADLINE_S)
-            self.assertRegex(told.stdout, r"node 1: disarmed, rest, \w+ \(controller 0\), off; at most")
-            self.assertRegex(told.stdout, r"position +-?\d")
+            self.assertRegex(state.stdout, r"node 1: disarmed, rest, \w+ \(controller 0\), off; at most")
+            self.assertRegex(state.stdout, r"position +-?\d")
 
     def test_the_number_of_clients_is_limited(self):
         clients = [self.client() for _ in range(40)]

@@ -41,14 +41,14 @@ class OnTheBus(unittest.TestCase):
         self.addCleanup(master.bus.shutdown)
         return master
 
-    def while_leased(self, ask):
-        """What ask() returns while the master has the lease; that may end when this program is starved for a second."""
+    def while_leased(self, request):
+        """What request() returns while the master has the lease; that may end when this program is starved for a second."""
         for _ in range(TRIES):
             self.master.claim()
             session = self.master.session
-            told = ask()
+            answer = request()
             if self.master.claim() == "none" and self.master.session == session:
-                return told
+                return answer
         self.fail("no lease lasted")
 
     def assert_nothing_but_starved(self):
@@ -73,17 +73,17 @@ class OnTheBus(unittest.TestCase):
             if done.returncode == 0:
                 break
             # Starved: its command expired.
-            self.master.hear_next("Status")
+            self.master.receive_next("Status")
             self.assert_nothing_but_starved()
             self.master.steer_until(0.0, lambda m: True)
-            self.master.ask("disarm")
-            self.master.ask("lease", -1.0)
+            self.master.request("disarm")
+            self.master.request("lease", -1.0)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         lines = done.stdout.splitlines()
         self.assertEqual(len(lines), 10)
         self.assertRegex(lines[-1], r"^0\.00(49\d*|5(0\d*)?) m, \d+(\.\d+)? °C at most$")
-        self.master.hear_until(lambda heard: heard.message == "Status" and not heard.signals["leased"]
-                               and heard.signals["state"] == "disarmed")
+        self.master.receive_until(lambda received: received.message == "Status" and not received.signals["leased"]
+                                  and received.signals["state"] == "disarmed")
 
 
 class Commanded(OnTheBus):
@@ -100,47 +100,47 @@ class Commanded(OnTheBus):
         obeyed = None
         while obeyed is None or obeyed.signals["refusal"] != "none":
             self.master.steer_until(TARGET_M, lambda m: True)
-            obeyed = self.master.ask("position", TARGET_M)
-        expired = self.master.hear_until(lambda heard: heard.message == "Emergency")
+            obeyed = self.master.request("position", TARGET_M)
+        expired = self.master.receive_until(lambda received: received.message == "Emergency")
         self.assertEqual((expired.signals["fault"], expired.signals["state"]), ("command_timeout", "fault"))
         self.assertAlmostEqual(expired.time_s - obeyed.time_s, 0.25, delta=0.02)
-        self.assertEqual(self.master.hear_next("Power", 2).signals["applied_W"], 0.0)
-        self.assertEqual(self.master.hear_next("Heater", 2).signals["duty"], 0.0)
+        self.assertEqual(self.master.receive_next("Power", 2).signals["applied_W"], 0.0)
+        self.assertEqual(self.master.receive_next("Heater", 2).signals["duty"], 0.0)
 
     def test_a_second_master_is_refused_and_may_stop(self):
         other = self.new_master(0x4321)
         self.assertEqual(self.while_leased(lambda: other.refusal("lease")), "not_lease_holder")
         other.session = 0x5555
         self.assertEqual(self.while_leased(lambda: other.refusal("arm")), "not_lease_holder")
-        self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
+        self.assertEqual(self.master.receive_next("Status").signals["state"], "disarmed")
         self.assertEqual(self.while_leased(lambda: self.master.refusal("arm")), "none")
-        self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "armed")
+        self.assertEqual(self.master.receive_next("Status", 2).signals["state"], "armed")
         self.assertEqual(other.refusal("disarm"), "none")
-        self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "disarmed")
+        self.assertEqual(self.master.receive_next("Status", 2).signals["state"], "disarmed")
 
     def test_settings_are_readable_by_all_and_writable_under_the_lease(self):
         self.assertEqual(self.new_master(0x4321).read_setting("max_power_W")["value"], 4.5)
         self.assertEqual(self.master.write_setting("max_power_W", 2.0)["refusal"], "no_lease")
-        told = self.while_leased(lambda: self.master.write_setting("max_power_W", 2.0))
-        self.assertEqual((told["refusal"], told["value"]), ("none", 2.0))
-        told = self.while_leased(lambda: self.master.write_setting("status_Hz", 0.0))
-        self.assertEqual((told["refusal"], told["value"]), ("out_of_range", 10.0))
+        answer = self.while_leased(lambda: self.master.write_setting("max_power_W", 2.0))
+        self.assertEqual((answer["refusal"], answer["value"]), ("none", 2.0))
+        answer = self.while_leased(lambda: self.master.write_setting("status_Hz", 0.0))
+        self.assertEqual((answer["refusal"], answer["value"]), ("out_of_range", 10.0))
         self.assertEqual(self.master.read_setting("max_power_W")["value"], 2.0)
 
     def test_a_frame_of_an_earlier_session_is_refused(self):
         self.assertEqual(self.master.claim(), "none")
         earlier, old = self.master.data("arm"), self.master.session
         self.assertEqual(self.while_leased(lambda: self.master.refusal("lease")), "none")
-        self.master.ask("lease", -1.0)
+        self.master.request("lease", -1.0)
 
         def replayed():
             self.master.send(earlier)
-            return self.master.hear_until(lambda heard: heard.signals.get("opcode") == "arm").signals["refusal"]
+            return self.master.receive_until(lambda received: received.signals.get("opcode") == "arm").signals["refusal"]
         self.assertEqual(replayed(), "no_lease")
         self.master.session = self.master.name
         self.assertEqual(self.while_leased(replayed), "not_lease_holder")
         self.assertNotEqual(self.master.session, old)
-        self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
+        self.assertEqual(self.master.receive_next("Status").signals["state"], "disarmed")
 
     def test_damaged_commands_are_ignored(self):
         chance = random.Random(20261120)
@@ -151,7 +151,7 @@ class Commanded(OnTheBus):
                 damaged ^= 1 << bit
             self.master.send(damaged.to_bytes(8, "little"))
             self.end_row_of_damaged()
-        self.assertNotIn("disarm", {told["opcode"] for told in self.master.answers})
+        self.assertNotIn("disarm", {answer["opcode"] for answer in self.master.answers})
         self.assert_nothing_but_starved()
 
     def test_random_frames_do_not_disturb_control(self):
@@ -162,7 +162,7 @@ class Commanded(OnTheBus):
         foreign = [i for i in range(0x800) if i not in FROM_BOARD]  # two must never send the same identifier
         # The controller still learns when the muscle is there for the first time.
         self.master.steer_until(TARGET_M, lambda m: is_there(m) and off_track_m(m) < 1e-4)
-        answered, asked, starved = len(self.master.answers), self.master.asked, len(self.master.faults)
+        answered, made, starved = len(self.master.answers), self.master.commands_made, len(self.master.faults)
         for _ in range(50):
             for i in range(200):
                 is_command = i % 40 == 0
@@ -173,9 +173,9 @@ class Commanded(OnTheBus):
             if len(self.master.faults) == starved:
                 self.assertLess(off_track_m(self.master), 2e-4, self.master.newest)
         self.assert_nothing_but_starved()
-        obeyed = [told for told in self.master.answers[answered:] if told["refusal"] == "none"]
-        self.assertLessEqual(len(obeyed), self.master.asked - asked)
-        self.assertLessEqual({told["session"] for told in obeyed}, {self.master.session, self.master.name})
+        obeyed = [answer for answer in self.master.answers[answered:] if answer["refusal"] == "none"]
+        self.assertLessEqual(len(obeyed), self.master.commands_made - made)
+        self.assertLessEqual({answer["session"] for answer in obeyed}, {self.master.session, self.master.name})
 
 
 def imported_example():
@@ -207,7 +207,7 @@ class Example(OnTheBus):
 
     def test_it_works_without_boot_frames(self):
         old = self.example_without("Boot")
-        self.master.hear_next("Boot")
+        self.master.receive_next("Boot")
         self.assert_it_moves_the_muscle(old)
 
 
@@ -216,7 +216,7 @@ class ExampleOnAJoint(OnTheBus):
 
     def test_it_works_without_joint_frames(self):
         old = self.example_without("Joint")
-        self.master.hear_next("Joint")
+        self.master.receive_next("Joint")
         self.assert_it_moves_the_muscle(old)
 
 

@@ -97,7 +97,7 @@ Commissioned commission(HeldOutBoard& board, operating::Operator& user, Steps an
     c.refused = refused;
     c.took_s = link.time_s();
     c.hottest_rise_K = link.hottest_rise_K();
-    c.untold_K = link.untold_K();
+    c.above_hot_end_K = link.above_hot_end_K();
     c.fault = link.fault();
     return c;
   };
@@ -144,8 +144,8 @@ Commissioned commission_by_script(const HeldOut& muscle) {
   script.add("senses", "supply_V", {MeterReader::supply_V});
   if (compared) script.add("senses", "current_A", reader.currents_A());
   script.add("muscle", "take_gains", {1.0});
-  Listener user(std::move(script));
-  return commission(board, user, compared ? Steps::all : Steps::without_senses);
+  Listener listener(std::move(script));
+  return commission(board, listener, compared ? Steps::all : Steps::without_senses);
 }
 
 }  // namespace supercoil::test

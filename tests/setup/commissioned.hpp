@@ -58,7 +58,7 @@ struct Commissioned {
   double identified_s = 0.0;      ///< likewise
   double took_s = 0.0;            ///< likewise, at the end
   double hottest_rise_K = 0.0;    ///< the true one
-  double untold_K = 0.0;          ///< how far the muscle was above the board's hot end
+  double above_hot_end_K = 0.0;   ///< how far the muscle was above the board's hot end
   double travel_m = 0.0;          ///< which setup promised it can hold
   Fault fault = Fault::none;
 };

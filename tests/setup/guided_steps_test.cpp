@@ -28,19 +28,19 @@ class Person final : public operating::Operator {
 
   void show(const std::string& line) override {
     std::sscanf(line.c_str(), "channel 1 gets %lf W", &power_W_);
-    told_ += line + "\n";
+    output_ += line + "\n";
   }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
-  bool interrupted() const override { return tired; }
+  bool interrupted() const override { return cancels; }
   Answer ask(const Question& question, const std::function<Done()>& meanwhile) override {
-    ++asked;
-    for (int i = 0; i < reads_looks; ++i) {
+    ++questions;
+    for (int i = 0; i < answer_delay_polls; ++i) {
       if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
       link_.wait(look_every);
     }
     if (question.key == "take_gains") {
-      if (tired) return failure("interrupted");
+      if (cancels) return failure("interrupted");
       return gains;
     }
     if (question.key == "reset_fault")
@@ -51,21 +51,21 @@ class Person final : public operating::Operator {
     return slip * power_W_ / supply_V;
   }
 
-  const std::string& told() const { return told_; }
+  const std::string& output() const { return output_; }
 
   double second_reading_ratio = 1.0;  ///< of amperes, told over shown
   double place_mm = NAN;
   double gains = NAN;   ///< 1: takes what is recommended
   double resets = NAN;  ///< 1: a fault from before
-  int reads_looks = 20;
-  int asked = 0;
-  bool tired = false;
+  int answer_delay_polls = 20;
+  int questions = 0;
+  bool cancels = false;
 
  private:
   SimulatedLink& link_;
   double power_W_ = 0.0;
   int currents_read_ = 0;
-  std::string told_;
+  std::string output_;
 };
 
 HeldOut pulled_by(double force_N) {
@@ -89,7 +89,7 @@ operating::ScriptedAnswers meter_readings(double power_W, double shown_V = suppl
 }
 
 /// As after a master that was killed while it heated.
-void leave_a_command_to_expire(HeldOutBoard& board) {
+void let_a_command_expire(HeldOutBoard& board) {
   STRCMP_EQUAL("ok", board.link().ask("1 disarm")->c_str());
   STRCMP_EQUAL("ok", operating::arm(board.link(), "1")->c_str());
   STRCMP_EQUAL("ok", board.link().ask("1 power 0.01")->c_str());
@@ -125,11 +125,11 @@ TEST(GuidedSteps, MeterReadingsNarrowThePowerBounds) {
   DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
   DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
   CHECK((*found)["error_ratio"].get<double>() < 0.06);
-  STRCMP_CONTAINS("the true power is 0.9", person.told().c_str());
+  STRCMP_CONTAINS("the true power is 0.9", person.output().c_str());
   STRCMP_CONTAINS(
       " W, each for 2.5 s and then while you answer two questions, at most 5 min each\n",
-      person.told().c_str());
-  CHECK(person.told().find("heats it with ") < person.told().find("channel 1 gets "));
+      person.output().c_str());
+  CHECK(person.output().find("heats it with ") < person.output().find("channel 1 gets "));
   STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
 }
 
@@ -137,8 +137,8 @@ TEST(GuidedSteps, AScriptGivesTheMeterReadingsAtBothPowers) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   const double power_W =
       0.8 * operating::plan_comparison("1", board.channel(), board.settings()).power_W;
-  Listener user(meter_readings(power_W));
-  const auto found = board.steps(user).compare_senses();
+  Listener listener(meter_readings(power_W));
+  const auto found = board.steps(listener).compare_senses();
   STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(power_W, (*found)["power_W"].get<double>(), 0.0);
   DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
@@ -147,25 +147,25 @@ TEST(GuidedSteps, AScriptGivesTheMeterReadingsAtBothPowers) {
 
 TEST(GuidedSteps, AnImpossibleScriptedReadingIsRefusedWithItsRange) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  const double most_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
+  const double max_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
   const auto refused = [&](const operating::ScriptedAnswers& script) {
-    Listener user(script);
-    const auto found = board.steps(user).compare_senses();
+    Listener listener(script);
+    const auto found = board.steps(listener).compare_senses();
     CHECK_FALSE(found.has_value());
     STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
     return found.error().text();
   };
-  STRCMP_CONTAINS("answers.toml: senses.power_W = ", refused(meter_readings(1.2 * most_W)).c_str());
-  const std::string most = " to " + operating::range_text({0.0, most_W}).substr(5) + " here";
-  STRCMP_CONTAINS(most.c_str(), refused(meter_readings(1.2 * most_W)).c_str());
+  STRCMP_CONTAINS("answers.toml: senses.power_W = ", refused(meter_readings(1.2 * max_W)).c_str());
+  const std::string max_text = " to " + operating::range_text({0.0, max_W}).substr(5) + " here";
+  STRCMP_CONTAINS(max_text.c_str(), refused(meter_readings(1.2 * max_W)).c_str());
   CHECK(board.link().time_s() < 20.0);  // nothing was heated
   STRCMP_CONTAINS("answers.toml: senses.supply_V = 30: must be ",
-                  refused(meter_readings(most_W, 30.0)).c_str());
+                  refused(meter_readings(max_W, 30.0)).c_str());
 }
 
 TEST(GuidedSteps, AFaultThatPreventsArmingIsReportedWithItsReset) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  leave_a_command_to_expire(board);
+  let_a_command_expire(board);
   Person person(board.link());
   for (const char* step : {"senses", "calibrate", "limits", "identify", "move"}) {
     const auto found = board.steps(person).run(step);
@@ -180,10 +180,10 @@ TEST(GuidedSteps, AFaultThatPreventsArmingIsReportedWithItsReset) {
 }
 
 TEST(GuidedSteps, AnEarlierFaultIsReportedAndResetOnConfirmation) {
-  const std::string told =
+  const std::string notice =
       "channel 1: fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: ";
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  leave_a_command_to_expire(board);
+  let_a_command_expire(board);
   Person person(board.link());
   person.resets = 0.0;
   const auto left = board.steps(person).calibrate();
@@ -192,18 +192,18 @@ TEST(GuidedSteps, AnEarlierFaultIsReportedAndResetOnConfirmation) {
   STRCMP_EQUAL("command_timeout", board.link().status("1")->fault.c_str());
   person.resets = 1.0;
   CHECK(board.steps(person).calibrate().has_value());
-  STRCMP_CONTAINS(told.c_str(), person.told().c_str());
-  LONGS_EQUAL(2, person.asked);
+  STRCMP_CONTAINS(notice.c_str(), person.output().c_str());
+  LONGS_EQUAL(2, person.questions);
   // Without a fault nothing is asked.
   CHECK(board.steps(person).calibrate().has_value());
-  LONGS_EQUAL(2, person.asked);
+  LONGS_EQUAL(2, person.questions);
   for (const double allowed : {0.0, 1.0}) {
-    leave_a_command_to_expire(board);
+    let_a_command_expire(board);
     operating::ScriptedAnswers script("answers.toml");
     script.add("muscle", "reset_fault", {allowed});
     Listener nobody(script);
     LONGS_EQUAL(allowed > 0.0, board.steps(nobody).calibrate().has_value());
-    STRCMP_CONTAINS(told.c_str(), nobody.take().c_str());
+    STRCMP_CONTAINS(notice.c_str(), nobody.take().c_str());
     static_cast<void>(board.link().ask("1 reset"));
   }
 }
@@ -214,11 +214,11 @@ TEST(GuidedSteps, AContradictoryReadingChangesNothing) {
 
 TEST(GuidedSteps, HeatingEndsAfterFiveMinutesWithoutAnAnswer) {
   CHECK(ends_with("no answer within 5 minutes",
-                  [](Person& person) { person.reads_looks = 10000; }) < 330.0);
+                  [](Person& person) { person.answer_delay_polls = 10000; }) < 330.0);
 }
 
 TEST(GuidedSteps, AnInterruptionEndsTheHeating) {
-  CHECK(ends_with("interrupted", [](Person& person) { person.tired = true; }) < 30.0);
+  CHECK(ends_with("interrupted", [](Person& person) { person.cancels = true; }) < 30.0);
 }
 
 TEST(GuidedSteps, ASecondKnownPositionGivesTheScale) {
@@ -233,18 +233,18 @@ TEST(GuidedSteps, ASecondKnownPositionGivesTheScale) {
   const auto found = steps.scale();
   STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
-  STRCMP_CONTAINS("scale of the position: ", person.told().c_str());
+  STRCMP_CONTAINS("scale of the position: ", person.output().c_str());
 }
 
 TEST(GuidedSteps, AScriptGivesTheSecondPosition) {
   HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
   operating::ScriptedAnswers script("answers.toml");
   script.add("scale", "place_mm", {1e6});
-  Listener user(script);
-  CHECK(board.steps(user).calibrate().has_value());
+  Listener listener(script);
+  CHECK(board.steps(listener).calibrate().has_value());
   board.link().wait(std::chrono::seconds(120));
   STRCMP_CONTAINS("answers.toml: scale.place_mm = 1000000: must be ",
-                  board.steps(user).scale().error().text().c_str());
+                  board.steps(listener).scale().error().text().c_str());
   const double shown_m = board.simulation().loop().channel(0).snapshot().position_m;
   script.add("scale", "place_mm", {1e3 * 1.1 * shown_m});
   Listener again(script);
@@ -284,23 +284,23 @@ TEST(GuidedSteps, TheRecommendedControllerIsAppliedStoredAndTracksAsPromised) {
     DOUBLES_EQUAL(1.0, tuned(board, "shape_reference", set), 0.0);
     DOUBLES_EQUAL(bandwidth, tuned(board, "bandwidth_rad_per_s", set), 1e-9);
     DOUBLES_EQUAL(0.0, tuned(board, "reference_model", set), 0.0);
-    for (const char* of_three :
+    for (const char* pole_key :
          {"model_pole_1_rad_per_s", "model_pole_2_rad_per_s", "model_pole_3_rad_per_s"})
-      DOUBLES_EQUAL(pole, tuned(board, of_three, set), 1e-9);
+      DOUBLES_EQUAL(pole, tuned(board, pole_key, set), 1e-9);
   }
-  STRCMP_CONTAINS("with reference_model = { kind = \"poles\"", person.told().c_str());
-  STRCMP_CONTAINS("promises no error", person.told().c_str());
-  STRCMP_CONTAINS("no parameter is off by more than", person.told().c_str());
+  STRCMP_CONTAINS("with reference_model = { kind = \"poles\"", person.output().c_str());
+  STRCMP_CONTAINS("promises no error", person.output().c_str());
+  STRCMP_CONTAINS("no parameter is off by more than", person.output().c_str());
   const double begin_s = board.link().time_s();
   const auto moved = steps.move();
   STRCMP_EQUAL("", moved ? "" : moved.error().text().c_str());
   DOUBLES_EQUAL((*found)["recommended_promised_m"].get<double>(), moved->value("promised_m", NAN),
                 1e-12);
   CHECK(moved->value("kept", false));
-  double told_s = 0.0;
-  std::sscanf(person.told().c_str() + person.told().find("moves for "), "moves for %lf s: three",
-              &told_s);
-  DOUBLES_EQUAL(board.link().time_s() - begin_s, told_s, 3.0);
+  double announced_s = 0.0;
+  std::sscanf(person.output().c_str() + person.output().find("moves for "),
+              "moves for %lf s: three", &announced_s);
+  DOUBLES_EQUAL(board.link().time_s() - begin_s, announced_s, 3.0);
 }
 
 TEST(GuidedSteps, DecliningTheRecommendedControllerChangesNothing) {
@@ -310,8 +310,8 @@ TEST(GuidedSteps, DecliningTheRecommendedControllerChangesNothing) {
   const auto found = board.steps(person).gains();
   STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   CHECK_FALSE((*found)["taken"].get<bool>());
-  STRCMP_CONTAINS("kept as it is", person.told().c_str());
-  person.tired = true;
+  STRCMP_CONTAINS("kept as it is", person.output().c_str());
+  person.cancels = true;
   STRCMP_EQUAL("interrupted", board.steps(person).gains().error().text().c_str());
   for (const TuningSet set : {TuningSet::in_use, TuningSet::stored})
     DOUBLES_EQUAL(adaptive_ff, tuned(board, "kind", set), 0.0);
@@ -323,8 +323,8 @@ TEST(GuidedSteps, NoQuestionIfTheRecommendedControllerIsInUse) {
   const auto found = board.steps(person).gains();
   STRCMP_EQUAL("", found ? "" : found.error().text().c_str());
   CHECK_FALSE((*found)["taken"].get<bool>());
-  LONGS_EQUAL(0, person.asked);
-  STRCMP_CONTAINS("it is in use already", person.told().c_str());
+  LONGS_EQUAL(0, person.questions);
+  STRCMP_CONTAINS("it is in use already", person.output().c_str());
 }
 
 TEST(GuidedSteps, AnUnsuitableRecommendedControllerIsNotOffered) {
@@ -335,7 +335,7 @@ TEST(GuidedSteps, AnUnsuitableRecommendedControllerIsNotOffered) {
   now->settings.controllers.front().arithmetic = control::Arithmetic::q8_24;
   const auto found = operating::choose_gains(board.link(), "1", *now, board.settings(), person);
   CHECK_FALSE((*found)["taken"].get<bool>());
-  LONGS_EQUAL(0, person.asked);
+  LONGS_EQUAL(0, person.questions);
   STRCMP_CONTAINS("it cannot run here: controller.arithmetic must be double or float",
-                  person.told().c_str());
+                  person.output().c_str());
 }

@@ -68,9 +68,9 @@ TEST(Identified, DeviationsMatchAMonteCarloSample) {
   const PhysicalParameters muscle;
   const std::array<double, 4> ratios{0.004, 0.01, 0.003, 0.005};
   for (const bool scaled : {false, true}) {
-    std::array<double, 4> told = ratios;
-    if (scaled) told[0] = NAN;
-    const auto by_slopes = identified_deviations(muscle, told);
+    std::array<double, 4> theta_deviations = ratios;
+    if (scaled) theta_deviations[0] = NAN;
+    const auto by_slopes = identified_deviations(muscle, theta_deviations);
     const Values by_draws = drawn(muscle, ratios, scaled);
     DOUBLES_EQUAL(1.0, by_slopes.time_constant / by_draws[4], 0.06);
     DOUBLES_EQUAL(1.0, by_slopes.gain / by_draws[5], 0.06);
@@ -88,19 +88,19 @@ TEST(Identified, ShowsValuesWithDeviationsAndTheConfiguredValues) {
   muscle.stiffness_N_per_m *= 1.1;
   Listener listener;
   const auto found = operating::report_identified(known_of(muscle), configured, listener);
-  const std::string told = listener.take();
-  STRCMP_CONTAINS("stiffness_N_per_m: 17.6 ± ", told.c_str());
-  STRCMP_CONTAINS(" % (configured: 16, +10 %)\n", told.c_str());
-  STRCMP_CONTAINS("unexplained by the linear model: 0.2 %\n", told.c_str());
-  CHECK_TRUE(told.find("theta") == std::string::npos);
+  const std::string output = listener.take();
+  STRCMP_CONTAINS("stiffness_N_per_m: 17.6 ± ", output.c_str());
+  STRCMP_CONTAINS(" % (configured: 16, +10 %)\n", output.c_str());
+  STRCMP_CONTAINS("unexplained by the linear model: 0.2 %\n", output.c_str());
+  CHECK_TRUE(output.find("theta") == std::string::npos);
   CHECK(found["stiffness_N_per_m_deviation_ratio"].get<double>() > 0.001);
   CHECK_TRUE(!found.contains("moving_mass_kg_deviation_ratio"));
   DOUBLES_EQUAL(0.01, found["theta4_deviation_ratio"].get<double>(), 0.0);
   for (const auto& [name, ratio] : named_deviations(identified_deviations(known_of(muscle))))
     DOUBLES_EQUAL(ratio, found[name].get<double>(), 0.0);
 
-  STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % (configured: 6.039, -9.09 %)\n", told.c_str());
-  STRCMP_CONTAINS("time constant: 1.82 s ± ", told.c_str());
+  STRCMP_CONTAINS("gain: 5.49 mm/W ± 1 % (configured: 6.039, -9.09 %)\n", output.c_str());
+  STRCMP_CONTAINS("time constant: 1.82 s ± ", output.c_str());
 
   KnownMuscle kept = known_of(muscle);
   kept[known_theta1_deviation] = NAN;
@@ -115,10 +115,10 @@ TEST(Identified, ShowsValuesWithDeviationsAndTheConfiguredValues) {
   for (std::size_t i = 0; i < 4; ++i)
     known[known_theta1_deviation + i] = NAN;
   const auto later = operating::report_identified(known, configured, listener);
-  const std::string told_later = listener.take();
-  STRCMP_CONTAINS("stiffness_N_per_m: 17.6 (configured: 16, +10 %)\n", told_later.c_str());
-  STRCMP_CONTAINS("gain: 5.49 mm/W (configured: ", told_later.c_str());
-  CHECK_TRUE(told_later.find("theta1") == std::string::npos);
+  const std::string output_later = listener.take();
+  STRCMP_CONTAINS("stiffness_N_per_m: 17.6 (configured: 16, +10 %)\n", output_later.c_str());
+  STRCMP_CONTAINS("gain: 5.49 mm/W (configured: ", output_later.c_str());
+  CHECK_TRUE(output_later.find("theta1") == std::string::npos);
   CHECK_TRUE(later["stiffness_N_per_m_deviation_ratio"].is_null());
 }
 

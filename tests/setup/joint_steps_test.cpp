@@ -90,8 +90,8 @@ TEST(JointSteps, CalibrateWaitsForTheSlowerMuscleToCool) {
     host_sim::Simulation slow_simulation{slow_scenario};
     SimulatedLink slow_link{slow_simulation, slow_scenario.rate_Hz};
     const std::string quick = slow == 0 ? "2" : "1";
-    operating::Commission of_quick{slow_link, quick, *slow_scenario.board, 1 - slow, listener};
-    const auto calibrated = of_quick.calibrate();
+    operating::Commission quick_muscle{slow_link, quick, *slow_scenario.board, 1 - slow, listener};
+    const auto calibrated = quick_muscle.calibrate();
     CHECK_TEXT(calibrated.has_value(), calibrated ? "" : calibrated.error().text().c_str());
     CHECK_COMPARE(slow_link.time_s(), >, 60.0);
   }

@@ -16,7 +16,7 @@ class Listener final : public operating::Operator {
   Listener() = default;
   explicit Listener(operating::ScriptedAnswers script) : script_(std::move(script)) {}
 
-  void show(const std::string& line) override { told_ += line + "\n"; }
+  void show(const std::string& line) override { output_ += line + "\n"; }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
@@ -27,11 +27,11 @@ class Listener final : public operating::Operator {
     return script_.next(question);
   }
   /// What was said since the last call.
-  std::string take() { return std::exchange(told_, {}); }
+  std::string take() { return std::exchange(output_, {}); }
 
  private:
   operating::ScriptedAnswers script_;
-  std::string told_;
+  std::string output_;
 };
 
 }  // namespace supercoil::test

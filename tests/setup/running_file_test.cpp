@@ -95,9 +95,9 @@ TEST(RunningFile, IgnoresLearnedValuesAndBusRounding) {
   CHECK(operating::differences(known, config.settings, 0).empty());
   // An older board reports less, so it cannot be trusted to have the file.
   known[known_max_set_point] = NAN;
-  const auto untold = operating::differences(known, config.settings, 0);
-  LONGS_EQUAL(1, untold.size());
-  STRCMP_CONTAINS("limits.max_travel_m = 0.025 (the board: none)", untold[0].c_str());
+  const auto differing = operating::differences(known, config.settings, 0);
+  LONGS_EQUAL(1, differing.size());
+  STRCMP_CONTAINS("limits.max_travel_m = 0.025 (the board: none)", differing[0].c_str());
 }
 
 TEST(RunningFile, ComparesBothMusclesOfAJoint) {

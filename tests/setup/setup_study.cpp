@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   const double error = argc > 2 ? 1e-2 * std::atof(argv[2]) : 0.5;
   const int first = argc > 3 ? std::atoi(argv[3]) : 1;
   const double slower = argc > 4 ? std::atof(argv[4]) : 1.0;
-  int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, untold = 0;
+  int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, above_hot_end = 0;
   std::printf(
       "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um standing_um ratio "
       "calibrated_s identified_s took_s rise_K untold_K\n");
@@ -31,10 +31,10 @@ int main(int argc, char** argv) {
           seed, muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
           1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m,
           1e6 * c.standing_still_m, ratio, c.calibrated_s, c.identified_s, c.took_s,
-          c.hottest_rise_K, c.untold_K, c.fault == Fault::none ? "" : name(c.fault).data(),
+          c.hottest_rise_K, c.above_hot_end_K, c.fault == Fault::none ? "" : name(c.fault).data(),
           c.refused.c_str());
       std::fflush(stdout);
-      untold += c.untold_K > 0.0 ? 1 : 0;
+      above_hot_end += c.above_hot_end_K > 0.0 ? 1 : 0;
       if (!c.refused.empty()) continue;
       ++followed;
       // A promise that a muscle standing still would keep does not count.
@@ -53,6 +53,6 @@ int main(int argc, char** argv) {
       "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time, "
       "%d both\n"
       "%d were hotter at times than their board told that they may be\n",
-      followed, muscles, kept, near, in_time, both, untold);
+      followed, muscles, kept, near, in_time, both, above_hot_end);
   return 0;
 }

@@ -75,7 +75,7 @@ class SimulatedLink : public operating::BoardLink {
     const double until_s = time_s() + 1e-3 * static_cast<double>(time.count());
     while (time_s() < until_s) {
       const host_sim::TickRecord now = simulation_.step();
-      untold_K_ = std::max(untold_K_, now.temperature_rise_K - now.hottest_K);
+      above_hot_end_K_ = std::max(above_hot_end_K_, now.temperature_rise_K - now.hottest_K);
       metered_W_ += (now.applied_power_W - metered_W_) / (meter_s * rate_Hz_);
       watch();
     }
@@ -84,7 +84,7 @@ class SimulatedLink : public operating::BoardLink {
 
   double hottest_rise_K() const { return hottest_rise_K_; }
   /// How far the muscle was above the board's hot end while it was waited for.
-  double untold_K() const { return untold_K_; }
+  double above_hot_end_K() const { return above_hot_end_K_; }
   /// What the muscle truly gets, as a meter shows it.
   double metered_W() const { return metered_W_; }
   Fault fault() const { return simulation_.loop().channel(0).snapshot().fault; }
@@ -103,7 +103,7 @@ class SimulatedLink : public operating::BoardLink {
   host_sim::Simulation& simulation_;
   double rate_Hz_;
   double hottest_rise_K_ = 0.0;
-  double untold_K_ = 0.0;
+  double above_hot_end_K_ = 0.0;
   double metered_W_ = 0.0;
 };
 

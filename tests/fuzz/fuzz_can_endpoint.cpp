@@ -25,7 +25,7 @@ class Board {
  public:
   Board() : rig_(quick_board()), model_(rig_.can.lease_s) {
     rig_.run(1.0);
-    rig_.bus.listener = [this](const hal::CanFrame& frame) { model_.answered(frame, now()); };
+    rig_.bus.listener = [this](const hal::CanFrame& frame) { model_.observe_answer(frame, now()); };
   }
 
   void take(const fuzz::Step& step) {
@@ -33,12 +33,12 @@ class Board {
     if (model_.from_holder(frame, now()))
       commanded_[static_cast<std::size_t>(LeaseModel::channel_of(frame))] = now();
     // Of the trajectory frames, only knots renew.
-    const int moved = model_.heard_trajectory(frame, now());
+    const int moved = model_.observe_trajectory(frame, now());
     if (moved >= 0 && LeaseModel::channel_of(frame, LeaseModel::knot_base) >= 0)
       commanded_[static_cast<std::size_t>(moved)] = now();
     rig_.bus.deliver(frame);
     tick();
-    model_.heard(frame, now());
+    model_.observe(frame, now());
     for (int i = 0; i < step.wait; ++i)
       tick();
   }

@@ -41,7 +41,7 @@ class Page {
   }
 
   /// The first bytes of the answer.
-  std::string ask(std::string_view request) const {
+  std::string request_page(std::string_view request) const {
     const int file = connected();
     ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
     ::shutdown(file, SHUT_WR);
@@ -109,7 +109,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   // A stream has no end.
   if (input.find("stream") != std::string_view::npos) return 0;
-  const std::string answer = page.ask(input);
+  const std::string answer = page.request_page(input);
   fuzz::require(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is one of HTTP");
   const bool has_token = input.find(std::string(32, 'a')) != std::string_view::npos;
   fuzz::require(has_token || !page.was_asked(), "nobody commands without the token");

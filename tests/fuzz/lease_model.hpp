@@ -104,14 +104,14 @@ class LeaseModel {
   const Lease& lease(int channel) const { return leases_[static_cast<std::size_t>(channel)]; }
 
   /// After each judged frame: updates the holder's counter and, if in_sequence, renews the lease.
-  void heard(const hal::CanFrame& frame, hal::Time now) {
+  void observe(const hal::CanFrame& frame, hal::Time now) {
     if (!from_holder(frame, now)) return;
     Lease& lease = leases_[static_cast<std::size_t>(channel_of(frame))];
     if (in_sequence(frame)) lease.last = now;
     lease.counter = command_in(frame).counter;
   }
   /// The same for a trajectory frame; returns the channel that it moves, -1: none.
-  int heard_trajectory(const hal::CanFrame& frame, hal::Time now) {
+  int observe_trajectory(const hal::CanFrame& frame, hal::Time now) {
     const int moved = moves(frame);
     if (moved < 0) return moved;
     Lease& lease = leases_[static_cast<std::size_t>(moved)];
@@ -123,7 +123,7 @@ class LeaseModel {
     return moved;
   }
   /// An answer of the board: it grants a lease or reports that one was released.
-  void answered(const hal::CanFrame& frame, hal::Time now) {
+  void observe_answer(const hal::CanFrame& frame, hal::Time now) {
     const int channel = frame.id - static_cast<int>(acknowledge_base) - first_node;
     if (channel < 0 || channel >= channels || frame.length != SUPERCOIL_ACKNOWLEDGE_LENGTH) return;
     require(frame.data[0] == crc_of(frame), "answers are protected");

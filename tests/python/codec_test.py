@@ -23,9 +23,9 @@ FRAMES = 200
 
 def expected(message, data):
     """Signal -> value, by cantools; NaN: not available, or not in this frame."""
-    told = message.decode(data, decode_choices=True)
+    decoded = message.decode(data, decode_choices=True)
     plain = message.decode(data, decode_choices=False)
-    return {signal.name: math.nan if signal.name not in told or str(told[signal.name]) == "not_available"
+    return {signal.name: math.nan if signal.name not in decoded or str(decoded[signal.name]) == "not_available"
             else plain[signal.name] for signal in message.signals}
 
 
@@ -91,9 +91,9 @@ class Codec(unittest.TestCase):
 
     def test_a_value_beyond_its_range_is_clipped(self):
         layout = codec.BY_NAME["Measurement"]
-        for sent, told in ((5.0, 0.8388607), (-5.0, -0.8388607), (math.nan, math.nan)):
+        for sent, expected_m in ((5.0, 0.8388607), (-5.0, -0.8388607), (math.nan, math.nan)):
             decoded = codec.decode(layout.base, codec.encode(layout, {"position_m": sent}))
-            self.assert_same(decoded.position_m, told, sent)
+            self.assert_same(decoded.position_m, expected_m, sent)
 
     def test_frames_of_wrong_length_or_identifier_are_ignored(self):
         self.assertIsNone(codec.decode(0x280, bytes(7)))

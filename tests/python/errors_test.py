@@ -42,20 +42,20 @@ class Errors(unittest.TestCase):
         self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
 
     def test_units_and_choices_match_the_board(self):
-        def told(name, *options):
+        def range_text(name, *options):
             return subprocess.run([os.environ["SUPERCOIL"], "tune", "1", f"{name}=*", "--socket", "/nowhere", *options],
                                   capture_output=True, text=True).stderr
 
         for units, choices, options in (
                 (tunables.CONTROLLER_UNITS, tunables.CONTROLLER_CHOICES, ()),
                 (tunables.ESTIMATOR_UNITS, tunables.ESTIMATOR_CHOICES, ("--estimator", "0"))):
-            self.assertIn(f"there are: {', '.join(map(str, units))}\n", told("all", *options))
+            self.assertIn(f"there are: {', '.join(map(str, units))}\n", range_text("all", *options))
             for tunable in units:
                 with self.subTest(tunable, options=options):
                     if tunable in choices:
-                        self.assertIn(f"there are: {', '.join(choices[tunable])}\n", told(tunable, *options))
+                        self.assertIn(f"there are: {', '.join(choices[tunable])}\n", range_text(tunable, *options))
                         continue
-                    lowest, highest = re.search(r"must be (\S+) to (\S+)\n", told(tunable, *options)).groups()
+                    lowest, highest = re.search(r"must be (\S+) to (\S+)\n", range_text(tunable, *options)).groups()
                     self.assertEqual((float(lowest), float(highest)), tunables.RANGES[tunable])
 
     def test_every_result_has_a_meaning(self):

@@ -50,8 +50,8 @@ class Examples(unittest.TestCase):
                          r"^at 0\.[3-7]\d mm, \d\d °C at most\nlet go\n$")
 
     def test_two_in_step(self):
-        told = self.run_example("two_in_step.py", f"{self.simulation.address},1", f"{self.simulation.address},2", 1)
-        self.assertRegex(told, r"^.*,1: off its way by 0\.\d\d mm at most\n.*,2: off its way by 0\.\d\d mm at most\n$")
+        text = self.run_example("two_in_step.py", f"{self.simulation.address},1", f"{self.simulation.address},2", 1)
+        self.assertRegex(text, r"^.*,1: off its way by 0\.\d\d mm at most\n.*,2: off its way by 0\.\d\d mm at most\n$")
 
     def test_experiment_writes_a_table_and_a_figure(self):
         (self.path / "set_points.csv").write_text("position_mm,hold_s\n0.4,0.5\n0.5,0.5\n")
@@ -72,9 +72,9 @@ class Examples(unittest.TestCase):
             return supercoil.Outcome(supercoil.Result.found, ())
         example = runpy.run_path(str(EXAMPLES / "identify_and_plot.py"))
         with mock.patch.object(sync.Muscle, "identify", learn), mock.patch.object(sync.Muscle, "calibrate", learn), \
-                mock.patch("builtins.print") as told:
+                mock.patch("builtins.print") as printed:
             example["main"](self.simulation.address, self.path / "picture.svg")
-        self.assertIn("stiffness_N_per_m            16", [call.args[0] for call in told.call_args_list])
+        self.assertIn("stiffness_N_per_m            16", [call.args[0] for call in printed.call_args_list])
         self.assertTrue((self.path / "picture.svg").exists())
 
     @patient

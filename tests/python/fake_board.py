@@ -55,14 +55,14 @@ class FakeBoard:
 
     def _take(self, frame):
         if frame.arbitration_id == messages.TUNING_WRITE | NODE:
-            told = codec.decode(messages.TUNING_WRITE, bytes(frame.data))
+            write = codec.decode(messages.TUNING_WRITE, bytes(frame.data))
             assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
-            self.tuned.append((told.tunable.name, told.value, told.session_low, told.counter))
+            self.tuned.append((write.tunable.name, write.value, write.session_low, write.counter))
             # A read's answer and another value's come first.
-            for counter, tunable, refusal in ((0, told.tunable, 9), (told.counter, 30, 9),
-                                              (told.counter, told.tunable, self.refuse_tuning)):
-                self.send(messages.TUNING, protected=True, counter=counter, place=told.place, tunable=tunable,
-                          refusal=refusal, set=0, value=told.value)
+            for counter, tunable, refusal in ((0, write.tunable, 9), (write.counter, 30, 9),
+                                              (write.counter, write.tunable, self.refuse_tuning)):
+                self.send(messages.TUNING, protected=True, counter=counter, place=write.place, tunable=tunable,
+                          refusal=refusal, set=0, value=write.value)
         if frame.arbitration_id == messages.SYNC | 1:
             assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
             self.synced.append(codec.decode(messages.SYNC, bytes(frame.data)).sync)
@@ -70,23 +70,23 @@ class FakeBoard:
             self._take_trajectory(frame)
         if frame.arbitration_id != messages.COMMAND | NODE:
             return
-        told = codec.decode(messages.COMMAND, bytes(frame.data))
+        command = codec.decode(messages.COMMAND, bytes(frame.data))
         assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
-        self.commands.append((told.opcode.name, told.value, told.session, told.counter))
-        answer = self.obey(told.opcode.name, told.value, told.session)
+        self.commands.append((command.opcode.name, command.value, command.session, command.counter))
+        answer = self.obey(command.opcode.name, command.value, command.session)
         if answer is not None:
-            self.send(messages.ACKNOWLEDGE, protected=True, counter=told.counter, opcode=told.opcode,
-                      session=told.session, refusal=answer[0], granted=answer[1])
+            self.send(messages.ACKNOWLEDGE, protected=True, counter=command.counter, opcode=command.opcode,
+                      session=command.session, refusal=answer[0], granted=answer[1])
 
     def _take_trajectory(self, frame):
         base = frame.arbitration_id & codec.BASE_MASK
-        told = codec.decode(base, bytes(frame.data))
-        session = SESSION if base == messages.KNOT else told.session
+        received = codec.decode(base, bytes(frame.data))
+        session = SESSION if base == messages.KNOT else received.session
         of_checksum = (session,) if base == messages.KNOT else ()
         assert frame.data[0] == e2e.checksum(frame.arbitration_id, bytes(frame.data), *of_checksum)
-        self.trajectory.append(told)
-        if (answer := self.playback(told)) is not None:
-            self.send(messages.TRAJECTORY, protected=True, counter=told.counter, session_low=session & 0xFF,
+        self.trajectory.append(received)
+        if (answer := self.playback(received)) is not None:
+            self.send(messages.TRAJECTORY, protected=True, counter=received.counter, session_low=session & 0xFF,
                       answers=1 if base == messages.KNOT else 2, **answer)
 
 

@@ -48,10 +48,10 @@ class Sessions(unittest.TestCase):
         board = self.board()
         with self.muscle() as muscle:
             muscle.set_position(0.01)
-        asked = [command[:2] for command in board.commands]
-        self.assertEqual(asked[:3], [("lease", 0.0), ("lease", 1234.0), ("position", asked[2][1])])
-        self.assertAlmostEqual(asked[2][1], 0.01, 8)
-        self.assertEqual(asked[-2:], [("disarm", 0.0), ("lease", -1.0)])
+        sent = [command[:2] for command in board.commands]
+        self.assertEqual(sent[:3], [("lease", 0.0), ("lease", 1234.0), ("position", sent[2][1])])
+        self.assertAlmostEqual(sent[2][1], 0.01, 8)
+        self.assertEqual(sent[-2:], [("disarm", 0.0), ("lease", -1.0)])
         self.assertEqual(board.commands[2][2], 77)
         counters = [command[3] for command in board.commands]
         self.assertEqual(counters, [(counters[0] + i) % 16 for i in range(len(counters))])
@@ -123,10 +123,11 @@ class Sessions(unittest.TestCase):
     def test_a_lost_knot_is_sent_again(self):
         board = self.board()
         self.played(board, [0, Refusal.wrong_counter])
-        knots = [told for told in board.trajectory if isinstance(told, messages.Knot)]
-        self.assertEqual([(told.after_s, told.position_m, told.velocity_m_per_s) for told in knots],
+        knots = [message for message in board.trajectory if isinstance(message, messages.Knot)]
+        self.assertEqual([(message.after_s, message.position_m, message.velocity_m_per_s) for message in knots],
                          [(0.0, 0.001, 0.0), (0.25, 0.002, 0.004), (0.25, 0.002, 0.004), (0.25, 0.003, 0.0)])
-        start, = (told for told in board.trajectory if isinstance(told, messages.Play) and told.when == When.at_sync)
+        start, = (message for message in board.trajectory
+                  if isinstance(message, messages.Play) and message.when == When.at_sync)
         self.assertEqual(board.synced[0], start.sync)
         self.assertEqual((start.session, start.after_s), (SESSION, 0.1))
         self.assertIn("rest", [command[0] for command in board.commands])
@@ -134,7 +135,7 @@ class Sessions(unittest.TestCase):
     def test_a_knot_waits_for_room_on_the_board(self):
         board = self.board()
         self.played(board, [0, Refusal.queue_full, Refusal.queue_full])
-        self.assertEqual(sum(isinstance(told, messages.Knot) for told in board.trajectory), 5)
+        self.assertEqual(sum(isinstance(message, messages.Knot) for message in board.trajectory), 5)
 
     def test_a_lost_session_ends_a_trajectory(self):
         for refusal, error in ((Refusal.no_lease, supercoil.refusals.NoLease),

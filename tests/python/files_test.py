@@ -48,9 +48,9 @@ class Files(unittest.TestCase):
         for message in ("Measurement", "Power", "Status", "Estimate", "Emergency"):
             rows = self.log("can.log", "--message", message)
             columns = [column for column in table if column.startswith(f"{message}.")]
-            told = table[columns].dropna(how="all")
-            self.assertEqual(len(told), len(rows), message)
-            for (time_s, values), row in list(zip(told.iterrows(), rows, strict=True))[::7]:
+            loaded = table[columns].dropna(how="all")
+            self.assertEqual(len(loaded), len(rows), message)
+            for (time_s, values), row in list(zip(loaded.iterrows(), rows, strict=True))[::7]:
                 self.assert_same(time_s, row["time_s"], "time_s")
                 for column in columns:
                     self.assert_same(values[column], row[column.partition(".")[2]], column)
@@ -110,8 +110,8 @@ class Files(unittest.TestCase):
         table = supercoil.load(self.path / "joint" / "trace.csv")
         lever = supercoil.LeverTable(-30.0, 30.0, (0.012, 0.015, 0.011))
         for angle, position in (("joint_angle_deg", "position_m"), ("joint_reference_deg", "model_m")):
-            for told_deg, told_m in zip(table[angle], table[position], strict=True):
-                self.assertAlmostEqual(told_deg, math.degrees(lever.angle_rad(told_m)), 9)
+            for angle_deg, position_m in zip(table[angle], table[position], strict=True):
+                self.assertAlmostEqual(angle_deg, math.degrees(lever.angle_rad(position_m)), 9)
             self.assertGreater(table[angle].max(), 1.0)
             self.assertEqual(table.attrs["units"][angle], "deg")
         self.assertNotIn("joint_angle_deg", supercoil.load(self.path / "trace.csv").columns)

@@ -75,15 +75,15 @@ class Hang(unittest.TestCase):
             process.send_signal(signal.SIGSTOP)
             self.observe(lambda m: m.state == State.fault)
             self.observe(lambda _: any(recording.of(messages.FirstCause)))
-        expired, = [told for told in recording.of(messages.Emergency) if told.fault != supercoil.Fault.none]
+        expired, = [message for message in recording.of(messages.Emergency) if message.fault != supercoil.Fault.none]
         self.assertEqual(expired.fault, supercoil.Fault.command_timeout)
-        renewed = [told.time_s for told in recording.of(messages.Acknowledge) if told.opcode in RENEWING]
+        renewed = [message.time_s for message in recording.of(messages.Acknowledge) if message.opcode in RENEWING]
         # By the board's clock.
         self.assertAlmostEqual(expired.time_s - renewed[-1], 0.25, delta=0.02)
         self.assertGreater(len(renewed), 8)
-        self.assert_told_when_it_goes_on(process)
+        self.assert_raises_when_resumed(process)
 
-    def assert_told_when_it_goes_on(self, process):
+    def assert_raises_when_resumed(self, process):
         process.send_signal(signal.SIGCONT)
         self.assertIn("supercoil.generated.faults.CommandTimeout", process.communicate(timeout=DEADLINE_S)[1])
         self.assertEqual(process.returncode, 1)
@@ -91,22 +91,22 @@ class Hang(unittest.TestCase):
     @patient
     def test_a_trajectory_of_a_stopped_process_expires(self):
         with self.observer.record() as recording:
-            process = self.running(PLAYS, lambda m: (told := m.telemetry.newest(messages.Trajectory)) is not None
-                                   and told.playback == Playback.playing)
+            process = self.running(PLAYS, lambda m: (message := m.telemetry.newest(messages.Trajectory)) is not None
+                                   and message.playback == Playback.playing)
             self.observer.hold(1.0)
             process.send_signal(signal.SIGSTOP)
             self.observe(lambda m: m.state == State.fault and m.telemetry.power.applied_W == 0.0)
             self.observe(lambda m: m.telemetry.newest(messages.Trajectory).playback == Playback.empty)
-        expired = [told for told in recording.of(messages.Emergency) if told.fault != supercoil.Fault.none][-1]
+        expired = [message for message in recording.of(messages.Emergency) if message.fault != supercoil.Fault.none][-1]
         self.assertEqual(expired.fault, supercoil.Fault.command_timeout)
-        renewed = [told.time_s for told in recording.of(messages.Acknowledge) if told.opcode in RENEWING]
-        told = [told for told in recording.of(messages.Trajectory) if told.answers != Answers.nothing]
-        renewed += [one.time_s for one in told if one.answers == Answers.knot]
+        renewed = [message.time_s for message in recording.of(messages.Acknowledge) if message.opcode in RENEWING]
+        answers = [message for message in recording.of(messages.Trajectory) if message.answers != Answers.nothing]
+        renewed += [one.time_s for one in answers if one.answers == Answers.knot]
         # By the board's clock.
         self.assertAlmostEqual(expired.time_s - max(renewed), 0.25, delta=0.02)
-        self.assertEqual(told[-1].playback, Playback.playing)
-        self.assertGreater(told[-1].buffered_s, 3.0)
-        self.assert_told_when_it_goes_on(process)
+        self.assertEqual(answers[-1].playback, Playback.playing)
+        self.assertGreater(answers[-1].buffered_s, 3.0)
+        self.assert_raises_when_resumed(process)
 
 
 class Orphan(unittest.TestCase):

@@ -26,11 +26,11 @@ ANGLE_DEG = 10.0
 
 class AgainstASpring(unittest.TestCase):
     def test_a_spring_joint_has_no_other_node(self):
-        known = dict.fromkeys(joints.QUANTITIES, math.nan)
-        self.assertIsNone(joints.joint_of(3, known))
-        known[supercoil.Quantity.joint_lever_m] = 0.015
-        self.assertEqual(joints.joint_of(3, known), supercoil.Joint(0.015, None))
-        self.assertAlmostEqual(joints.joint_of(3, known).angle_deg(0.00523599), 20.0, places=4)
+        quantities = dict.fromkeys(joints.QUANTITIES, math.nan)
+        self.assertIsNone(joints.joint_of(3, quantities))
+        quantities[supercoil.Quantity.joint_lever_m] = 0.015
+        self.assertEqual(joints.joint_of(3, quantities), supercoil.Joint(0.015, None))
+        self.assertAlmostEqual(joints.joint_of(3, quantities).angle_deg(0.00523599), 20.0, places=4)
 
 
 class Parts(unittest.TestCase):
@@ -40,24 +40,24 @@ class Parts(unittest.TestCase):
         self.telemetry = supercoil.Telemetry(1)
         self.time_s = 0.0
 
-    def hear(self, part, **values):
+    def receive(self, part, **values):
         self.time_s += 1.0
         data = codec.encode(codec.LAYOUTS[messages.JOINT], {"part": part, **values})
         self.telemetry.take(messages.JOINT, self.time_s, data)
 
     def test_the_newest_frame_merges_all_parts(self):
-        self.hear(Part.motion, angle_deg=1.0, reference_deg=20.0, error_deg=math.nan)
-        self.hear(Part.antagonist_heat, angle_deg=2.0, antagonist_hottest_C=50.0, antagonist_slack=1)
-        told = self.telemetry.joint
-        self.assertEqual((told.time_s, told.part), (2.0, Part.antagonist_heat))
-        self.assertEqual((told.angle_deg, told.reference_deg), (2.0, 20.0))
-        self.assertEqual((told.antagonist_hottest_C, told.antagonist_slack, told.agonist_slack), (50.0, True, False))
-        self.assertTrue(math.isnan(told.error_deg) and math.isnan(told.agonist_hottest_C))
+        self.receive(Part.motion, angle_deg=1.0, reference_deg=20.0, error_deg=math.nan)
+        self.receive(Part.antagonist_heat, angle_deg=2.0, antagonist_hottest_C=50.0, antagonist_slack=1)
+        joint = self.telemetry.joint
+        self.assertEqual((joint.time_s, joint.part), (2.0, Part.antagonist_heat))
+        self.assertEqual((joint.angle_deg, joint.reference_deg), (2.0, 20.0))
+        self.assertEqual((joint.antagonist_hottest_C, joint.antagonist_slack, joint.agonist_slack), (50.0, True, False))
+        self.assertTrue(math.isnan(joint.error_deg) and math.isnan(joint.agonist_hottest_C))
 
     def test_a_part_replaces_its_previous_value(self):
         for reference_deg, slack in ((20.0, 1), (10.0, 0), (5.0, 1), (math.nan, 0)):
-            self.hear(Part.motion, reference_deg=reference_deg, agonist_slack=slack)
-            self.hear(Part.effort, effort_W=1.0, agonist_slack=slack)
+            self.receive(Part.motion, reference_deg=reference_deg, agonist_slack=slack)
+            self.receive(Part.effort, effort_W=1.0, agonist_slack=slack)
             np.testing.assert_equal(self.telemetry.joint.reference_deg, reference_deg)
 
 
@@ -92,15 +92,16 @@ class Joint(OnSimulatedJoint):
             right.arm()
             right.move_to(right.joint().position_m(ANGLE_DEG))
             right.hold(0.5)
-            told = right.telemetry.joint
-            self.assertAlmostEqual(told.angle_deg, right.joint().angle_deg(right.position_m), delta=0.3)
-            self.assertAlmostEqual(told.reference_deg, ANGLE_DEG, delta=0.001)
-            self.assertAlmostEqual(told.co_contraction_W, left.telemetry.power.demanded_W, delta=0.01)
-            self.assertGreater(told.agonist_applied_W, 0.0)
-            self.assertAlmostEqual(told.agonist_hottest_C, right.telemetry.temperature.hottest_C, delta=2.0)
-            self.assertAlmostEqual(told.antagonist_hottest_C, left.telemetry.temperature.hottest_C, delta=2.0)
-            self.assertAlmostEqual(told.antagonist_resistance_Ohm, left.telemetry.measurement.resistance_Ohm, delta=0.2)
-            self.assertFalse(any(math.isnan(value) for value in told))
+            joint = right.telemetry.joint
+            self.assertAlmostEqual(joint.angle_deg, right.joint().angle_deg(right.position_m), delta=0.3)
+            self.assertAlmostEqual(joint.reference_deg, ANGLE_DEG, delta=0.001)
+            self.assertAlmostEqual(joint.co_contraction_W, left.telemetry.power.demanded_W, delta=0.01)
+            self.assertGreater(joint.agonist_applied_W, 0.0)
+            self.assertAlmostEqual(joint.agonist_hottest_C, right.telemetry.temperature.hottest_C, delta=2.0)
+            self.assertAlmostEqual(joint.antagonist_hottest_C, left.telemetry.temperature.hottest_C, delta=2.0)
+            self.assertAlmostEqual(joint.antagonist_resistance_Ohm, left.telemetry.measurement.resistance_Ohm,
+                                   delta=0.2)
+            self.assertFalse(any(math.isnan(value) for value in joint))
             with self.assertRaisesRegex(supercoil.NoAnswerError, "node 2 has sent no Joint yet"):
                 _ = left.telemetry.joint
 
@@ -124,8 +125,8 @@ class JointWithLeverTable(OnSimulatedJoint):
             with self.muscle(node) as muscle:
                 joint = muscle.joint()
             self.assertAlmostEqual(joint.lever_m, way * 0.015)
-            for told, configured in zip(joint.table, LEVER_TABLE, strict=True):
-                np.testing.assert_allclose(told, configured, rtol=1e-6)
+            for reported, configured in zip(joint.table, LEVER_TABLE, strict=True):
+                np.testing.assert_allclose(reported, configured, rtol=1e-6)
             # The lever's integral, by hand: 15 mm less 4 mm per 30 degrees.
             arc_m = 0.015 * math.radians(10.0) - 0.5 * 0.004 / math.radians(30.0) * math.radians(10.0) ** 2
             self.assertAlmostEqual(joint.position_m(10.0), way * arc_m, 8)

@@ -23,12 +23,12 @@ def learn():
     with sync.Simulation(QUICK, deadline_s=30.0) as simulation:
         muscle = simulation.muscle
         muscle.arm()
-        told = muscle.calibrate()
+        outcome = muscle.calibrate()
         try:
             muscle.identify(timeout_s=0.5)
         except supercoil.NotReachedError:
-            return told, muscle.state
-        return told, None
+            return outcome, muscle.state
+        return outcome, None
 
 
 executor = concurrent.futures.ThreadPoolExecutor()
@@ -132,19 +132,19 @@ class OnOneBoard(unittest.TestCase):
             muscle.arm()
             muscle.set_position(TARGET_M)
             muscle.tune(proportional_W_per_m=1500, shape_reference=True)
-            told = muscle.tuning()
-            self.assertEqual(told["proportional_W_per_m"], (
+            tuning = muscle.tuning()
+            self.assertEqual(tuning["proportional_W_per_m"], (
                 "proportional_W_per_m", "W/m", 1500.0, 2000.0, 2000.0, 1500.0, (0.0, 1e7)))
-            self.assertEqual(told["shape_reference"][2:], (True, False, False, True, (False, True)))
-            self.assertEqual(told["reference_model"].in_use, "design")
-            self.assertNotIn("integral_W_per_m_s", told)
+            self.assertEqual(tuning["shape_reference"][2:], (True, False, False, True, (False, True)))
+            self.assertEqual(tuning["reference_model"].in_use, "design")
+            self.assertNotIn("integral_W_per_m_s", tuning)
             self.assertEqual((muscle.state, muscle.telemetry.tracking.reference_m), (State.active, TARGET_M))
             muscle.store_tuning()
             muscle.prepare(kind="pi", integral_W_per_m_s=900)
-            told = muscle.tuning()
-            self.assertEqual(told["proportional_W_per_m"].stored, 1500.0)
-            self.assertEqual(told["kind"][2:6], ("pd_ff", "pd_ff", "pd_ff", "pi"))
-            self.assertEqual(told["integral_W_per_m_s"][2:6], (None, None, None, 900.0))
+            tuning = muscle.tuning()
+            self.assertEqual(tuning["proportional_W_per_m"].stored, 1500.0)
+            self.assertEqual(tuning["kind"][2:6], ("pd_ff", "pd_ff", "pd_ff", "pi"))
+            self.assertEqual(tuning["integral_W_per_m_s"][2:6], (None, None, None, 900.0))
             muscle.take_over()
             self.assertEqual(muscle.tuning()["kind"].in_use, "pi")
             muscle.tune(base="configured")
@@ -159,10 +159,10 @@ class OnOneBoard(unittest.TestCase):
             before = muscle.tuning(estimator=0)
             self.assertEqual(before["kind"][2:], ("none",) * 4 + (("none", "gradient", "least_squares"),))
             muscle.tune(estimator=0, kind="least_squares", forgetting_s=20, trusted_error=0.1)
-            told = muscle.tuning(estimator=0)
-            self.assertEqual(told["forgetting_s"], ("forgetting_s", "s", 20.0, None, None, 20.0, (1.0, 3600.0)))
-            self.assertEqual(told["trusted_error"].in_use, 0.1)
-            self.assertNotIn("window_s", {name for name, value in told.items() if value.in_use is not None})
+            tuning = muscle.tuning(estimator=0)
+            self.assertEqual(tuning["forgetting_s"], ("forgetting_s", "s", 20.0, None, None, 20.0, (1.0, 3600.0)))
+            self.assertEqual(tuning["trusted_error"].in_use, 0.1)
+            self.assertNotIn("window_s", {name for name, value in tuning.items() if value.in_use is not None})
             muscle.tune(estimator=0, base="configured")
             self.assertEqual(muscle.tuning(estimator=0)["kind"].in_use, "none")
             for values, error, text in (
@@ -268,13 +268,13 @@ class OnOneBoard(unittest.TestCase):
     def test_calibrate_returns_its_result_and_identify_can_be_interrupted(self):
         for attempt in range(TRIES):
             try:
-                told, state = learned.result()
+                outcome, state = learned.result()
                 break
             except STARVED:
                 if attempt + 1 == TRIES:
                     raise
                 setUpModule()
-        self.assertEqual((told.result, state), (supercoil.Result.found, State.armed))
+        self.assertEqual((outcome.result, state), (supercoil.Result.found, State.armed))
 
     def test_a_board_is_discovered(self):
         found, = sync.discover(self.address)
@@ -291,9 +291,9 @@ class OnSeparateBoards(unittest.TestCase):
                 for muscle in muscles:
                     await muscle.arm()
                 for step in range(50):
-                    told = await supercoil.cycle([muscle.make_position(step * 1e-5) for muscle in muscles])
+                    measurements = await supercoil.cycle([muscle.make_position(step * 1e-5) for muscle in muscles])
                     await asyncio.sleep(0.02)
-                self.assertEqual([type(message) for message in told], [messages.Measurement] * 2)
+                self.assertEqual([type(message) for message in measurements], [messages.Measurement] * 2)
                 await asyncio.gather(*(muscle.hold(0.2) for muscle in muscles))
                 self.assertEqual([muscle.telemetry.tracking.reference_m for muscle in muscles], [0.00049] * 2)
                 with self.assertRaises(supercoil.refusals.OutOfRange):

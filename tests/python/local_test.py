@@ -124,9 +124,9 @@ class Local(unittest.TestCase):
     def test_learned_and_known_values_are_available(self):
         with self.muscle() as muscle:
             self.assertEqual(muscle.identify(), (supercoil.Result.found, ("theta2_uncertain", "friction")))
-            told = muscle.quantities()
-            self.assertEqual(told[supercoil.Quantity.moving_mass_kg], 4.0)
-            self.assertTrue(math.isnan(told[supercoil.Quantity.configured_moving_mass_kg]))  # of an older board
+            quantities = muscle.quantities()
+            self.assertEqual(quantities[supercoil.Quantity.moving_mass_kg], 4.0)
+            self.assertTrue(math.isnan(quantities[supercoil.Quantity.configured_moving_mass_kg]))  # of an older board
             self.assertEqual(muscle.settings(), {Setting.supply_gain: 1.02, Setting.current_gain: 0.985,
                                                  Setting.sense_error_ratio: 0.021})
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):
@@ -141,10 +141,10 @@ class Local(unittest.TestCase):
             self.daemon.answers[f"tuning 2 1 proportional_W_per_m {of}"] = value
             self.daemon.answers[f"tuning 2 1 kind {of}"] = "1"
         with self.muscle() as muscle:
-            told = muscle.tuning(1)
-            self.assertEqual(set(told), {"kind", "proportional_W_per_m"})
-            self.assertEqual(told["kind"].in_use, "pi")
-            self.assertEqual(told["proportional_W_per_m"], (
+            tuning = muscle.tuning(1)
+            self.assertEqual(set(tuning), {"kind", "proportional_W_per_m"})
+            self.assertEqual(tuning["kind"].in_use, "pi")
+            self.assertEqual(tuning["proportional_W_per_m"], (
                 "proportional_W_per_m", "W/m", 1500.0, 2000.0, 2000.0, 1500.0, (0.0, 1e7)))
             self.daemon.lines.clear()
             muscle.tune(1, base="configured", integral_W_per_m_s=900, proportional_W_per_m=1234.56789)

@@ -96,8 +96,8 @@ class ThreeNodes(unittest.TestCase):
             self.observe(lambda: self.observers[3].fault == supercoil.Fault.command_timeout)
             self.assertEqual([self.observers[node].fault for node in (1, 2)], [supercoil.Fault.none] * 2)
             self.assertEqual(other.state, State.armed)
-        told = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
-        self.assertEqual([one["Status"]["fault"] for one in told], ["none", "none", "command_timeout"])
+        nodes = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
+        self.assertEqual([one["Status"]["fault"] for one in nodes], ["none", "none", "command_timeout"])
 
     def on_terminal(self, *words):
         """What is seen until it says how much longer it will take; empty when it ended before that."""
@@ -138,16 +138,16 @@ class ThreeNodes(unittest.TestCase):
 
     def test_all_nodes_are_listed(self):
         self.assertEqual([found.node for found in sync.discover(self.address)], [1, 2, 3])
-        told = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
-        self.assertEqual([one["node"] for one in told], [1, 2, 3])
+        nodes = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
+        self.assertEqual([one["node"] for one in nodes], [1, 2, 3])
         page = subprocess.Popen([SUPERCOIL, "monitor", self.address, "--port", "0"], stdout=subprocess.PIPE, text=True)
         self.addCleanup(page.communicate)
         self.addCleanup(page.terminate)
         address = re.search(r"http://[^#\s]+/", page.stdout.readline())[0]
 
         def listed():
-            with urllib.request.urlopen(address + "api/history?from_s=-1") as told:
-                return sorted(json.load(told)["nodes"])
+            with urllib.request.urlopen(address + "api/history?from_s=-1") as response:
+                return sorted(json.load(response)["nodes"])
         self.observe(lambda: listed() == ["1", "2", "3"])
 
 

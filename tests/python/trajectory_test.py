@@ -28,9 +28,9 @@ def way(times_s, scale=1.0):
 
 def references(recording):
     """By the board's clock: times, positions."""
-    told = recording.arrays("Tracking")
-    known = np.isfinite(told["reference_m"])
-    return told["time_s"][known], told["reference_m"][known]
+    tracking = recording.arrays("Tracking")
+    known = np.isfinite(tracking["reference_m"])
+    return tracking["time_s"][known], tracking["reference_m"][known]
 
 
 def rising(times_s, positions_m, middle_m):
@@ -71,8 +71,8 @@ class Trajectories(unittest.TestCase):
         """A motion, once the board reports that it has come this far."""
         playing = asyncio.create_task(muscle.play(TIMES_S, way(TIMES_S), settle_s=0.0))
         end = time.monotonic() + DEADLINE_S
-        while not playing.done() and ((told := muscle.telemetry.newest(messages.Trajectory)) is None
-                                      or told.playback < playback):
+        while not playing.done() and ((newest := muscle.telemetry.newest(messages.Trajectory)) is None
+                                      or newest.playback < playback):
             self.assertLess(time.monotonic(), end, "never seen")
             await asyncio.sleep(0.005)
         if playing.done():
@@ -86,11 +86,11 @@ class Trajectories(unittest.TestCase):
         with muscle.record("Tracking") as recording:
             muscle.play(TIMES_S, way(TIMES_S), settle_s=0.3)
         self.assertEqual(muscle.state, State.armed)
-        times_s, told_m = references(recording)
-        middle_s = rising(times_s, told_m, FIRST_M + 0.0005)
+        times_s, references_m = references(recording)
+        middle_s = rising(times_s, references_m, FIRST_M + 0.0005)
         since_start_s = np.clip(times_s - middle_s + LENGTH_S / 4.0, 0.0, LENGTH_S)
-        self.assertGreater(np.ptp(told_m), 0.00099)
-        np.testing.assert_allclose(told_m, way(since_start_s), atol=NEAR_M)
+        self.assertGreater(np.ptp(references_m), 0.00099)
+        np.testing.assert_allclose(references_m, way(since_start_s), atol=NEAR_M)
 
     @patient
     def test_hold_keeps_the_last_knot(self):
@@ -113,8 +113,8 @@ class Trajectories(unittest.TestCase):
             recording.stop()
         ways = []
         for recording, scale in zip(recordings, scales, strict=True):
-            times_s, told_m = references(recording)
-            ways.append((times_s, (told_m - FIRST_M) / scale))
+            times_s, references_m = references(recording)
+            ways.append((times_s, (references_m - FIRST_M) / scale))
         times_s = ways[0][0]
         inner = (times_s > ways[1][0][0]) & (times_s < ways[1][0][-1])
         self.assertGreater(np.ptp(ways[0][1]), 0.00099)

@@ -36,9 +36,9 @@ class Live(Bridged):
 
     def test_publishers_announce_their_type_hash(self):
         publication = self.states.dds.get_matched_publications()[0]
-        told = self.states.dds.get_matched_publication_data(publication)
+        data = self.states.dds.get_matched_publication_data(publication)
         self.assertIn(b"typehash=RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e;",
-                      [policy.data for policy in told.qos if type(policy).__name__ == "Userdata"])
+                      [policy.data for policy in data.qos if type(policy).__name__ == "Userdata"])
 
     def test_a_command_moves_an_armed_muscle_until_it_expires(self):
         self.arm()
@@ -48,9 +48,9 @@ class Live(Bridged):
         self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
 
     def test_refusals_are_diagnosed(self):
-        told = self.diagnosis_of("finger", "is disarmed: it cannot move", lambda: self.command({"finger": 0.001}))
-        self.assertEqual((told.level, told.hardware_id), (WARN, f"{self.simulation.address} node 1"))
-        self.assertEqual({value.key: value.value for value in told.values}["state"], "disarmed")
+        diagnosis = self.diagnosis_of("finger", "is disarmed: it cannot move", lambda: self.command({"finger": 0.001}))
+        self.assertEqual((diagnosis.level, diagnosis.hardware_id), (WARN, f"{self.simulation.address} node 1"))
+        self.assertEqual({value.key: value.value for value in diagnosis.values}["state"], "disarmed")
         self.arm()
         # As a controller streams it: ten in a row would be a fault on the board.
         self.diagnosis_of("thumb", "m is in", self.again({"thumb": 3.0}))
@@ -95,9 +95,9 @@ class Live(Bridged):
                 ([(1.0, [0.001]), (0.5, [0.002])], ("finger",), "points[1].time_from_start is not after"),
                 ([(1.0, [float("inf")])], ("finger",), "points[0].positions[0] is inf"),
                 ([], ("finger",), "has no points")):
-            told = self.diagnosis_of("finger", why,
-                                     lambda points=points, names=names: self.trajectory(writer, points, names))
-            self.assertEqual(told.level, WARN)
+            diagnosis = self.diagnosis_of("finger", why,
+                                          lambda points=points, names=names: self.trajectory(writer, points, names))
+            self.assertEqual(diagnosis.level, WARN)
             self.assertNotIn(State.active, [one.state for one in self.observers.values()], why)
 
     def test_an_emergency_stop_disarms_all_until_released(self):
@@ -120,7 +120,7 @@ class Live(Bridged):
         other = sync.Muscle(self.simulation.address, 2, deadline_s=1e6)
         with other, other.record(messages.Status) as recording:
             # It was armed, if only for a heartbeat, and is not any more.
-            self.wait(lambda: State.armed in [told.state for told in recording.of(messages.Status)],
+            self.wait(lambda: State.armed in [message.state for message in recording.of(messages.Status)],
                       lambda: self.try_to_arm(other))
             self.wait(lambda: other.state == State.disarmed)
         self.stop(False)
@@ -170,8 +170,8 @@ class Live(Bridged):
         self.wait(lambda: Fault.command_timeout in [one.fault for one in self.observers.values()])
         self.bridge.send_signal(signal.SIGCONT)
         in_fault = next(joint for joint, one in self.observers.items() if one.fault != Fault.none)
-        told = self.wait(lambda: (status := self.told(in_fault)) and status.level == ERROR and status)
-        self.assertIn("fault command_timeout: ", told.message)
+        diagnosis = self.wait(lambda: (status := self.newest_diagnosis(in_fault)) and status.level == ERROR and status)
+        self.assertIn("fault command_timeout: ", diagnosis.message)
         self.wait(lambda: self.call(f"{in_fault}/reset")[0])
         self.wait(lambda: self.observers[in_fault].fault == Fault.none)
 
@@ -242,10 +242,11 @@ class Live(Bridged):
 
     def test_a_missing_board_is_stale(self):
         self.another_bridge(self.simulation.address, "other", "--joint", "ghost=9")
-        told = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
-                                       if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))
-        self.assertEqual(told.level, STALE)
-        self.assertIn("no heartbeat from node 9", told.message)
+        diagnosis = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
+                                            if status.name == "supercoil: ghost"
+                                            and "heartbeat" in status.message), None))
+        self.assertEqual(diagnosis.level, STALE)
+        self.assertIn("no heartbeat from node 9", diagnosis.message)
         states = self.peer.reader("rt/other_states", "sensor_msgs/msg/JointState")
         self.assertTrue(np.isnan(self.wait(states.take)[-1].position[0]))
 

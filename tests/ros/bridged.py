@@ -117,18 +117,19 @@ class Bridged(unittest.TestCase):
         with contextlib.suppress(SupercoilError):  # it may be disarmed before it is told that it is armed
             other.arm()
 
-    def told(self, of):
+    def newest_diagnosis(self, of):
         """The newest diagnosis of it; None: nothing new."""
         found = [status for array in self.diagnostics.take() for status in array.status
                  if status.name == f"supercoil: {of}"]
         return found[-1] if found else None
 
     def diagnosed(self, of):
-        told = self.told(of)
-        return told.level if told else None
+        diagnosis = self.newest_diagnosis(of)
+        return diagnosis.level if diagnosis else None
 
     def diagnosis_of(self, joint, text, meanwhile):
-        return self.wait(lambda: (status := self.told(joint)) and text in status.message and status, meanwhile)
+        return self.wait(lambda: (status := self.newest_diagnosis(joint)) and text in status.message and status,
+                         meanwhile)
 
     def position_m(self, joint):
         return self.observers[joint].position_m

@@ -18,7 +18,7 @@ def run(*words, code="from supercoil.ros.cli import main; raise SystemExit(main(
 
 class Command(unittest.TestCase):
     def test_invalid_arguments_are_reported_with_the_allowed_values(self):
-        for words, told in (
+        for words, expected in (
                 (["can0"], "the following arguments are required: --joint"),
                 (["can0", "--joint", "finger"], "finger: must be NAME=NODE, with a node of 1 to 63, as finger=1"),
                 (["can0", "--joint", "finger=64"], "finger=64: must be NAME=NODE"),
@@ -32,7 +32,7 @@ class Command(unittest.TestCase):
             with self.subTest(words):
                 done = run(*words)
                 self.assertIn(done.returncode, (1, 2))
-                self.assertIn(told, done.stderr)
+                self.assertIn(expected, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
 
     def test_without_cyclone_it_names_what_to_install(self):
@@ -47,11 +47,11 @@ class Command(unittest.TestCase):
 
     def test_the_ros2_control_example_matches_the_bridge(self):
         system = ElementTree.parse(EXAMPLES / "finger.urdf").getroot().find("ros2_control")
-        told = {param.get("name"): param.text for param in system.iter("param")}
+        parameters = {param.get("name"): param.text for param in system.iter("param")}
         launch = (EXAMPLES / "finger.launch.py").read_text()
         compile(launch, "finger.launch.py", "exec")
-        self.assertEqual(told["joint_commands_topic"], resolved(Options.commands, Options.node))
-        self.assertIn(f'"--states", "{told["joint_states_topic"]}"', launch)
+        self.assertEqual(parameters["joint_commands_topic"], resolved(Options.commands, Options.node))
+        self.assertIn(f'"--states", "{parameters["joint_states_topic"]}"', launch)
         joint = system.find("joint").get("name")
         self.assertIn(f'"{joint}="', launch)
         self.assertIn(f"joints: [{joint}]", (EXAMPLES / "controllers.yaml").read_text())

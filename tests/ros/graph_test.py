@@ -43,11 +43,11 @@ class Known(unittest.TestCase):
     def test_best_effort_publishers_are_received_if_requested(self):
         both = self.graph.subscription("/both", Bool, (True, False))
         reliable = self.graph.subscription("/reliable", Bool, (True,))
-        heard = self.peer.writer("rt/both", KIND, reliable=False)
-        unheard = self.peer.writer("rt/reliable", KIND, reliable=False)
+        requested = self.peer.writer("rt/both", KIND, reliable=False)
+        unrequested = self.peer.writer("rt/reliable", KIND, reliable=False)
         last = self.peer.writer("rt/reliable", KIND)
-        self.wait(lambda: heard.matched() and last.matched())
-        for writer in (heard, unheard):
+        self.wait(lambda: requested.matched() and last.matched())
+        for writer in (requested, unrequested):
             writer.write(self.peer.message(KIND, True))
         last.write(self.peer.message(KIND, False))
         self.wait(both.take)

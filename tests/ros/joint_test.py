@@ -24,7 +24,7 @@ class Muscle:
 
     def __init__(self, address, node):
         self.node = node
-        self.state, self.fault, self.told = State.armed, Fault.none, []
+        self.state, self.fault, self.calls = State.armed, Fault.none, []
         self.arming, self.silent, self.let_go = asyncio.Event(), asyncio.Event(), asyncio.Event()
         self.let_go.set()
         self._telemetry = types.SimpleNamespace(newest=lambda kind: None)
@@ -33,7 +33,7 @@ class Muscle:
 
     @property
     def telemetry(self):
-        if "close" in self.told:
+        if "close" in self.calls:
             raise RuntimeError(f"node {self.node} is not connected")
         return self._telemetry
 
@@ -41,7 +41,7 @@ class Muscle:
         return self
 
     async def __aexit__(self, *cause):
-        self.told.append("close")
+        self.calls.append("close")
         await self.let_go.wait()
         if self.at_close:
             raise self.at_close
@@ -59,15 +59,15 @@ class Muscle:
         await asyncio.Event().wait()
 
     async def disarm(self):
-        self.told.append("disarm")
+        self.calls.append("disarm")
 
     async def set_position(self, position_m):
-        self.told.append(position_m)
+        self.calls.append(position_m)
         if self.refuses:
             await self.refuses(position_m)
 
     async def rest(self):
-        self.told.append("rest")
+        self.calls.append("rest")
 
 
 MADE = []
@@ -117,16 +117,16 @@ class JointAlone(Connected):
     async def test_a_silent_board_is_stale_while_it_is_released(self):
         self.muscle.let_go.clear()
         self.muscle.silent.set()
-        await self.until(lambda: "close" in self.muscle.told)
+        await self.until(lambda: "close" in self.muscle.calls)
         self.assertTrue(math.isnan(self.joint.position))
-        told = diagnostics_of([self.joint], stopped=False).status[1]
-        self.assertEqual((told.level, told.message), (STALE, "its connection has ended"))
+        diagnosis = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((diagnosis.level, diagnosis.message), (STALE, "its connection has ended"))
         with self.assertRaisesRegex(NotReachedError, "its connection has ended"):
             await self.joint.reset()
         self.muscle.let_go.set()
         await self.until(lambda: self.joint.problem.startswith("no Status"))
-        told = diagnostics_of([self.joint], stopped=False).status[1]
-        self.assertEqual((told.level, told.message), (STALE, "no Status within 2 s"))
+        diagnosis = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((diagnosis.level, diagnosis.message), (STALE, "no Status within 2 s"))
 
     async def test_a_silent_board_is_reconnected(self):
         patched = mock.patch.object(joints, "_TRY_AGAIN_S", 0.0)
@@ -136,15 +136,15 @@ class JointAlone(Connected):
             MADE[-1].silent.set()
             await self.until(lambda times=times: len(MADE) > times and self.joint.muscle is MADE[-1])
         self.want(0.001)
-        await self.until(lambda: 0.001 in MADE[-1].told)
+        await self.until(lambda: 0.001 in MADE[-1].calls)
 
     async def test_an_error_without_text_is_diagnosed_by_its_type(self):
         self.muscle.at_close = BusError()
         self.muscle.silent.set()
-        await self.until(lambda: self.muscle.told == ["close"] and self.joint.muscle is None)
+        await self.until(lambda: self.muscle.calls == ["close"] and self.joint.muscle is None)
         await self.until(lambda: self.joint.problem != "its connection has ended")
-        told = diagnostics_of([self.joint], stopped=False).status[1]
-        self.assertEqual((told.level, told.message), (STALE, "BusError"))
+        diagnosis = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((diagnosis.level, diagnosis.message), (STALE, "BusError"))
 
     async def test_a_refusal_without_text_is_diagnosed_by_its_type(self):
         async def refuse(position_m):
@@ -152,14 +152,14 @@ class JointAlone(Connected):
         self.muscle.refuses = refuse
         self.want(0.001)
         await self.until(lambda: self.joint.refusal)
-        told = diagnostics_of([self.joint], stopped=False).status[1]
-        self.assertEqual((told.level, told.message), (WARN, "FaultWithoutText"))
+        diagnosis = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((diagnosis.level, diagnosis.message), (WARN, "FaultWithoutText"))
 
     async def test_a_released_set_point_rests_before_the_next_heartbeat(self):
         self.want(0.001)
-        await self.until(lambda: 0.001 in self.muscle.told)
+        await self.until(lambda: 0.001 in self.muscle.calls)
         self.want(None)  # told as armed until now
-        await self.until(lambda: "rest" in self.muscle.told)
+        await self.until(lambda: "rest" in self.muscle.calls)
 
     async def test_disarm_ends_a_waiting_arm(self):
         self.muscle.state = State.disarmed
@@ -176,13 +176,13 @@ class JointAlone(Connected):
                 raise refusals.OutOfRange(1, "position", 0.004)
         self.muscle.refuses = refuse
         self.want(3.0)
-        await self.until(lambda: 3.0 in self.muscle.told)
+        await self.until(lambda: 3.0 in self.muscle.calls)
         await self.until(lambda: self.joint.refusal)
         self.want(0.002)
-        await self.until(lambda: 0.002 in self.muscle.told)
+        await self.until(lambda: 0.002 in self.muscle.calls)
         self.want(3.0)
         await self.until(lambda: "0.004000 m is in" in self.joint.refusal)
-        self.assertEqual(self.muscle.told.count(3.0), 1)
+        self.assertEqual(self.muscle.calls.count(3.0), 1)
 
 
 class JointOfTwo(Connected):
@@ -197,8 +197,8 @@ class JointOfTwo(Connected):
 
     async def test_radians_and_metres_convert_by_the_lever_table(self):
         self.want(0.2)
-        await self.until(lambda: self.muscle.told)
-        self.assertAlmostEqual(self.muscle.told[0], self.TABLE.arc_m(0.2), 12)
+        await self.until(lambda: self.muscle.calls)
+        self.assertAlmostEqual(self.muscle.calls[0], self.TABLE.arc_m(0.2), 12)
         measured = messages.Measurement(1.0, self.TABLE.arc_m(-0.3), math.nan, math.nan)
         self.muscle.telemetry.newest = lambda kind: measured
         self.assertAlmostEqual(self.joint.position, -0.3, 12)
@@ -207,8 +207,8 @@ class JointOfTwo(Connected):
     async def test_the_antagonist_is_observed_and_not_commanded(self):
         await self.until(lambda: self.joint.antagonist is not None)
         self.want(0.2)
-        await self.until(lambda: self.muscle.told)
-        self.assertEqual((self.joint.antagonist.node, self.joint.antagonist.told), (2, []))
+        await self.until(lambda: self.muscle.calls)
+        self.assertEqual((self.joint.antagonist.node, self.joint.antagonist.calls), (2, []))
 
     async def test_the_antagonist_is_not_a_joint(self):
         led = joints.Joint("back", "can0", 2)
@@ -219,7 +219,7 @@ class JointOfTwo(Connected):
         led.motion = types.SimpleNamespace(at=lambda now_s: 0.001)
         led.follow(0.0)
         await self.until(lambda: led.refusal)
-        self.assertEqual((led.refusal, led.muscle.told), ("is the antagonist of a joint: command node 1 instead", []))
+        self.assertEqual((led.refusal, led.muscle.calls), ("is the antagonist of a joint: command node 1 instead", []))
 
     async def test_the_lever_is_read_again_before_arming(self):
         Muscle.PAIRS[1] = pairs.Joint(0.020, 2)

@@ -57,10 +57,10 @@ class Messages(unittest.TestCase):
 
     def test_type_hashes_match_the_definitions(self):
         self.assertEqual(len(messages.TYPE_HASHES), 4)
-        for kind, told in messages.TYPE_HASHES.items():
+        for kind, type_hash in messages.TYPE_HASHES.items():
             package, _, _, own = kind.__idl_typename__.split("::")
             for store in STORES.values():
-                self.assertEqual(told, store.hash_rihs01(f"{package}/msg/{own.rstrip('_')}"))
+                self.assertEqual(type_hash, store.hash_rihs01(f"{package}/msg/{own.rstrip('_')}"))
 
     def test_names_are_resolved(self):
         self.assertEqual(names.resolved("joint_states", "supercoil"), "/joint_states")

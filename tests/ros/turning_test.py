@@ -56,8 +56,8 @@ class Turning(Bridged):
     def diagnosed_with(self, of, judge, meanwhile):
         """The diagnosis of it once `judge` accepts its values."""
         def as_wanted():
-            told = self.told(of)
-            return told if told and judge({value.key: value.value for value in told.values}) else None
+            diagnosis = self.newest_diagnosis(of)
+            return diagnosis if diagnosis and judge({value.key: value.value for value in diagnosis.values}) else None
         return self.wait(as_wanted, meanwhile)
 
     def test_a_joint_turns_to_an_angle(self):
@@ -65,13 +65,13 @@ class Turning(Bridged):
         self.wait(lambda: abs(self.reference_m() - arc_m(WANTED_RAD)) < 1e-6, self.again({"elbow": WANTED_RAD}))
         self.wait(lambda: abs(self.state().position[0] - WANTED_RAD) < 0.01, self.again({"elbow": WANTED_RAD}))
         self.assertEqual(list(self.state().name), ["elbow"])
-        told = self.diagnosed_with("elbow", lambda values: all(
+        diagnosis = self.diagnosed_with("elbow", lambda values: all(
             abs(float(values[name]) - WANTED_RAD) < 0.01 for name in ("reference_rad", "position_rad")),
             self.again({"elbow": WANTED_RAD}))
-        self.assertEqual((told.level, told.message), (OK, f"follows, set point {WANTED_RAD:.6f} rad"))
-        told = self.diagnosed_with("elbow antagonist", lambda values: float(values["applied_W"]) > 0.0,
-                                   self.again({"elbow": WANTED_RAD}))
-        self.assertEqual((told.hardware_id, told.message),
+        self.assertEqual((diagnosis.level, diagnosis.message), (OK, f"follows, set point {WANTED_RAD:.6f} rad"))
+        diagnosis = self.diagnosed_with("elbow antagonist", lambda values: float(values["applied_W"]) > 0.0,
+                                        self.again({"elbow": WANTED_RAD}))
+        self.assertEqual((diagnosis.hardware_id, diagnosis.message),
                          (f"{self.simulation.address} node 2", "active, antagonist in the joint of node 1"))
 
     def test_a_trajectory_is_in_radians(self):
@@ -84,22 +84,22 @@ class Turning(Bridged):
             """The references that it had; empty where a command has expired."""
             self.arm()
             self.trajectory(writer, [(0.5, [0.0]), (0.5 + lasts_s, [0.0])], self.joints, velocities=(speed_rad_per_s,))
-            told_m, end = [], time.monotonic() + 0.5 + lasts_s
+            references_m, end = [], time.monotonic() + 0.5 + lasts_s
             while time.monotonic() < end:
                 if self.observers["elbow"].state == State.fault:
                     return []
-                told_m.append(self.reference_m())
+                references_m.append(self.reference_m())
                 time.sleep(0.01)
-            return told_m
-        told_m = self.wait(send)
-        self.assertAlmostEqual(np.nanmin(told_m), arc_m(-furthest_rad), delta=1e-5)
-        self.assertAlmostEqual(np.nanmax(told_m), arc_m(furthest_rad), delta=1e-5)
+            return references_m
+        references_m = self.wait(send)
+        self.assertAlmostEqual(np.nanmin(references_m), arc_m(-furthest_rad), delta=1e-5)
+        self.assertAlmostEqual(np.nanmax(references_m), arc_m(furthest_rad), delta=1e-5)
 
     def test_out_of_range_positions_are_reported_in_radians(self):
         self.arm()
-        told = self.diagnosis_of("elbow", "rad is in", self.again({"elbow": 1.5}))
-        self.assertEqual(told.level, WARN)
-        self.assertIn("1.500000 rad is out of range", told.message)
+        diagnosis = self.diagnosis_of("elbow", "rad is in", self.again({"elbow": 1.5}))
+        self.assertEqual(diagnosis.level, WARN)
+        self.assertIn("1.500000 rad is out of range", diagnosis.message)
         self.diagnosis_of("elbow", "a command of nan rad is ignored", self.again({"elbow": math.nan}))
 
     def test_an_antagonist_is_not_a_joint_even_if_named(self):
@@ -114,11 +114,12 @@ class Turning(Bridged):
         self.addCleanup(both.kill)
         states = self.peer.reader("rt/both_states", "sensor_msgs/msg/JointState")
         self.wait(lambda: ["knee"] in [list(state.name) for state in states.take()])
-        told = self.wait(lambda: (status := self.told("back")) and "joint of node 1" in status.message and status)
-        self.assertEqual(told.level, OK)
+        diagnosis = self.wait(lambda: (status := self.newest_diagnosis("back")) and "joint of node 1" in status.message
+                              and status)
+        self.assertEqual(diagnosis.level, OK)
         commands = self.peer.writer("rt/both/joint_commands", "sensor_msgs/msg/JointState")
-        told = self.diagnosis_of("back", "command node 1", lambda: self.command({"back": 0.001}, commands))
-        self.assertEqual(told.level, WARN)
+        diagnosis = self.diagnosis_of("back", "command node 1", lambda: self.command({"back": 0.001}, commands))
+        self.assertEqual(diagnosis.level, WARN)
         for verb, done in (("arm", State.armed), ("disarm", State.disarmed)):
             self.assertEqual(self.peer.call(f"/both/{verb}", DEADLINE_S), (True, f"knee: {verb}ed"))
             self.wait(lambda done=done: self.all_are(done))

@@ -79,15 +79,15 @@ class Completion(unittest.TestCase):
             os.chdir(self.path)
             os.execvpe("zsh", ["zsh", "-f", "-i"], {"PATH": os.environ["PATH"], "HOME": str(self.path), "TERM": "xterm"})
         self.addCleanup(os.close, terminal)
-        told = self.path / "line"
+        completed = self.path / "line"
         self.type(terminal, f"fpath=({KEPT}/zsh $fpath); autoload -Uz compinit; compinit -u -D; "
-                  f"complete-and-tell() {{ zle complete-word; print -r -- $BUFFER >{told}.new; mv {told}.new {told} }}; "
+                  f"complete-and-tell() {{ zle complete-word; print -r -- $BUFFER >{completed}.new; mv {completed}.new {completed} }}; "
                   "zle -N complete-and-tell; bindkey '^T' complete-and-tell; touch ready\n", self.path / "ready")
         for words, wanted in OFFERED:
             with self.subTest(" ".join(words)):
-                self.type(terminal, " ".join(words) + "\x14", told)
-                line = told.read_text().split()
-                told.unlink()
+                self.type(terminal, " ".join(words) + "\x14", completed)
+                line = completed.read_text().split()
+                completed.unlink()
                 self.type(terminal, "\x15")  # an empty line for the next text
                 self.assertEqual(line, [*words[:-1], wanted[0]])
 

@@ -38,7 +38,7 @@ class ImageSbom(unittest.TestCase):
         (folder / "copyright").write_text(text)
         return folder
 
-    def told(self, *others):
+    def listed(self, *others):
         done = subprocess.run(["/usr/bin/python3", PROGRAM, "supercoil-x-arm64", self.root, *others], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIsNone(JsonStrictValidator(SchemaVersion.V1_6).validate_str(done.stdout))
@@ -61,7 +61,7 @@ class ImageSbom(unittest.TestCase):
         self.install("undocumented")
         self.install("removed", state="config-files")
         foo_licences = {"GPL-2+ or MIT", "public-domain", "GPL-2+"}
-        self.assertEqual(self.told(), {
+        self.assertEqual(self.listed(), {
             "supercoil": ("0.2.0+deb12", {"Apache-2.0"}), "libfoo1": ("1:2.3~rc1-4", foo_licences), "foo-common": ("1.0-1", foo_licences),
             "old": ("1.0-1", {"LGPL-2.1", "GPL-2"}), "prose": ("1.0-1", {"in /usr/share/doc/prose/copyright"}),
             "undocumented": ("1.0-1", {"in /usr/share/doc/undocumented/copyright"})})
@@ -72,7 +72,7 @@ class ImageSbom(unittest.TestCase):
         folder = self.document("raspi-firmware", FIELDS.format("GPL-2", "GPL-2+", "Broadcom"), firmware)
         with gzip.open(folder / "changelog.Debian.gz", "wt") as changelog:
             changelog.write("raspi-firmware (1.20220830+ds-1) unstable; urgency=medium\n")
-        self.assertEqual(self.told(f"raspi-firmware={firmware}")["raspi-firmware"],
+        self.assertEqual(self.listed(f"raspi-firmware={firmware}")["raspi-firmware"],
                          ("1.20220830+ds-1", {"GPL-2", "GPL-2+", "Broadcom"}))
 
     def test_an_image_without_supercoil_is_refused(self):

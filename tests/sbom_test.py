@@ -103,8 +103,8 @@ class Sbom(unittest.TestCase):
 
     def test_licences_are_spdx(self):
         for component in self.components:
-            told = get_spdx_licensing().validate(component["licence"])
-            self.assertEqual(told.errors, [], component["name"])
+            validated = get_spdx_licensing().validate(component["licence"])
+            self.assertEqual(validated.errors, [], component["name"])
         self.assertIn("License: Apache-2.0", (ROOT / "toolchain/debian/source/copyright").read_text())
 
     def test_notices_of_compiled_in_libraries_are_in_the_package(self):
@@ -137,17 +137,17 @@ class Sbom(unittest.TestCase):
         self.assertEqual(len(uses["compiled in"]), 1 + sum(
             "headers" in component and "supercoil" in component.get("programs", ["supercoil"]) for component in self.components))
         self.assertIn("uplot", uses["compiled in"])
-        told = next(dependency for dependency in bom.dependencies if dependency.ref == ours.bom_ref)
-        self.assertEqual({dependency.ref.value for dependency in told.dependencies},
+        our_dependencies = next(dependency for dependency in bom.dependencies if dependency.ref == ours.bom_ref)
+        self.assertEqual({dependency.ref.value for dependency in our_dependencies.dependencies},
                          {component.bom_ref.value for component in bom.components})
 
     def test_a_package_lists_only_its_own_contents(self):
         for name, has, has_not in (("supercoil", {"uplot", "libcpp-httplib-dev", "libgpiod-dev"}, {"libnlopt-dev"}),
                                    ("supercoil-sim", {"uplot", "libcpp-httplib-dev", "libgpiod-dev", "libnlopt-dev"}, set())):
             done = self.package("libc6", name=name)
-            told = {component["name"] for component in json.loads(done.stdout)["components"]}
-            self.assertLessEqual(has, told)
-            self.assertEqual(has_not & told, set())
+            listed = {component["name"] for component in json.loads(done.stdout)["components"]}
+            self.assertLessEqual(has, listed)
+            self.assertEqual(has_not & listed, set())
 
     def test_an_unlisted_dependency_is_an_error(self):
         done = self.package("libc6", "libfoo1")

@@ -76,10 +76,10 @@ def endings(group):
     for run in group:
         if run.fault:
             times[run.fault].append(run.fault_s)
-    told = [f"[{fault}](faults/{fault}.md) {span(seconds)} ({len(seconds)})" for fault, seconds in times.items()]
+    parts = [f"[{fault}](faults/{fault}.md) {span(seconds)} ({len(seconds)})" for fault, seconds in times.items()]
     if going_on := sum(not run.fault for run in group):
-        told.append(f"– ({going_on})")
-    return ", ".join(told)
+        parts.append(f"– ({going_on})")
+    return ", ".join(parts)
 
 
 def span(seconds):

@@ -30,11 +30,11 @@ def supercoild(ticks, options):
                            "--priority", str(options.priority),
                            *(["--cpu", str(options.cpu)] if options.cpu is not None else [])],
                           check=True, capture_output=True, text=True)
-    told = json.loads(done.stdout)
-    failed = [step["step"] for step in told["set_up"] if not step["worked"]]
+    report = json.loads(done.stdout)
+    failed = [step["step"] for step in report["set_up"] if not step["worked"]]
     if failed:
         sys.exit(f"supercoild's real-time set-up failed ({', '.join(failed)}): nothing to compare\n{done.stderr}")
-    return collections.Counter({int(start): count for start, count in told["late"]["histogram"]})
+    return collections.Counter({int(start): count for start, count in report["late"]["histogram"]})
 
 
 def cyclictest(ticks, options):
@@ -90,12 +90,12 @@ def outline(counts):
         yield from ([] if start + 1 in counts else [(start + 1, 0.5)])
 
 
-def plot(ours, theirs, told, file):
+def plot(ours, theirs, title, file):
     data = "".join(f"${name} << EOD\n" + "".join(f"{x} {y}\n" for x, y in outline(counts)) + "EOD\n"
                    for name, counts in (("ours", ours), ("theirs", theirs)))
     script = f"""{data}set terminal svg size 900,360 noenhanced font 'sans-serif,12' background '#ffffff'
 set output '{file}'
-set title '{told}'
+set title '{title}'
 set xlabel 'us after its time'
 set ylabel 'ticks'
 set logscale xy
@@ -132,9 +132,9 @@ def main():
         order = sides if turn % 2 == 0 else sides[::-1]
         slices = {side: side(options.slice, options) for side in order}
         pairs.append([slices[side] for side in sides])
-        told = [f"p50 {quantile_us(side, 0.5)}, p99.99 {quantile_us(side, 0.9999)}, most {max(side) + 1}"
-                for side in pairs[-1]]
-        print(f"{turn + 1} of {turns}: supercoild {told[0]} us; cyclictest {told[1]} us", flush=True)
+        summaries = [f"p50 {quantile_us(side, 0.5)}, p99.99 {quantile_us(side, 0.9999)}, most {max(side) + 1}"
+                     for side in pairs[-1]]
+        print(f"{turn + 1} of {turns}: supercoild {summaries[0]} us; cyclictest {summaries[1]} us", flush=True)
     ours, theirs = (sum(side, collections.Counter()) for side in zip(*pairs))
     print_table(ours, theirs)
     now, (low, high) = ratio(pairs), uncertainty(pairs)

@@ -87,10 +87,10 @@ async def telemetry(address):
     begin, used = time.monotonic(), time.process_time()
     await asyncio.sleep(SECONDS)
     took_s, core = time.monotonic() - begin, time.process_time() - used
-    heard = sum(len(recording.frames) for recording in recordings)
+    received = sum(len(recording.frames) for recording in recordings)
     for muscle in muscles:
         await muscle.close()
-    return heard / took_s, core / took_s
+    return received / took_s, core / took_s
 
 
 def main():

@@ -60,10 +60,10 @@ def campaigns(folder):
     study.write_text(STUDY)
     per_second = {1: [], CORES: []}
     for attempt in range(RUNS):
-        for jobs, told in per_second.items():
+        for jobs, rates in per_second.items():
             took_s = run_s("campaign", study, "--jobs", jobs, "--quiet", "--no-plot", "--out", folder / f"{jobs}-{attempt}")
-            told.append(DRAWN / took_s)
-    one, all_of_them = (statistics.median(told) for told in per_second.values())
+            rates.append(DRAWN / took_s)
+    one, all_of_them = (statistics.median(rates) for rates in per_second.values())
     row("campaign, runs of 200 s, one core", one, "runs/s", "")
     row(f"    {CORES} cores", all_of_them, "runs/s", "goal, of two cores: 35 or more")
     row(f"    {CORES} cores beside one", all_of_them / one, "", "goal, of two cores: 1.9 or more")

@@ -41,8 +41,8 @@ def pass_on(source, sink, alter):
     """Passes data on until either end is closed."""
     rest = b""
     with source, sink, contextlib.suppress(OSError):
-        while heard := source.recv(65536):
-            *elements, rest = re.split(rb"(?<=>)", rest + heard)
+        while data := source.recv(65536):
+            *elements, rest = re.split(rb"(?<=>)", rest + data)
             sink.sendall(b"".join(altered(element, alter) for element in elements))
         for end in (source, sink):
             end.shutdown(socket.SHUT_RDWR)  # wakes the other direction

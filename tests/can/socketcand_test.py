@@ -42,7 +42,7 @@ class OnTheBus(unittest.TestCase):
         return master
 
     def while_leased(self, request):
-        """What request() returns while the master has the lease; that may end when this program is starved for a second."""
+        """What request() returns while the master has the lease, which this program loses when it is starved."""
         for _ in range(TRIES):
             self.master.claim()
             session = self.master.session

@@ -38,7 +38,7 @@ class Docs:
             self.process.kill()
         self.process.communicate()
 
-    def ask(self, path, method="GET", host=None):
+    def request(self, path, method="GET", host=None):
         """Status, type and body; the path is sent unchanged."""
         with contextlib.closing(http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)) as connection:
             connection.putrequest(method, path, skip_host=True)
@@ -62,12 +62,12 @@ class DocsTest(unittest.TestCase):
 
     def test_it_serves_the_site_with_its_types(self):
         with Docs(self.site) as docs:
-            self.assertEqual(docs.ask("/"), (200, "text/html; charset=utf-8", self.index))
-            self.assertEqual(docs.ask("/docs/api/")[2], b"reference")
-            self.assertEqual(docs.ask("/picture.png"), (200, "image/png", bytes(range(256)) * 4000))
-            self.assertEqual(docs.ask("/index.html?highlight=can")[0], 200)
+            self.assertEqual(docs.request("/"), (200, "text/html; charset=utf-8", self.index))
+            self.assertEqual(docs.request("/docs/api/")[2], b"reference")
+            self.assertEqual(docs.request("/picture.png"), (200, "image/png", bytes(range(256)) * 4000))
+            self.assertEqual(docs.request("/index.html?highlight=can")[0], 200)
             for absent in ("/none.html", "/docs/"):
-                self.assertEqual(docs.ask(absent)[0], 404, absent)
+                self.assertEqual(docs.request(absent)[0], 404, absent)
 
     def test_nothing_outside_the_site_is_served(self):
         (self.site / "link.txt").symlink_to(self.folder / "secret.txt")
@@ -79,22 +79,22 @@ class DocsTest(unittest.TestCase):
             for path in ("/../secret.txt", "/docs/../../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt",
                          f"/{self.folder}/secret.txt", f"{self.folder}/secret.txt", "/link.txt", "/up/secret.txt",
                          "/../html-beside/secret.txt", "/index.html%00.png", "/%00"):
-                status, _, body = docs.ask(path)
+                status, _, body = docs.request(path)
                 self.assertIn(status, (400, 404), path)
                 self.assertNotIn(b"secret", body, path)
 
     def test_only_reading_is_allowed(self):
         with Docs(self.site) as docs:
-            status, _, body = docs.ask("/", "HEAD")
+            status, _, body = docs.request("/", "HEAD")
             self.assertEqual((status, body), (200, b""))
             for method in ("POST", "PUT", "DELETE", "OPTIONS", "PATCH"):
-                self.assertEqual(docs.ask("/", method)[0], 405, method)
+                self.assertEqual(docs.request("/", method)[0], 405, method)
         self.assertEqual((self.site / "index.html").read_bytes(), self.index)
 
     def test_other_host_names_are_refused(self):
         with Docs(self.site) as docs:
-            self.assertEqual(docs.ask("/", host=f"localhost:{docs.port}")[0], 200)
-            self.assertEqual(docs.ask("/", host=f"elsewhere.example:{docs.port}")[0], 403)
+            self.assertEqual(docs.request("/", host=f"localhost:{docs.port}")[0], 200)
+            self.assertEqual(docs.request("/", host=f"elsewhere.example:{docs.port}")[0], 403)
 
     def test_it_listens_only_on_loopback(self):
         with Docs(self.site) as docs:
@@ -127,20 +127,20 @@ class DocsTest(unittest.TestCase):
         self.assertIn("--port", done.stderr)
 
     def test_open_gives_the_address_to_the_browser(self):
-        browser, asked = self.folder / "xdg-open", self.folder / "asked"
-        browser.write_text(f'#!/bin/sh\necho "$1" >"{asked}.part"\nmv "{asked}.part" "{asked}"\n')
+        browser, opened = self.folder / "xdg-open", self.folder / "asked"
+        browser.write_text(f'#!/bin/sh\necho "$1" >"{opened}.part"\nmv "{opened}.part" "{opened}"\n')
         browser.chmod(browser.stat().st_mode | stat.S_IXUSR)
         with Docs(self.site, "--open", PATH=f"{self.folder}:{os.environ['PATH']}") as docs:
             end = time.monotonic() + PATIENCE_S
-            while not asked.exists():
+            while not opened.exists():
                 self.assertLess(time.monotonic(), end)
                 time.sleep(0.02)
-            self.assertEqual(asked.read_text().strip(), docs.address)
+            self.assertEqual(opened.read_text().strip(), docs.address)
 
     def test_without_a_browser_it_still_serves(self):
         with Docs(self.site, "--open", PATH=str(self.folder)) as docs:
             self.assertIn("xdg-open", docs.process.stderr.readline())
-            self.assertEqual(docs.ask("/")[0], 200)
+            self.assertEqual(docs.request("/")[0], 200)
 
 
 if __name__ == "__main__":

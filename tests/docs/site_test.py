@@ -150,8 +150,8 @@ class SiteTest(unittest.TestCase):
         control = subprocess.run(["dpkg-deb", "--field", package], capture_output=True, text=True, check=True).stdout
         self.assertIn("Package: supercoil-doc\n", control)
         self.assertNotIn("@", re.sub(r"<.*>", "", control))
-        told = subprocess.run([SUPERCOIL, "docs", "--help"], capture_output=True, text=True, check=True).stdout
-        folder = re.search(r"--folder DIR=/(\S+)", told)[1]
+        help_text = subprocess.run([SUPERCOIL, "docs", "--help"], capture_output=True, text=True, check=True).stdout
+        folder = re.search(r"--folder DIR=/(\S+)", help_text)[1]
         with tempfile.TemporaryDirectory() as root:
             subprocess.run(["dpkg-deb", "--extract", package, root], check=True)
             site = pathlib.Path(root, folder)

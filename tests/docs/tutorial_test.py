@@ -83,9 +83,9 @@ class Tutorial(unittest.TestCase):
         self.assertGreater(len(live), 4)
         for line in live:
             words = shlex.split(line)
-            told = subprocess.run([PROGRAMS / words[0], words[1], "--help"], capture_output=True, text=True, check=True)
+            help_output = subprocess.run([PROGRAMS / words[0], words[1], "--help"], capture_output=True, text=True, check=True)
             for option in (word for word in words if word.startswith("--")):
-                self.assertRegex(told.stdout, rf"(?m)^  (-\w,)?{option}\b", line)
+                self.assertRegex(help_output.stdout, rf"(?m)^  (-\w,)?{option}\b", line)
 
     def test_the_same_muscle_is_in_both_scenarios(self):
         plants = [re.search(r"\[plant\]\n.*?\n\n", text, re.S)[0] for kind, text, _ in blocks() if "[plant]" in text]

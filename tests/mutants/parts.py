@@ -43,8 +43,8 @@ class Part:
 
 def parts_of(program, tree, build, run):
     """`run` runs a command in the build's folder and returns its output. Everything must have been built."""
-    told = run(["ninja", "-C", build, "-t", "commands", program]).stdout
-    words = shlex.split(told.splitlines()[-1].removeprefix(": && ").removesuffix(" && :"))
+    output = run(["ninja", "-C", build, "-t", "commands", program]).stdout
+    words = shlex.split(output.splitlines()[-1].removeprefix(": && ").removesuffix(" && :"))
     at = words.index("-o")
     linked = [word for word in words if word.endswith(".o")]
     flags = [word for word in words[:at] if word not in linked]
@@ -72,8 +72,8 @@ def source_of(test, tree):
 
 def members_of(archive, build, run):
     """The objects of an archive by their name in it. Two may have the same name."""
-    told = run(["ninja", "-C", build, "-t", "query", archive]).stdout
-    inputs = [line.strip() for line in told.split("outputs:")[0].splitlines() if line.strip().endswith(".o")]
+    output = run(["ninja", "-C", build, "-t", "query", archive]).stdout
+    inputs = [line.strip() for line in output.split("outputs:")[0].splitlines() if line.strip().endswith(".o")]
     return {name: [path for path in inputs if pathlib.Path(path).name == name]
             for name in {pathlib.Path(path).name for path in inputs}}
 

@@ -166,9 +166,9 @@ class Workshop:
     def read_dependencies(self):
         """Called while every object exists: later some have not been compiled yet."""
         self.objects_of = {}
-        told = self.run(["ninja", "-C", self.build, "-t", "deps"]).stdout
+        output = self.run(["ninja", "-C", self.build, "-t", "deps"]).stdout
         target = ""
-        for line in told.splitlines():
+        for line in output.splitlines():
             if line and not line.startswith(" "):
                 target = line.split(": #deps")[0]
             elif line.strip() and (self.build / target).exists():

@@ -58,19 +58,19 @@ class Answers(OnSimulatedBoard):
         self.addCleanup(program.stop)
         self.port = int(program.found[1].rstrip("/").split(":")[-1])
         self.token = program.found[2].removeprefix("#token=")
-        until(lambda: "1" in self.ask("get", "/api/history")[1]["nodes"])
+        until(lambda: "1" in self.request("get", "/api/history")[1]["nodes"])
 
-    def ask(self, method, path, body=None, port=None, **headers):
+    def request(self, method, path, body=None, port=None, **headers):
         with contextlib.closing(http.client.HTTPConnection("127.0.0.1", port or self.port, timeout=SLACK_S)) as connection:
             connection.request(method.upper(), path, None if body is None else json.dumps(body), headers)
             answer = connection.getresponse()
             text = answer.read().decode()
             return answer.status, json.loads(text) if "json" in answer.headers.get("Content-Type", "") else text
 
-    def check(self, method, path, expected, asked=None, **options):
-        """The status is one that the document has, and the body fits its schema there. asked: path with values."""
-        status, said = self.ask(method, asked or path, **options)
-        self.assertEqual(status, expected, said)
+    def check(self, method, path, expected, requested=None, **options):
+        """The status is one that the document has, and the body fits its schema there. requested: path with values."""
+        status, body = self.request(method, requested or path, **options)
+        self.assertEqual(status, expected, body)
         answers = DOCUMENT["paths"][path][method]["responses"]
         self.assertIn(str(status), answers)
         answer = answers[str(status)]
@@ -79,8 +79,8 @@ class Answers(OnSimulatedBoard):
         (media, content), = answer["content"].items()
         if media == "application/json":
             # References are to the document's own parts.
-            jsonschema.validate(said, {**content["schema"], "components": DOCUMENT["components"]})
-        return said
+            jsonschema.validate(body, {**content["schema"], "components": DOCUMENT["components"]})
+        return body
 
     def test_document_is_served(self):
         self.assertEqual(self.check("get", "/api/openapi.json", 200), DOCUMENT)
@@ -112,7 +112,7 @@ class Answers(OnSimulatedBoard):
         self.check("post", "/api/alive", 400, body={"node": 0}, **bearer)
         self.check("post", "/api/tuning", 200, body={**node, "place": 0, "from": "in_use"}, **bearer)
         self.check("post", "/api/tuning", 400, body={**node, "place": 5, "from": "in_use"}, **bearer)
-        port = self.ask("get", "/api/about")[1]["stop_port"]
+        port = self.request("get", "/api/about")[1]["stop_port"]
         self.check("post", "/stop", 200, port=port)
         self.check("post", "/stop", 403, port=port, Origin="http://example.org")
 

@@ -14,14 +14,14 @@ from programs import SUPERCOIL, command, until
 
 class BundleLeader(ModulesCase):
     def test_leader_is_reported_by_the_board(self):
-        told = self.ask("""const { leader_of } = await import("/joint.js");
+        leaders = self.run_script("""const { leader_of } = await import("/joint.js");
             const { protocol } = await (await fetch("/api/about")).json();
             const quantity = Number(Object.entries(protocol.Muscle.quantity.values).find(([, is]) => is === "bundle_leader_node_offset")[0]);
             const store = new Store(protocol, true);
-            const hear = (node, value) => store.append({ newest_s: 1, nodes: { [node]: { Muscle: { time_s: [1], quantity: [quantity], value: [value] } } } });
-            hear(1, null); hear(3, -2);
+            const receive = (node, value) => store.append({ newest_s: 1, nodes: { [node]: { Muscle: { time_s: [1], quantity: [quantity], value: [value] } } } });
+            receive(1, null); receive(3, -2);
             return [leader_of(store, 1, 1), leader_of(store, 2, 1), leader_of(store, 3, 1)];""")
-        self.assertEqual(told, [None, None, 1])
+        self.assertEqual(leaders, [None, None, 1])
 
 
 class BundlePage(PageCase):

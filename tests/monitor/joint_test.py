@@ -23,16 +23,16 @@ from selenium.webdriver.common.keys import Keys
 
 CARD = "section[aria-label='joint of node {}']"
 FOLLOWS_S = 60.0  # from the page's opening: the board starts, proves itself, and arms
-TOLD = """const { JointCard } = await import("/joint_card.js");
+JOINT_SCRIPT = """const { JointCard } = await import("/joint_card.js");
     const { protocol } = await (await fetch("/api/about")).json();
     const quantity = (name) => Number(Object.entries(protocol.Muscle.quantity.values).find(([, is]) => is === name)[0]);
     const store = new Store(protocol, true);
-    const hear = (node, message, row, time_s = 1) =>
+    const receive = (node, message, row, time_s = 1) =>
         store.append({ newest_s: 1, nodes: { [node]: { [message]: { time_s: [time_s], ...Object.fromEntries(Object.entries(row).map(([name, value]) => [name, [value]])) } } } });
     const muscle = (node, lever_m, other) => {
-        hear(node, "Muscle", { quantity: quantity("joint_lever_7_m"), value: null }, 0.4);
-        hear(node, "Muscle", { quantity: quantity("joint_lever_m"), value: lever_m }, 0.5);
-        hear(node, "Muscle", { quantity: quantity("joint_other_node_offset"), value: other });
+        receive(node, "Muscle", { quantity: quantity("joint_lever_7_m"), value: null }, 0.4);
+        receive(node, "Muscle", { quantity: quantity("joint_lever_m"), value: lever_m }, 0.5);
+        receive(node, "Muscle", { quantity: quantity("joint_other_node_offset"), value: other });
     };
     const shown = (node) => {
         const card = new JointCard(node, store);
@@ -44,59 +44,59 @@ TOLD = """const { JointCard } = await import("/joint_card.js");
 
 class JointView(ModulesCase):
     def test_both_nodes_show_the_same_joint(self):
-        told = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
-            hear(3, "Measurement", { position_m: 0.01 }); hear(3, "Tracking", { reference_m: 0.0104 });
-            hear(2, "Measurement", { position_m: -0.01 });
-            hear(3, "Power", { applied_W: 1.25 }); hear(2, "Power", { applied_W: 0.5 });
-            hear(3, "Temperature", { coldest_C: 40.2, hottest_C: 61.4 });
+        results = self.run_script(JOINT_SCRIPT + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
+            receive(3, "Measurement", { position_m: 0.01 }); receive(3, "Tracking", { reference_m: 0.0104 });
+            receive(2, "Measurement", { position_m: -0.01 });
+            receive(3, "Power", { applied_W: 1.25 }); receive(2, "Power", { applied_W: 0.5 });
+            receive(3, "Temperature", { coldest_C: 40.2, hottest_C: 61.4 });
             return [shown(3), shown(2)];""")
-        self.assertEqual(told[0], ["rotate(28.65)", "angle: 28.65°", "reference: 29.79°",
+        self.assertEqual(results[0], ["rotate(28.65)", "angle: 28.65°", "reference: 29.79°",
                                    "node 3, turns right: 1.25 W, 40 … 61 °C", "node 2, turns left: 0.50 W, – … – °C",
                                    "both pull with: –"])
-        self.assertEqual(told[1], told[0])
+        self.assertEqual(results[1], results[0])
 
     def test_shows_the_limit_of_either_muscle(self):
-        limits = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
+        limits = self.run_script(JOINT_SCRIPT + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
             const by = (name) => Number(Object.entries(protocol.Power.limited_by.values).find(([, is]) => is === name)[0]);
-            hear(3, "Power", { applied_W: 0, limited_by: by("nothing") }); hear(2, "Power", { applied_W: 2, limited_by: by("maximum") });
+            receive(3, "Power", { applied_W: 0, limited_by: by("nothing") }); receive(2, "Power", { applied_W: 2, limited_by: by("maximum") });
             return shown(3).slice(3, 5);""")
         self.assertEqual(limits, ["node 3, turns right: 0.00 W, – … – °C", "node 2, turns left: 2.00 W, – … – °C, limited by maximum"])
 
     def test_a_spring_joint_has_one_node_and_one_direction(self):
-        told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+        results = self.run_script(JOINT_SCRIPT + """const { joint_of, measure_of } = await import("/joint.js");
             muscle(1, 0.015, null);
-            hear(1, "Measurement", { position_m: 0.003 });
+            receive(1, "Measurement", { position_m: 0.003 });
             const joint = joint_of(store, 1, 1), { unit, both_ways, min_m } = measure_of(joint);
             return [joint.other, unit, both_ways, min_m(0.01), shown(1)[1]];""")
-        self.assertEqual(told, [None, "°", False, 0, "angle: 11.46°"])
+        self.assertEqual(results, [None, "°", False, 0, "angle: 11.46°"])
 
     def test_reads_the_other_muscles_travel(self):
-        told = self.ask(TOLD + """muscle(1, 0.015, 1);
+        results = self.run_script(JOINT_SCRIPT + """muscle(1, 0.015, 1);
             const { joint_of } = await import("/joint.js");
             const words = ({ lever_m, ...rest }) => [lever_m.toFixed(6), rest.other, rest.other_travel_m?.toFixed(6)];
             const before = words(joint_of(store, 1, 1));
             const over_travel = Number(Object.entries(protocol.Limit.fault.values).find(([, is]) => is === "over_travel")[0]);
-            hear(2, "Limit", { fault: over_travel, limit: 0.006 });
+            receive(2, "Limit", { fault: over_travel, limit: 0.006 });
             return [before, words(joint_of(store, 1, 1))];""")
-        self.assertEqual(told, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
+        self.assertEqual(results, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
 
     def test_each_muscle_may_have_its_own_lever(self):
-        told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+        results = self.run_script(JOINT_SCRIPT + """const { joint_of, measure_of } = await import("/joint.js");
             muscle(3, 0.02, -1); muscle(2, -0.01, 1);
-            hear(3, "Measurement", { position_m: 0.01 }); hear(2, "Measurement", { position_m: -0.005 });
+            receive(3, "Measurement", { position_m: 0.01 }); receive(2, "Measurement", { position_m: -0.005 });
             const over_travel = Number(Object.entries(protocol.Limit.fault.values).find(([, is]) => is === "over_travel")[0]);
-            hear(2, "Limit", { fault: over_travel, limit: 0.004 });
+            receive(2, "Limit", { fault: over_travel, limit: 0.004 });
             return [shown(3)[1], shown(2)[1], measure_of(joint_of(store, 3, 1)).min_m(1).toFixed(6)];""")
-        self.assertEqual(told, ["angle: 28.65°", "angle: 28.65°", "-0.008000"])
+        self.assertEqual(results, ["angle: 28.65°", "angle: 28.65°", "-0.008000"])
 
     def test_reads_a_lever_table(self):
-        shown, typed_m = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+        shown, typed_m = self.run_script(JOINT_SCRIPT + """const { joint_of, measure_of } = await import("/joint.js");
             const table = { first_rad: -0.5, last_rad: 0.5, "1_m": 0.012, "2_m": 0.015, "3_m": 0.011, "4_m": null };
             Object.entries(table).forEach(([name, value], i) => {
-                for (const node of [2, 3]) hear(node, "Muscle", { quantity: quantity(`joint_lever_${name}`), value }, 0.1 + 0.01 * i);
+                for (const node of [2, 3]) receive(node, "Muscle", { quantity: quantity(`joint_lever_${name}`), value }, 0.1 + 0.01 * i);
             });
             muscle(3, 0.015, -1); muscle(2, -0.015, 1);
-            hear(3, "Measurement", { position_m: 0.0065 + 0.0011 }); hear(3, "Tracking", { reference_m: -0.00675 + 0.012 * 0.25 + 0.003 * 0.25 ** 2 });
+            receive(3, "Measurement", { position_m: 0.0065 + 0.0011 }); receive(3, "Tracking", { reference_m: -0.00675 + 0.012 * 0.25 + 0.003 * 0.25 ** 2 });
             const { to_m } = measure_of(joint_of(store, 3, 1));
             return [[shown(3), shown(2)], to_m(0.25 * 180 / Math.PI)];""")
         # By hand: 6.5 mm to the right end, then 0.1 rad at 11 mm; to the left -6.75 mm, and half of the way back.
@@ -104,20 +104,20 @@ class JointView(ModulesCase):
         self.assertAlmostEqual(typed_m, 0.015 * 0.25 - 0.004 * 0.25 ** 2, 9)
 
     def test_shows_no_joint_until_all_quantities_arrived(self):
-        told = self.ask(TOLD + """const names = ["joint_lever_m", "joint_other_node_offset", "joint_lever_first_rad", "joint_lever_last_rad",
+        results = self.run_script(JOINT_SCRIPT + """const names = ["joint_lever_m", "joint_other_node_offset", "joint_lever_first_rad", "joint_lever_last_rad",
                 ...Array.from({ length: 7 }, (_, i) => `joint_lever_${i + 1}_m`)];
             const values = [0.015, 1, -0.5, 0.5, 0.012, 0.015, 0.011, null, null, null, null];
             return names.map((name, i) => {
-                hear(1, "Muscle", { quantity: quantity(name), value: values[i] }, 0.1 + 0.01 * i);
+                receive(1, "Muscle", { quantity: quantity(name), value: values[i] }, 0.1 + 0.01 * i);
                 return shown(1) !== null;
             });""")
-        self.assertEqual(told, 10 * [False] + [True])
+        self.assertEqual(results, 10 * [False] + [True])
 
     def test_a_single_or_unknown_muscle_has_no_joint(self):
-        self.assertEqual(self.ask(TOLD + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])
+        self.assertEqual(self.run_script(JOINT_SCRIPT + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])
 
     def test_an_unknown_angle_is_not_drawn(self):
-        self.assertEqual(self.ask(TOLD + "muscle(1, 0.015, 1); return shown(1).slice(0, 3);"), ["rotate(0)", "angle: –°", "reference: –°"])
+        self.assertEqual(self.run_script(JOINT_SCRIPT + "muscle(1, 0.015, 1); return shown(1).slice(0, 3);"), ["rotate(0)", "angle: –°", "reference: –°"])
 
 
 class Angles(ModulesCase):
@@ -128,24 +128,24 @@ class Angles(ModulesCase):
         """
 
     def test_only_the_agonists_position_is_an_angle(self):
-        self.assertEqual(self.ask(self.SCRIPT + """return [agonist, measure_of({ lever_m: -0.015, other: 1 }), measure_of(null)].map(({ unit, both_ways }) => [unit, both_ways]);"""),
+        self.assertEqual(self.run_script(self.SCRIPT + """return [agonist, measure_of({ lever_m: -0.015, other: 1 }), measure_of(null)].map(({ unit, both_ways }) => [unit, both_ways]);"""),
                          [["°", True], ["mm", False], ["mm", False]])
 
     def test_joint_waveforms_are_in_degrees_of_both_signs(self):
-        at_m, why = self.ask(self.SCRIPT + """return [waveform("sine", values, agonist).at(2.5), refuse_values("sine", values, 0.008, agonist)];""")
+        at_m, why = self.run_script(self.SCRIPT + """return [waveform("sine", values, agonist).at(2.5), refuse_values("sine", values, 0.008, agonist)];""")
         self.assertAlmostEqual(at_m, 0.0039270, 6)  # 15 degrees
         self.assertEqual(why, "")
-        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, offset: 15 }, 0.008, agonist);"""),
+        self.assertEqual(self.run_script(self.SCRIPT + """return refuse_values("sine", { ...values, offset: 15 }, 0.008, agonist);"""),
                          "offset and amplitude reach from -5.00 to 35.00 °; allowed: -30.56 to 30.56 °")
 
     def test_range_includes_the_other_muscles_travel(self):
-        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, lever: new Lever([0.015]), other: 2, other_travel_m: 0.006 }));"""),
+        self.assertEqual(self.run_script(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, lever: new Lever([0.015]), other: 2, other_travel_m: 0.006 }));"""),
                          "offset and amplitude reach from -30.00 to 20.00 °; allowed: -22.92 to 30.56 °")
 
     def test_a_file_of_a_joint_may_have_negative_positions(self):
-        told = self.ask(self.SCRIPT + """const why = (row, measure) => { try { waveform_of_file(`time_s,position_m\n0,0\n1,${row}\n`, 0.008, measure); return ""; } catch ({ message }) { return message; } };
+        results = self.run_script(self.SCRIPT + """const why = (row, measure) => { try { waveform_of_file(`time_s,position_m\n0,0\n1,${row}\n`, 0.008, measure); return ""; } catch ({ message }) { return message; } };
             return [why(-0.008, agonist), why(-0.009, agonist), why(-0.008)];""")
-        self.assertEqual(told, ["", "line 3: position_m -0.009; allowed: -0.008 to 0.008 m", "line 3: position_m -0.008; allowed: 0 to 0.008 m"])
+        self.assertEqual(results, ["", "line 3: position_m -0.009; allowed: -0.008 to 0.008 m", "line 3: position_m -0.008; allowed: 0 to 0.008 m"])
 
 
 class JointPage(PageCase):
@@ -192,7 +192,7 @@ class JointByHand(FreeJointPage):
 
     def test_an_angle_turns_it_both_ways(self):
         page = self.page()
-        page.wait(lambda: page.text(".manual .value .unit") == "°", READY_S, "the joint is told")
+        page.wait(lambda: page.text(".manual .value .unit") == "°", READY_S, "the joint is reported")
         unit = page.find("#wave-amplitude-1 + .unit").get_attribute("textContent")
         self.assertEqual(unit, "°")
         page.arm()

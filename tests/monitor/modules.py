@@ -48,7 +48,7 @@ class ModulesCase(unittest.TestCase):
         cls.browser = cls.enterClassContext(Browser())
         cls.browser.driver.get(cls.source.address + "icon.svg")
 
-    def ask(self, script):
+    def run_script(self, script):
         """What the script returns."""
         answer = self.browser.driver.execute_async_script(
             "const done = arguments[0]; (async () => {" + TOOLS + script + "})()"

@@ -115,7 +115,7 @@ class Page(Browser):
             print(f"became {self.state()} meanwhile: {self.text('.state .fault')}")
         raise AssertionError(f"was not stopped in {TRIES} tries")
 
-    def stop_is_told(self):
+    def stop_is_confirmed(self):
         """Whether STOP is confirmed, by its own port or by the other way when this machine is busy for half a second."""
         return self.text("#stop-notice").startswith(("stopped node", "disarmed each node"))
 
@@ -172,7 +172,7 @@ class PageTest(PageCase):
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
         self.assertEqual(page.find(".value input").get_attribute("value"), str(TARGET_MM))
-        page.wait(page.stop_is_told, STOP_S, "stop is confirmed")
+        page.wait(page.stop_is_confirmed, STOP_S, "stop is confirmed")
 
     def test_shows_how_identify_and_calibrate_ended(self):
         page = self.page()
@@ -244,7 +244,7 @@ class PageTest(PageCase):
             page.driver.switch_to.new_window("tab")
             page.open(self.address)
         print(f"eight pages: off {page.stop_by(page.press_space):.2f} s after the space bar")
-        page.wait(page.stop_is_told, STOP_S, "stop is confirmed")
+        page.wait(page.stop_is_confirmed, STOP_S, "stop is confirmed")
 
     def test_page_requests_nothing_from_other_hosts(self):
         page = self.page()
@@ -354,7 +354,7 @@ class PageTest(PageCase):
         page.wait(lambda: "30 over_temperature" in page.text("#fault-page article"), 2.0, "the fault's page")
         # It covers neither the button nor the key.
         page.press_space()
-        page.wait(page.stop_is_told, STOP_S, "stop is confirmed")
+        page.wait(page.stop_is_confirmed, STOP_S, "stop is confirmed")
 
 
 class Pictures(PageCase):

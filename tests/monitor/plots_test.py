@@ -26,7 +26,7 @@ class CsvRun(ModulesCase):
     TOOLS = 'const { OtherRun, batch_of_csv, batch_of_store } = await import("/other_run.js"); const { csv } = await import("/csv.js");'
 
     def test_an_exported_csv_can_be_loaded_again(self):
-        self.assertEqual(self.ask(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
+        self.assertEqual(self.run_script(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, true);
             store.append({ newest_s: 3, nodes: { 2: { Measurement: { time_s: [1, 2, 3], position_m: [0.001, null, 0.003] }, Status: { time_s: [1.5], state: [2] } } } });
             const run = new OtherRun(protocol);
@@ -40,18 +40,18 @@ class CsvRun(ModulesCase):
             [[[1, 0.001], [3, 0.003]], [[1, 0.001], [3, 0.003]], [[2, None], [3, 0.003]], 99.5])
 
     def test_csv_times_keep_their_microseconds(self):
-        self.assertEqual(self.ask(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
+        self.assertEqual(self.run_script(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
             const store = new Store(protocol, true);
             store.append({ newest_s: 3, nodes: { 1: { Emergency: { time_s: [3], fault: [30], state: [3], board_time_s: [2592000.123457] } } } });
             return (await (await csv(store, [1], { from_s: 0, to_s: 9 })).text()).split("\\n")[1];"""),
             "3.000000,1,over_temperature,fault,2592000.123457")
 
     def test_an_invalid_csv_is_reported_by_line(self):
-        told = self.ask(self.TOOLS + """const why = (text) => { try { batch_of_csv(text); return ""; } catch ({ message }) { return message; } };
+        errors = self.run_script(self.TOOLS + """const why = (text) => { try { batch_of_csv(text); return ""; } catch ({ message }) { return message; } };
             const head = "time_s,node,Measurement.position_m\\n";
             return [why("a,b\\n1,2\\n"), why(head + "1,1,0\\n0.5,1,0\\n"), why(head + "1,1\\n"), why(head), why(head + "1,1,0\\n")];""")
-        for said, line in zip(told, ("line 1: the columns", "line 3: 3 cells", "line 2: 3 cells", "line 1: there are no rows", "")):
-            self.assertTrue(said.startswith(line) and bool(said) == bool(line), said)
+        for error, line in zip(errors, ("line 1: the columns", "line 3: 3 cells", "line 2: 3 cells", "line 1: there are no rows", "")):
+            self.assertTrue(error.startswith(line) and bool(error) == bool(line), error)
 
 
 class PlotsTest(unittest.TestCase):

@@ -40,7 +40,7 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(sum(name.startswith("theta") and not name.endswith("deviation") for name in node["Estimate"]), 4)
 
     def test_errors_are_reported_in_json_too(self):
-        for words, status, told in ((("command", "64", "arm", "--can", self.source), 2, "must be 1 to 63"),
+        for words, status, expected in ((("command", "64", "arm", "--can", self.source), 2, "must be 1 to 63"),
                                     (("command",), 2, "COMMAND is required"),
                                     (("tune", "99"), 2, "not in range"),
                                     (("tuen", "1"), 2, "did you mean tune?"),
@@ -71,8 +71,8 @@ class Scripts(OnSimulatedBoard):
             done = subprocess.run([SUPERCOIL, *words, "--json"], capture_output=True, text=True, timeout=SLACK_S)
             answer = json.loads(done.stdout)
             self.assertEqual(done.returncode, status, done.stderr)
-            self.assertIn(told, answer["error"])
-            self.assertIn(told, done.stderr)
+            self.assertIn(expected, answer["error"])
+            self.assertIn(expected, done.stderr)
 
     def test_reports_how_calibrate_ended(self):
         for words in (("--for", "60"), ()):  # without a time it is renewed until it ends
@@ -157,10 +157,10 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(refused.stderr, "supercoil: max_power_W: refused: out_of_range; 4.5 would be obeyed; 0 to 4.5 are in range\n")
         outside = "refused: out_of_range: the value is out of range; "
         room = " are in range, up to its ticks a second, as far as its bus has room"
-        for name, value, told in (("status_Hz", "0", f"{outside}1 to 1000{room}"),
+        for name, value, expected in (("status_Hz", "0", f"{outside}1 to 1000{room}"),
                                   ("measurement_Hz", "0.001", f"{outside}0, for never, and 0.01 to 1000{room}"),
                                   ("supply_gain", "1.1", f"{outside}it is read-only: supercoil doctor --compare-senses determines it")):
-            self.assertEqual(setting("1", name, value).stderr, f"supercoil: {name}: {told}\n")
+            self.assertEqual(setting("1", name, value).stderr, f"supercoil: {name}: {expected}\n")
         for written, meant in (("mesurement_Hz", "did you mean measurement_Hz?"), ("max_powr_W", "did you mean max_power_W?"),
                                ("max_power_W=2", "write max_power_W 2"), ("loudness", "there are: max_power_W, measurement_Hz, ")):
             unknown = setting("1", written)

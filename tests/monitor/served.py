@@ -16,7 +16,7 @@ class Served:
         self.token = (program.found[2] or "").removeprefix("#token=")
         self.port = int(self.address.split(":")[1])
 
-    def ask(self, method, path, body=None, port=None, **headers):
+    def request(self, method, path, body=None, port=None, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", port or self.port, timeout=SLACK_S)
         with contextlib.closing(connection):
             connection.request(method, path, body, headers)
@@ -24,13 +24,13 @@ class Served:
             return answer.status, answer.read().decode()
 
     def get(self, path, **headers):
-        status, text = self.ask("GET", path, **headers)
+        status, text = self.request("GET", path, **headers)
         return status, json.loads(text)
 
     def post(self, path, body, port=None, token=None, origin=None):
         headers = {"X-Supercoil-Token": self.token if token is None else token,
                    "Origin": f"http://{self.address}" if origin is None else origin}
-        status, text = self.ask("POST", path, body if isinstance(body, str) else json.dumps(body), port, **headers)
+        status, text = self.request("POST", path, body if isinstance(body, str) else json.dumps(body), port, **headers)
         return status, json.loads(text)
 
     def command(self, opcode, value=0.0):

@@ -54,8 +54,8 @@ class Live(OnServedBoard):
         self.assertEqual(served.post("/stop", "", served.stop_port(), origin="http://example.org")[0], 403)
         self.assertEqual(served.post("/api/command", order)[0], 200)
         # A name that somebody else's DNS directs here.
-        self.assertEqual(served.ask("GET", "/api/history", Host="example.org")[0], 403)
-        self.assertEqual(served.ask("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
+        self.assertEqual(served.request("GET", "/api/history", Host="example.org")[0], 403)
+        self.assertEqual(served.request("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
 
     def test_a_script_needs_only_the_token(self):
         served = self.serve()
@@ -63,20 +63,20 @@ class Live(OnServedBoard):
         bearer = {"Authorization": f"Bearer {served.token}"}
         # Any program on this machine may stop it, but no page of another server.
         for browser in ({"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
-            self.assertEqual(served.ask("POST", "/stop", "", served.stop_port(), **browser)[0], 403, browser)
-        self.assertEqual(served.ask("POST", "/stop", "", served.stop_port())[0], 200)
+            self.assertEqual(served.request("POST", "/stop", "", served.stop_port(), **browser)[0], 403, browser)
+        self.assertEqual(served.request("POST", "/stop", "", served.stop_port())[0], 200)
         until(lambda: served.state()[0] == "disarmed")
         for wrong in ({}, {"Authorization": "Bearer " + "0" * 32}, {"Authorization": served.token},
                       {"X-Supercoil-Token": "0" * 32}, {**bearer, "Origin": "http://example.org"}, {**bearer, "Origin": "null"},
                       {**bearer, "Sec-Fetch-Site": "cross-site"},
                       {**bearer, "Host": "example.org"}):
-            self.assertEqual(served.ask("POST", "/api/command", order, **wrong)[0], 403, wrong)
+            self.assertEqual(served.request("POST", "/api/command", order, **wrong)[0], 403, wrong)
         # A token in an address ends up in logs and histories: it allows watching only.
-        status, said = served.ask("POST", f"/api/command?token={served.token}", order)
+        status, said = served.request("POST", f"/api/command?token={served.token}", order)
         self.assertEqual(status, 403)
         self.assertIn("Authorization: Bearer TOKEN", said)
         self.assertEqual(served.state()[0], "disarmed")
-        self.assertEqual(served.ask("POST", "/api/command", order, **bearer)[0], 200)
+        self.assertEqual(served.request("POST", "/api/command", order, **bearer)[0], 200)
         until(lambda: served.state()[0] == "armed")
 
     def test_invalid_requests_are_rejected(self):
@@ -90,7 +90,7 @@ class Live(OnServedBoard):
         for path in ("/api/history?from_s=x", "/api/history?to_s=1e300", "/api/history?from_s=nan"):
             self.assertEqual(served.get(path)[0], 400, path)
         self.assertEqual(served.get("/api/fault/no_such")[0], 404)
-        self.assertIn("heater", served.ask("GET", "/api/fault/heater_open")[1])
+        self.assertIn("heater", served.request("GET", "/api/fault/heater_open")[1])
 
     def test_a_muscle_moves_only_while_a_page_is_alive(self):
         served = self.serve()
@@ -296,19 +296,19 @@ class Sources(unittest.TestCase):
             return subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S).stdout
 
         tripped = ((1, "081#1703000000000000"), (1, f"0C1#{cause}"))
-        told = text_of(*tripped, (61, "701#0317000000000410"))
-        self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", told)
-        self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", told)
-        told = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
-        self.assertIn(", FAULT over_temperature\n", told)
-        self.assertNotIn("proof_of_response", told)
+        text = text_of(*tripped, (61, "701#0317000000000410"))
+        self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", text)
+        self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", text)
+        text = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
+        self.assertIn(", FAULT over_temperature\n", text)
+        self.assertNotIn("proof_of_response", text)
 
     def test_text_shows_a_slack_muscle(self):
         log = self.path / "can.log"
-        for flags, told in (("80", True), ("10", False)):
+        for flags, expected in (("80", True), ("10", False)):
             log.write_text(f"(0000000001.000000) can0 701#02000000FF0004{flags}\n")
             done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
-            self.assertEqual("\n  according to its model this muscle is slack at the present joint angle\n" in done.stdout, told)
+            self.assertEqual("\n  according to its model this muscle is slack at the present joint angle\n" in done.stdout, expected)
 
     def test_text_shows_the_hottest_temperature_when_off(self):
         log = self.path / "can.log"

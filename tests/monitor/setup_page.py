@@ -48,7 +48,7 @@ class Wizard(Page):
         self.wait(lambda: self.over(name), patience_s, f"{name} ends")
         return self.step(name)
 
-    def asked(self):
+    def question_key(self):
         """The key of the current question."""
         return self.run("""return document.querySelector("#setup form input")?.id.slice(6) ?? "" """)
 
@@ -59,7 +59,7 @@ class Wizard(Page):
             return part.top >= dialog.top && part.bottom <= dialog.bottom""")
 
     def answer(self, key, value):
-        self.wait(lambda: self.asked() == key, SLACK_S, f"{key} is asked")
+        self.wait(lambda: self.question_key() == key, SLACK_S, f"{key} is asked")
         self.find("#setup form input").send_keys(str(value), Keys.ENTER)
 
     def describe(self):

@@ -40,7 +40,7 @@ class SetupTest(SetupCase):
         self.source = f"socketcand:{port}"
         page = self.wizard(self.source)
         page.begin("describe")
-        page.wait(page.asked, SLACK_S, "a question")
+        page.wait(page.question_key, SLACK_S, "a question")
         see(page, "question")
         page.press("end describe")
         page.ended("describe", SLACK_S)
@@ -58,11 +58,11 @@ class SetupTest(SetupCase):
         def compare():
             for _ in range(2):
                 page.answer("supply_V", SUPPLY_V)
-                page.wait(lambda: page.asked() == "current_A", SLACK_S, "amperes are asked")
+                page.wait(lambda: page.question_key() == "current_A", SLACK_S, "amperes are asked")
                 power_W = float(re.search(r"gets ([\d.]+) W", page.step("senses")["lines"][-2])[1])
                 see(page, "senses")
                 page.answer("current_A", f"{power_W / SUPPLY_V:.5f}")
-                page.wait(lambda: page.asked() != "current_A", SLACK_S, "the amperes are taken")
+                page.wait(lambda: page.question_key() != "current_A", SLACK_S, "the amperes are taken")
 
         see(page, "described")
         looked = self.run_step(page, "doctor")
@@ -91,12 +91,12 @@ class SetupTest(SetupCase):
         self.start_board(port)
         identified = self.run_step(page, "identify", lambda: see(page, "identify"))
         self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ (± \S+ % )?\(configured: 17\.84, ")
-        self.in_use_as_told(page, identified["lines"])
+        self.assert_card_shows_deviations(page, identified["lines"])
         tuned = subprocess.run([SUPERCOIL, "tune", "1", "bandwidth_rad_per_s=3", "--can", self.source], capture_output=True, timeout=SLACK_S)
         self.assertEqual(tuned.returncode, 0)
 
         def take():
-            page.wait(lambda: page.asked() == "take_gains", SLACK_S, "whether to take the recommended controller")
+            page.wait(lambda: page.question_key() == "take_gains", SLACK_S, "whether to take the recommended controller")
             see(page, "gains")
             page.answer("take_gains", 1)
 
@@ -110,16 +110,16 @@ class SetupTest(SetupCase):
         self.assertRegex(state, "node 1: disarmed")
         self.assertEqual(page.errors(), [])
 
-    def in_use_as_told(self, page, lines):
+    def assert_card_shows_deviations(self, page, lines):
         """The card of the muscle in use has the deviations that the step reported."""
         def deviation(title):
             return page.run(f"""return [...document.querySelectorAll("section[aria-label='muscle in use, node 1'] tbody tr")]
                 .find((row) => row.firstChild.textContent === "{title}").children[3].textContent""")
 
         for title in ("time constant", "gain"):
-            told = re.search(rf"{title}: \S+ \S+ ± (\S+) %", " ".join(lines))
+            reported = re.search(rf"{title}: \S+ \S+ ± (\S+) %", " ".join(lines))
             page.wait(lambda: deviation(title) != "–", SLACK_S, f"the deviation of the {title}")
-            self.assertAlmostEqual(float(deviation(title).split()[1]), float(told[1]), delta=0.05 * float(told[1]))
+            self.assertAlmostEqual(float(deviation(title).split()[1]), float(reported[1]), delta=0.05 * float(reported[1]))
 
     def test_an_invalid_answer_is_refused_and_requested_again(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")
@@ -129,7 +129,7 @@ class SetupTest(SetupCase):
         page.wait(lambda: "'10Ohm' is refused: it must be a number from 0.1 to 10000" in page.text("#setup form [role=alert]"), SLACK_S, "refused")
         self.assertTrue(page.in_view("#setup form [role=alert]"))
         self.assertEqual(page.find("#setup form input").get_attribute("aria-describedby"), page.find("#setup form [role=alert]").get_attribute("id"))
-        self.assertEqual(page.asked(), "cold_resistance_Ohm")
+        self.assertEqual(page.question_key(), "cold_resistance_Ohm")
         page.press("end describe")
         step = page.ended("describe", SLACK_S)
         self.assertEqual(step["problem"], "interrupted: ended on the page")
@@ -149,7 +149,7 @@ class SetupTest(SetupCase):
             };""")
         page.wait(lambda: page.run("return window.late === true"), SLACK_S, "the page asks")
         page.begin("describe")
-        page.wait(page.asked, SLACK_S, "a question")
+        page.wait(page.question_key, SLACK_S, "a question")
         page.find("#setup form input").send_keys("12")
         time.sleep(5.0)
         self.assertEqual(page.find("#setup form input").get_attribute("value"), "12")
@@ -173,7 +173,7 @@ class SetupTest(SetupCase):
         page = self.described()
         page.begin("describe")
         page.answer("nameplate", 0)
-        page.wait(lambda: page.asked() == "cold_resistance_Ohm", SLACK_S, "a question")
+        page.wait(lambda: page.question_key() == "cold_resistance_Ohm", SLACK_S, "a question")
         self.audit(page, "question")
         page.answer("cold_resistance_Ohm", "10Ohm")
         page.wait(lambda: "is refused" in page.text("#setup form"), SLACK_S, "refused")
@@ -201,10 +201,10 @@ class SetupTest(SetupCase):
         for _ in range(TRIES):
             page.begin("identify")
             page.wait(lambda: " left" in page.text("#setup .progress span") or page.over("identify"), STEP_S, "the time that is left")
-            told = page.text("#setup .progress span") if not page.over("identify") else ""
-            if told:
+            progress = page.text("#setup .progress span") if not page.over("identify") else ""
+            if progress:
                 break
-        self.assertRegex(told, r"^\s*identify, \d+ %, \d+ (s|min) left$")
+        self.assertRegex(progress, r"^\s*identify, \d+ %, \d+ (s|min) left$")
         page.press("end identify")
         page.ended("identify", SLACK_S)
 
@@ -244,13 +244,13 @@ class SetupTest(SetupCase):
             program.stop()
 
     def test_invalid_setup_options_are_rejected_at_the_start(self):
-        for words, told in ((("--setup", "missing.toml"), "missing.toml"),
+        for words, expected in ((("--setup", "missing.toml"), "missing.toml"),
                             (("--setup", self.file, "--channel", "3"), "board.toml has no channel 3, but 2"),
                             (("--setup", self.file, "--read-only"), "--read-only excludes --setup"),
                             (("--channel", "2"), "--channel requires --setup")):
             done = subprocess.run([SUPERCOIL, "monitor", "socketcand:29536", *words], capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(told, done.stderr)
+            self.assertIn(expected, done.stderr)
         log = self.file.with_name("can.log")
         log.write_text("(1.000000) can0 101#00\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--setup", self.file], capture_output=True, text=True, timeout=60)

@@ -79,7 +79,7 @@ class StopPort(OnSimulatedBoard):
     def test_other_requests_are_refused(self):
         served = self.serve()
         stop_port = served.stop_port()
-        self.assertEqual(served.ask("GET", "/stop", port=stop_port)[0], 404)
+        self.assertEqual(served.request("GET", "/stop", port=stop_port)[0], 404)
         self.assertEqual(served.post("/", "", stop_port)[0], 404)
         self.assertEqual(served.post("/stop", "", stop_port, origin=f"http://127.0.0.1:{stop_port}")[0], 403)
         for text in (b"\0\xff\r\n\r\n", b"POST /stop HTTP/1.1\r\nX: " + 20000 * b"x",
@@ -113,7 +113,7 @@ class StopOnThePage(PageCase):
         answered = 0
         for _ in range(times):
             print(f"off {page.stop_by(act, READY_S):.2f} s after the click, seen on the page")
-            page.wait(page.stop_is_told, READY_S, "stop is confirmed")
+            page.wait(page.stop_is_confirmed, READY_S, "stop is confirmed")
             answered += page.text("#stop-notice").startswith("stopped node")
         print(f"{answered} of {times} answered by STOP's own port within its deadline")
         self.assertGreater(answered, 0)
@@ -180,7 +180,7 @@ class StopOnThePage(PageCase):
             page.screen(width, height, mobile)
             page.run("scrollTo(0, 0)")
             page.press_space()
-            page.wait(page.stop_is_told, READY_S, "a word about STOP")
+            page.wait(page.stop_is_confirmed, READY_S, "a word about STOP")
             covered = page.run("""const box = document.querySelector("#stop-notice").getBoundingClientRect();
                 return [...document.querySelectorAll("header *, .readouts, .plot, .card, #stop")].filter((element) => {
                     const other = element.getBoundingClientRect();

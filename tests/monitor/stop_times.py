@@ -37,9 +37,9 @@ class Answers(threading.Thread):
         self.start()
 
     def run(self):
-        heard = ""
+        received = ""
         while more := self.bus.recv(65536).decode():
-            *elements, heard = (heard + more).split(">")
+            *elements, received = (received + more).split(">")
             for element in elements:
                 if not (found := re.fullmatch(rf"< frame {ACKNOWLEDGE.frame_id:x} ([\d.]+) ([0-9a-f]+) ", element.lower())):
                     continue

@@ -58,8 +58,8 @@ class Stream(OnServedBoard):
         again.close()
         # A second of them, none twice and none left out.
         self.assertGreater(len(missed), 50)
-        told = self.measured_s([served.get("/api/history")[1]])
-        self.assertEqual([at_s for at_s in told if (before or missed)[0] <= at_s <= missed[-1]], before + missed)
+        served_s = self.measured_s([served.get("/api/history")[1]])
+        self.assertEqual([at_s for at_s in served_s if (before or missed)[0] <= at_s <= missed[-1]], before + missed)
 
     def test_only_event_ids_of_this_run_resume(self):
         served = self.serve()

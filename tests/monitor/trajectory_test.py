@@ -41,9 +41,9 @@ class Trajectories(OnServedBoard):
         self.served = self.serve()
 
     def play(self, knots=(), start=False):
-        status, told = self.served.post("/api/trajectory", {"node": 1, "knots": list(knots), "start": start})
-        self.assertEqual(status, 200, told)
-        return told
+        status, answer = self.served.post("/api/trajectory", {"node": 1, "knots": list(knots), "start": start})
+        self.assertEqual(status, 200, answer)
+        return answer
 
     def hold_first(self):
         served = self.served
@@ -73,8 +73,8 @@ class Trajectories(OnServedBoard):
     @unless_it_expires
     def test_an_infeasible_knot_is_refused_and_earlier_ones_stay(self):
         self.hold_first()
-        told = self.play(knots(4) + knots(3, rise_m=0.002, begins=False))
-        self.assertEqual((told["refusal"], told["taken"], told["playback"]), ("infeasible", 4, "loaded"))
+        answer = self.play(knots(4) + knots(3, rise_m=0.002, begins=False))
+        self.assertEqual((answer["refusal"], answer["taken"], answer["playback"]), ("infeasible", 4, "loaded"))
 
     @unless_it_expires
     def test_another_command_discards_it(self):
@@ -82,16 +82,16 @@ class Trajectories(OnServedBoard):
         self.assertEqual(self.play(knots(16), start=True)["refusal"], "none")
         until(lambda: self.playback() == "playing")
         self.served.command("position", 0.003)
-        told = self.play(knots(1, begins=False))
-        self.assertEqual((told["refusal"], told["taken"], told["playback"]), ("wrong_state", 0, "empty"))
+        answer = self.play(knots(1, begins=False))
+        self.assertEqual((answer["refusal"], answer["taken"], answer["playback"]), ("wrong_state", 0, "empty"))
 
     def test_it_cools_without_a_live_page(self):
         self.hold_first()
         slow = [{**knot, "after_s": 4} if knot["after_s"] else knot for knot in knots(16)]
         self.assertEqual(self.play(slow, start=True)["refusal"], "none")
         until(lambda: self.served.state()[0] == "fault")
-        told = self.play(knots(2))
-        self.assertEqual((told["refusal"], told["taken"]), ("wrong_state", 0))
+        answer = self.play(knots(2))
+        self.assertEqual((answer["refusal"], answer["taken"]), ("wrong_state", 0))
 
     @unless_it_expires
     def test_stop_ends_it_and_nothing_more_is_sent(self):
@@ -99,8 +99,8 @@ class Trajectories(OnServedBoard):
         self.assertEqual(self.play(knots(16), start=True)["refusal"], "none")
         self.served.post("/stop", "", self.served.stop_port())
         until(lambda: self.served.state()[0] == "disarmed")
-        told = self.play(knots(1, begins=False))
-        self.assertEqual((told["refusal"], told["taken"]), ("wrong_state", 0))
+        answer = self.play(knots(1, begins=False))
+        self.assertEqual((answer["refusal"], answer["taken"]), ("wrong_state", 0))
 
     def test_invalid_or_unauthorised_trajectories_are_rejected(self):
         for wrong, why in (({"knots": [{"after_s": 0, "position_m": 9, "velocity_m_per_s": 0}]},

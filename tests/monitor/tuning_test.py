@@ -11,7 +11,7 @@ from page_test import NEAR_MM, PageCase, TARGET_MM
 from programs import SLACK_S, SUPERCOIL, command, until
 
 CARD = "details[aria-label='controllers of node 1']"
-TOLD_S = 30.0  # hundreds of questions and answers over the bus, on a machine that does other work
+ANSWER_S = 30.0  # hundreds of questions and answers over the bus, on a machine that does other work
 
 
 class TuneCommand(PageCase):
@@ -73,8 +73,8 @@ class TuneCommand(PageCase):
         self.assertEqual(after["trusted_error"] | {"configured": None}, {"prepared": 0.1, "in_use": 0.1, "configured": None,
                                                                          "stored": before["trusted_error"]["configured"]})
         lines = self.tune("--estimator", "0", "kind=least_squares", "forgetting_s=20").stdout.splitlines()
-        told = lines[lines.index("estimator 0: least_squares"):]
-        self.assertIn(["*", "forgetting_s", "20", "-", "-", "20"], [line.split() for line in told])
+        lines_of_estimator = lines[lines.index("estimator 0: least_squares"):]
+        self.assertIn(["*", "forgetting_s", "20", "-", "-", "20"], [line.split() for line in lines_of_estimator])
         self.assertEqual(values("--from", "configured", "--store")["kind"]["in_use"], "gradient")
 
     def test_a_kind_selects_its_place(self):
@@ -90,13 +90,13 @@ class TuneCommand(PageCase):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "power", "0.1", "--hold", "--can", self.source])
         until(lambda: "node 1: active" in command(self.source, "state").stdout)
-        told = self.tune("adaptation_scale=2").stderr
+        error = self.tune("adaptation_scale=2").stderr
         held.terminate()
         held.wait()
-        self.assertEqual(told, "supercoil: nothing was prepared: refused: not_lease_holder: another program commands this muscle\n")
+        self.assertEqual(error, "supercoil: nothing was prepared: refused: not_lease_holder: another program commands this muscle\n")
 
     def test_errors_are_reported(self):
-        for words, status, told in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
+        for words, status, expected in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
                                     (("bandwith=3",), 2, "bandwith cannot be tuned; did you mean bandwidth_rad_per_s (the unit is part of the name)?"),
                                     (("gain=",), 2, "gain cannot be tuned; did you mean gain_1?"),
                                     (("gain_1=",), 2, "gain_1: has no value: must be 1e-06 to 1e+12"),
@@ -121,13 +121,13 @@ class TuneCommand(PageCase):
                                     (("--estimator", "0", "--controller", "0"), 2, "--controller excludes --estimator")):
             done = self.tune(*words)
             self.assertEqual(done.returncode, status, done.stderr)
-            self.assertIn(told, done.stderr)
-        for words, told in ((("tune", "5"), "1 tune 5: there is no controller 5; there is 0 (mrac)"),
+            self.assertIn(expected, done.stderr)
+        for words, expected in ((("tune", "5"), "1 tune 5: there is no controller 5; there is 0 (mrac)"),
                             (("tune", "9"), "1 tune 9: there is no estimator 1; there is 0 (gradient)"),
                             (("controller", "pi"), "1 controller pi: there is no controller pi; there is 0 (mrac)"),
                             (("estimator", "none"), "1 estimator none: there is no estimator none; there is 0 (gradient)")):
             done = command(self.source, "1", *words)
-            self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {told}\n"))
+            self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {expected}\n"))
         self.assertIn("channel 'x': must be 1 to 63", command(self.source, "x", "tune", "0").stderr)
         self.assertEqual(self.values()["kind"]["in_use"], "mrac")
         self.assertIn("no answer from node 2", self.tune(channel="2").stderr)
@@ -144,7 +144,7 @@ class TuningPage(PageCase):
             if page.run(f"return !document.querySelector(\"{CARD}\").open"):
                 page.click(f"{CARD} summary")
             return "adaptation scale" in page.text(f"{CARD} tbody")
-        page.wait(read, TOLD_S, "the values are read")
+        page.wait(read, ANSWER_S, "the values are read")
         return page
 
     def row(self, page, name):
@@ -160,22 +160,22 @@ class TuningPage(PageCase):
     def press(self, page, button):
         page.run(f"""[...document.querySelectorAll("{CARD} button")].find((b) => b.textContent === "{button}").click()""")
 
-    def told(self, page, text):
-        page.wait(lambda: text in page.text(f"{CARD} .answer"), TOLD_S, text)
+    def wait_for_answer(self, page, text):
+        page.wait(lambda: text in page.text(f"{CARD} .answer"), ANSWER_S, text)
 
     def test_a_value_is_used_stored_and_restored(self):
         page = self.opened()
         self.put(page, "adaptation scale", "2.5")
         self.press(page, "use")
-        self.told(page, "adaptation_scale = 2.5: in use")
+        self.wait_for_answer(page, "adaptation_scale = 2.5: in use")
         self.assertEqual(self.row(page, "adaptation scale"), ["✱ adaptation scale", "2.50", "1.00", "1.00"])
         self.press(page, "store")
-        self.told(page, "stored for the next start")
+        self.wait_for_answer(page, "stored for the next start")
         self.assertEqual(self.row(page, "adaptation scale")[3], "2.50")
         self.press(page, "as board.toml")
-        self.told(page, "as board.toml: in use")
+        self.wait_for_answer(page, "as board.toml: in use")
         self.press(page, "forget stored")
-        self.told(page, "the next start uses board.toml")
+        self.wait_for_answer(page, "the next start uses board.toml")
         self.assertEqual(self.row(page, "adaptation scale"), ["adaptation scale", "1.00", "1.00", "1.00"])
         self.assertEqual(page.errors(), [])
 
@@ -183,28 +183,28 @@ class TuningPage(PageCase):
         page = self.opened()
         self.put(page, "reference model", "design")
         self.press(page, "use")
-        self.told(page, "unsuitable")
+        self.wait_for_answer(page, "unsuitable")
         self.assertEqual(self.row(page, "reference model")[1], "wm16")
         self.put(page, "adaptation scale", "much")
         self.press(page, "use")
-        page.wait(lambda: "must be" in page.text(f"{CARD} .answer"), TOLD_S, "the range is told")
+        page.wait(lambda: "must be" in page.text(f"{CARD} .answer"), ANSWER_S, "the range is told")
 
     def test_a_reference_model_can_have_its_own_poles(self):
         page = self.opened()
         self.put(page, "reference model", "design")
         self.put(page, "kind", "pi")
         self.press(page, "use")
-        self.told(page, "in use")
+        self.wait_for_answer(page, "in use")
         self.assertEqual(self.row(page, "model pole 1 rad per s")[1], "–")
         self.put(page, "reference model", "poles")
         self.press(page, "use")
-        self.told(page, "reference_model = poles: in use")
+        self.wait_for_answer(page, "reference_model = poles: in use")
         self.put(page, "model pole 1 rad per s", "3")
         self.press(page, "use")
-        self.told(page, "model_pole_1_rad_per_s = 3: in use")
+        self.wait_for_answer(page, "model_pole_1_rad_per_s = 3: in use")
         self.assertEqual(self.row(page, "model pole 1 rad per s")[1], "3.00")
         self.press(page, "as board.toml")
-        self.told(page, "as board.toml: in use")
+        self.wait_for_answer(page, "as board.toml: in use")
 
     def test_the_state_names_the_current_controller(self):
         page = self.page()
@@ -213,17 +213,17 @@ class TuningPage(PageCase):
                 tuned = subprocess.run([SUPERCOIL, "tune", "1", f"kind={kind}", "--can", self.source], capture_output=True, text=True)
                 self.assertEqual(tuned.returncode, 0, tuned.stderr)
                 self.assertEqual(command(self.source, "1", verb).returncode, 0)
-            page.wait(lambda: kind in page.text(".state dl").split(), TOLD_S, f"{kind} is named")
+            page.wait(lambda: kind in page.text(".state dl").split(), ANSWER_S, f"{kind} is named")
 
     def test_an_estimator_is_changed(self):
         page = self.opened()
         page.run(f"""[...document.querySelectorAll("{CARD} button")].find((b) => b.textContent === "estimator 0: gradient").click()""")
         self.put(page, "trusted error", "0.1")
         self.press(page, "use")
-        self.told(page, "estimator 0: trusted_error = 0.1: in use")
+        self.wait_for_answer(page, "estimator 0: trusted_error = 0.1: in use")
         self.assertEqual(self.row(page, "trusted error")[:2], ["✱ trusted error", "0.100"])
         self.press(page, "as board.toml")
-        self.told(page, "as board.toml: in use")
+        self.wait_for_answer(page, "as board.toml: in use")
         self.assertEqual(page.errors(), [])
 
     def test_tuning_does_not_interrupt_tracking(self):
@@ -232,13 +232,13 @@ class TuningPage(PageCase):
         page.bring_to(TARGET_MM)
         self.put(page, "kind", "pi")
         self.press(page, "use")
-        self.told(page, "kind = pi: in use")
+        self.wait_for_answer(page, "kind = pi: in use")
         self.assertIsNotNone(self.row(page, "integral W per m s"))
         self.assertEqual(page.state(), "active")
         self.assertLess(abs(page.value("position") - TARGET_MM), 2 * NEAR_MM)
         page.press_space()
         self.press(page, "as board.toml")
-        self.told(page, "as board.toml: in use")
+        self.wait_for_answer(page, "as board.toml: in use")
 
 
 if __name__ == "__main__":

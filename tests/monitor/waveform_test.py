@@ -22,7 +22,7 @@ SHAPES = 'const { waveform, refuse_values, waveform_of_file } = await import("/w
 
 class Shapes(ModulesCase):
     def test_sine_steps_and_chirp_are_centred_on_their_offset(self):
-        sine, steps, chirp, end_s = self.ask(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
+        sine, steps, chirp, end_s = self.run_script(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
             const at = (shape, times) => times.map((time) => Number((1e3 * waveform(shape, values).at(time)).toFixed(3)));
             // A chirp's phase at its end is the mean of both frequencies times its duration: 18 periods here.
             return [at("sine", [0, 2.5, 7.5, 10]), at("steps", [0, 4.9, 5.1, 10.1]), at("chirp", [0, 60]), waveform("chirp", values).end_s];""")
@@ -32,30 +32,30 @@ class Shapes(ModulesCase):
         self.assertEqual(end_s, 60)
 
     def test_a_chirp_ends_with_its_last_period(self):
-        self.assertAlmostEqual(self.ask(SHAPES + """const { at } = waveform("chirp", { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 });
+        self.assertAlmostEqual(self.run_script(SHAPES + """const { at } = waveform("chirp", { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 });
             let crossings = 0; // upwards, in the last four seconds
             for (let time = 56; time < 60; time += 0.001) if (at(time) < 0.008 && at(time + 0.001) >= 0.008) ++crossings;
             return crossings;"""), 2)
 
     def test_values_beyond_the_travel_are_refused_with_the_range(self):
-        told = self.ask(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
+        errors = self.run_script(SHAPES + """const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
             const why = (changed, shape = "sine") => refuse_values(shape, { ...values, ...changed }, 0.0201);
             return [why({}), why({ offset: 1 }), why({ offset: 19, amplitude: -2 }), why({ period: 0 }), why({ amplitude: NaN }),
                 why({ last_period: -1 }, "chirp"), why({ last_period: -1 })];""")
-        self.assertEqual(told, ["", "offset and amplitude reach from -1.00 to 3.00 mm; allowed: 0 to 20.10 mm",
+        self.assertEqual(errors, ["", "offset and amplitude reach from -1.00 to 3.00 mm; allowed: 0 to 20.10 mm",
                                 "offset and amplitude reach from 17.00 to 21.00 mm; allowed: 0 to 20.10 mm", "period must be more than 0",
                                 "amplitude: a number is missing", "last period must be more than 0", ""])
 
     def test_a_file_is_interpolated_linearly(self):
-        self.assertEqual(self.ask(SHAPES + """const { at, end_s } = waveform_of_file("\\uFEFFnote,time_s,position_m\\r\\na,5,0.001\\nb,6,0.003\\n\\n,9,0\\n", 0.02);
+        self.assertEqual(self.run_script(SHAPES + """const { at, end_s } = waveform_of_file("\\uFEFFnote,time_s,position_m\\r\\na,5,0.001\\nb,6,0.003\\n\\n,9,0\\n", 0.02);
             return [end_s, ...[0, 0.5, 1, 2.5, 4, 9].map((time) => Number((1e3 * at(time)).toFixed(6)))];"""), [4, 1, 2, 3, 1.5, 0, 0])
 
     def test_a_bad_file_is_reported_by_line_value_and_range(self):
-        told = self.ask(SHAPES + """const head = "time_s,position_m\\n";
+        errors = self.run_script(SHAPES + """const head = "time_s,position_m\\n";
             const why = (text) => { try { waveform_of_file(text, 0.02); return ""; } catch ({ message }) { return message; } };
             return [why("t,x\\n0,0\\n"), why(head + "0,0\\n1,0.025\\n"), why(head + "0,0\\n1,-0.001\\n"), why(head + "0,0\\n1,a\\n"), why(head + "0,0\\n1\\n"),
                 why(head + "0,0\\n\\n0,0.001\\n"), why(head + "0,0\\n")];""")
-        self.assertEqual(told, ['line 1: "t,x": the first line must name the columns time_s and position_m',
+        self.assertEqual(errors, ['line 1: "t,x": the first line must name the columns time_s and position_m',
                                 "line 3: position_m 0.025; allowed: 0 to 0.02 m", "line 3: position_m -0.001; allowed: 0 to 0.02 m",
                                 'line 3: position_m is "a": a number is needed', 'line 3: position_m is "": a number is needed',
                                 "line 4: time_s 0 is not later than 0 before it", "line 3: at least two rows are needed"])
@@ -69,7 +69,7 @@ class Trajectories(ModulesCase):
         """
 
     def test_a_sine_starts_at_rest_with_consistent_velocities(self):
-        knots = self.ask(self.SCRIPT + """return first(swinging("sine", values), 1000);""")
+        knots = self.run_script(self.SCRIPT + """return first(swinging("sine", values), 1000);""")
         self.assertEqual(list(knots[0].values()), [0, 0.008, 0])
         self.assertLess(abs(knots[1]["position_m"] - 0.008), 1e-9)
         for before, knot, after in zip(knots, knots[1:], knots[2:]):
@@ -80,19 +80,19 @@ class Trajectories(ModulesCase):
         self.assertAlmostEqual(min(late), 0.006, 5)
 
     def test_a_chirp_ends_at_rest_at_its_offset(self):
-        knots = self.ask(self.SCRIPT + """return all(swinging("chirp", { ...values, last_period: 0.3, duration: 30.03 }));""")
+        knots = self.run_script(self.SCRIPT + """return all(swinging("chirp", { ...values, last_period: 0.3, duration: 30.03 }));""")
         self.assertEqual((knots[0], knots[-1]), ([0, 0.008, 0], [30.03, 0.008, 0]))
         steps = [after[0] - before[0] for before, after in zip(knots, knots[1:])]
         self.assertAlmostEqual(steps[0], 0.02, 6)
         self.assertTrue(all(0.009 < step < 0.031 for step in steps), (min(steps), max(steps)))
 
     def test_jumps_and_fast_periods_are_not_trajectories(self):
-        self.assertEqual(self.ask(self.SCRIPT + """return [jumps("sine", values), jumps("steps", values), jumps("sine", { ...values, last_period: 0.1 }),
+        self.assertEqual(self.run_script(self.SCRIPT + """return [jumps("sine", values), jumps("steps", values), jumps("sine", { ...values, last_period: 0.1 }),
             jumps("chirp", { ...values, last_period: 0.1 }), jumps("sine", { ...values, period: 0.19 })];"""),
             ["", "it jumps", "", *["a period of less than 0.2 s has too few knots"] * 2])
 
     def test_a_file_is_smoothed_and_close_rows_are_thinned(self):
-        rows, thinned, apart, short = self.ask(self.SCRIPT + """const rounded = (motion) => all(motion).map((knot) => knot.map((value) => Number(value.toFixed(6))));
+        rows, thinned, apart, short = self.run_script(self.SCRIPT + """const rounded = (motion) => all(motion).map((knot) => knot.map((value) => Number(value.toFixed(6))));
             return [rounded(through([[5, 0.001], [6, 0.003], [8, 0.004]])), rounded(through([[0, 0], [0.005, 0.1], [0.02, 0.001], [0.03, 0.002], [0.045, 0.003]])),
                 through([[0, 0], [5, 0.001]]).why, through([[0, 0], [0.01, 0.001]]).why];""")
         self.assertEqual(rows, [[0, 0.001, 0], [1, 0.003, 0.0015], [3, 0.004, 0]])  # (2 mm/s · 2 s + 0.5 mm/s · 1 s) / 3 s
@@ -146,7 +146,7 @@ class WaveformPage(PageCase):
 
     def references(self, page):
         """References of the newest 2 s, in mm, as the board reports them every 10 ms."""
-        return [1e3 * told for told in page.run("return fetch('/api/history?from_s=-2').then((answer) => answer.json())")["nodes"]["1"]["Tracking"]["reference_m"]]
+        return [1e3 * reference_m for reference_m in page.run("return fetch('/api/history?from_s=-2').then((answer) => answer.json())")["nodes"]["1"]["Tracking"]["reference_m"]]
 
     def requests(self, page):
         """How many commands and knots the page has sent. The browser keeps the newest 250 requests unless told otherwise."""
@@ -169,7 +169,7 @@ class WaveformPage(PageCase):
         steps = self.references(page)
         for reference in smooth + steps:
             self.assertTrue(4.99 <= reference <= 7.01, reference)
-        largest = [max(abs(after - before) for before, after in zip(told, told[1:])) for told in (smooth, steps)]
+        largest = [max(abs(after - before) for before, after in zip(references, references[1:])) for references in (smooth, steps)]
         # 1 mm · 2π / 4 s in 10 ms, or in 50.
         self.assertLess(largest[0], 0.03)
         self.assertGreater(largest[1], 2 * largest[0])

@@ -20,8 +20,8 @@ def use(name, address, node):
         print(f"{name} moved to {1e3 * muscle.position_m:.3f} mm", flush=True)
         with muscle.record("Tracking") as recording:
             muscle.play(TIMES_S, POSITIONS_M, settle_s=1.0)
-        told_m = [tracking.reference_m for tracking in recording.of(supercoil.messages.Tracking)]
-        print(f"{name} played up to {1e3 * max(told for told in told_m if math.isfinite(told)):.3f} mm", flush=True)
+        references_m = [tracking.reference_m for tracking in recording.of(supercoil.messages.Tracking)]
+        print(f"{name} played up to {1e3 * max(filter(math.isfinite, references_m)):.3f} mm", flush=True)
 
 
 print(f"python {sys.version.split()[0]}, supercoil {supercoil.__version__}", flush=True)

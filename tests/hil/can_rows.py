@@ -19,9 +19,9 @@ def states(console, log):
     return [(state, float(time)) for state, time in re.findall(rf"^{log} state \w+ (\w+) ([\d.]+)\r?$", console, re.M)]
 
 
-def after(told, state, begin_s):
+def after(reports, state, begin_s):
     """How long after `begin_s` the first of this state or data was reported; None: never."""
-    return next((time - begin_s for what, time in told if what == state and time >= begin_s - 0.01), None)
+    return next((time - begin_s for what, time in reports if what == state and time >= begin_s - 0.01), None)
 
 
 def can(table, run):
@@ -36,11 +36,11 @@ def can(table, run):
         table.row("           left out between them", sum((b - a) % 256 - 1 for a, b in zip(numbers, numbers[1:])), 0, 0, "")
         table.row("           refused to send", busy + gone, 0, 0, "")
 
-    heard = frames(run.console, "filter")
+    received = frames(run.console, "filter")
     table.row("CAN filter: other identifiers, extended and remote frames heard",
-              sum(data in ("02", "03", "04", "-") for data, _ in heard), 0, 0, "")
-    table.row("           the right ones, of four", sum(data in ("01", "05", "06", "07") for data, _ in heard), 4, 4, "")
-    table.row("           a frame that waited 0.5 s: received after", after(heard, "06", marks["waits"]), -0.01, 0.1, "s")
+              sum(data in ("02", "03", "04", "-") for data, _ in received), 0, 0, "")
+    table.row("           the right ones, of four", sum(data in ("01", "05", "06", "07") for data, _ in received), 4, 4, "")
+    table.row("           a frame that waited 0.5 s: received after", after(received, "06", marks["waits"]), -0.01, 0.1, "s")
     link = states(run.console, "filter")
     table.row("can0 set down: told after", after(link, "down", marks["link_down"]), 0, 0.1, "s")
     table.row("           set up again: active after", after(link, "active", marks["link_up"]), 0, LOOK_S + SOON_S, "s")

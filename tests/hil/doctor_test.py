@@ -48,7 +48,7 @@ FOLLOWS = {
 }
 
 
-def told(table, label, findings, verdict, expected):
+def judge_findings(table, label, findings, verdict, expected):
     """Exactly these findings have this verdict."""
     found = {f["what"]: f for f in findings if f["severity"] == verdict}
     for finding in found.values():
@@ -76,8 +76,8 @@ def examined(table, fault, run):
     warnings = {**EXPECTED_WARNINGS, **FOLLOWS.get(fault, {})}
     for known in problems:
         warnings.pop(known, None)
-    told(table, fault, report["findings"], "problem", problems)
-    told(table, fault, report["findings"], "warning", warnings)
+    judge_findings(table, fault, report["findings"], "problem", problems)
+    judge_findings(table, fault, report["findings"], "warning", warnings)
     status = int(re.search(r"^doctor ended with (\d+)", run.console, re.M)[1])
     table.row(f"{fault}: it ended with", status, bool(problems), bool(problems), "")
     if fault != "rail":  # the plant stands still there, and its witness with it

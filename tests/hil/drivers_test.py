@@ -50,11 +50,11 @@ def drivers(table, run):
               witness.at(looks, marks["hot"] - 1).edges, 985, 1015, "")
     table.row("the other channel: position read", reads["other_position"] * M_PER_COUNT * 1e3, 0, 0.05, "mm")
 
-    for name, told, extra_ms in (("hang", "firmware stopped, enable stays high", 0),
-                                 ("stop", "stop pressed", SLOW_MS)):
+    for name, label, extra_ms in (("hang", "firmware stopped, enable stays high", 0),
+                                  ("stop", "stop pressed", SLOW_MS)):
         opened = witness.first(looks, marks[name], lambda look: not look.closed)
         after_ms = None if opened is None else (opened.time_s - opened.edge_s) * 1e3
-        table.row(f"{told}: supply opens after the last edge", after_ms, DECAY_MS - STEP_MS,
+        table.row(f"{label}: supply opens after the last edge", after_ms, DECAY_MS - STEP_MS,
                   DECAY_MS + 2 * STEP_MS + extra_ms, "ms")
         table.row("           its enable then", opened and opened.channels[0].enable, 1, 1, "")
         table.row("           its power then", opened and opened.channels[0].power_W, 0, 0, "W")
@@ -66,9 +66,9 @@ def drivers(table, run):
     table.row("position's wire off: read", reads["loose_position"], -7000, -6000, "")
     table.row("converter without driver: a value", reads["gone_current"] is not None, 0, 0, "")
     table.row("with its driver again: read", reads["back_current"] * A_PER_COUNT * 1e3, 295, 305, "mA")
-    told = [line for line in run.witness if line.startswith("T ")]
-    table.row("injected faults that the plant reports", len(told), 5, 5, "")
-    table.row("           of them refused", sum("refused" in line for line in told), 1, 1, "")
+    reports = [line for line in run.witness if line.startswith("T ")]
+    table.row("injected faults that the plant reports", len(reports), 5, 5, "")
+    table.row("           of them refused", sum("refused" in line for line in reports), 1, 1, "")
 
     steps = witness.steps(run.witness)[1:]
     table.row("the plant's step: mean", sum(s.mean_us for s in steps) / len(steps), 1, 250, "us")

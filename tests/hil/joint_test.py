@@ -58,9 +58,9 @@ def cut(table, run, looks, marks):
     off = witness.first(looks, marks["cut"], lambda look: all(c.power_W == 0 and not c.enable for c in look.channels))
     table.row("    both off, by their enables, after", off and (off.time_s - marks["cut"]) * 1e3, 0,
               CUT_MS + 2 * TICK_MS + MARK_MS + STEP_MS, "ms")
-    told = re.findall(r"^after (\d) (\w+) \w+ (\w+)", run.console.replace("\r", ""), re.M)
+    states_after = re.findall(r"^after (\d) (\w+) \w+ (\w+)", run.console.replace("\r", ""), re.M)
     for number in ("1", "2"):
-        table.row(f"    channel {number}: in fault, of heater_open", (number, "fault", "heater_open") in told, 1, 1, "")
+        table.row(f"    channel {number}: in fault, of heater_open", (number, "fault", "heater_open") in states_after, 1, 1, "")
     table.row("    heated again before its reset, looks",
               sum(any(c.power_W > 0 for c in look.channels) for look in looks if off and off.time_s < look.time_s < marks["cut"] + 3),
               0, 0, "")

@@ -63,7 +63,7 @@ def learned(disk):
     return current, previous, damage
 
 
-def told(write):
+def stored_version(write):
     """The version that was known to be stored when this was written, or None."""
     return int(write.data[7:15]) if write.offset == MARK_OFFSET and write.data.startswith(b"stored ") else None
 
@@ -100,7 +100,7 @@ def main():
     if not args.replay:
         record(args.stores)
     writes = write_log.read(LOG)
-    marks = [(place, told(write)) for place, write in enumerate(writes) if told(write) is not None]
+    marks = [(place, stored_version(write)) for place, write in enumerate(writes) if stored_version(write) is not None]
     flushes = sum(bool(write.flags & write_log.FLUSH) for write in writes)
     print(f"      record: {len(writes) - flushes} writes, {flushes} flushes; versions {marks[0][1]} to {marks[-1][1]}")
     chance, count = random.Random(args.seed), collections.Counter()

@@ -49,8 +49,8 @@ def judge_wiring(table, console):
     table.row("lines with the example's names", sum(f'"{name}"' in lines for name in ("GPIO17", "GPIO22", "GPIO23", "GPIO24", "GPIO27")),
               5, 5, "")
     table.row("the PWM, with both outputs", int(console.ask(f"cat /sys/devices/platform/soc/{raspberry_pi.PWM_HERE}/pwm/pwmchip*/npwm")), 2, 2, "")
-    told = console.ask("for d in /sys/bus/i2c/devices/*; do echo ${d##*/} $(cat $d/name); done")
-    table.row("converters told to the kernel, at their addresses", sum(f"{name} ads1115" in told for name in CONVERTERS), 5, 5, "")
+    devices = console.ask("for d in /sys/bus/i2c/devices/*; do echo ${d##*/} $(cat $d/name); done")
+    table.row("converters told to the kernel, at their addresses", sum(f"{name} ads1115" in devices for name in CONVERTERS), 5, 5, "")
     table.row("    on buses with their numbers", sum(int(console.ask(f"ls -d /sys/bus/i2c/devices/i2c-{bus} | wc -l")) for bus in (1, 3)), 2, 2, "")
     table.row("the CAN controller, told to the kernel",
               console.ask("cat /sys/bus/spi/devices/spi*/modalias").strip() == "spi:mcp2515", 1, 1, "")

@@ -126,19 +126,19 @@ def judge_crowded(table, run, marks, frames):
     table.row("interface vanished: power is off after", (off.time_s - marks["vanished"]) * 1e3, 0, 1000, "ms")
     table.row("    the fault is bus_off", bool(re.search(r"^gone 1 fault \w+ bus_off", run.console, re.M)), 1, 1, "")
     last_s = max(time for time, _, _, _ in frames)
-    heard = [signals for time, node, message, signals in frames
-             if message.name == "Status" and node == FIRST_NODE and time > last_s - 1]
-    table.row("    came back: heartbeats in a second", len(heard), 8, 12, "")
-    table.row("    disarmed", str(heard[-1]["state"]) == "disarmed", 1, 1, "")
+    received = [signals for time, node, message, signals in frames
+                if message.name == "Status" and node == FIRST_NODE and time > last_s - 1]
+    table.row("    came back: heartbeats in a second", len(received), 8, 12, "")
+    table.row("    disarmed", str(received[-1]["state"]) == "disarmed", 1, 1, "")
 
 
 def judge_muscle(table, frames, asked):
     """The values that the board uses for its muscle: those of board.toml and the defaults, as nothing was identified."""
-    told = [(signals["quantity"], signals["value"]) for _, node, message, signals in frames
-            if message.name == "Muscle" and node == FIRST_NODE]
-    table.row("questions about the muscle: answered", len(told), asked, asked, "")
-    known = {str(quantity): value for quantity, value in told}
-    table.row("    each with its own quantity", len(known), len(told), len(told), "")
+    answers = [(signals["quantity"], signals["value"]) for _, node, message, signals in frames
+               if message.name == "Muscle" and node == FIRST_NODE]
+    table.row("questions about the muscle: answered", len(answers), asked, asked, "")
+    known = {str(quantity): value for quantity, value in answers}
+    table.row("    each with its own quantity", len(known), len(answers), len(answers), "")
     for quantity, value in CONFIGURED.items():
         table.row(f"    {quantity}", known[quantity], 0.999 * value, 1.001 * value, "")
     not_known = {quantity for quantity, value in known.items() if math.isnan(value)}
@@ -158,8 +158,8 @@ def judge_python(table, run):
     table.row("the Python package ended with", int(re.search(r"^package ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
     for name in ("bus", "socket"):
         for what, low_mm, high_mm in (("moved to", 3.7, 4.3), ("played up to", 4.45, 4.501)):
-            told = re.search(rf"^package: {name} {what} ([\d.]+) mm", run.console, re.M)
-            table.row(f"    by its {name} it {what}", float(told[1]) if told else None, low_mm, high_mm, "mm")
+            found = re.search(rf"^package: {name} {what} ([\d.]+) mm", run.console, re.M)
+            table.row(f"    by its {name} it {what}", float(found[1]) if found else None, low_mm, high_mm, "mm")
     table.row("SIGTERM ended supercoild with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 

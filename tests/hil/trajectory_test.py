@@ -57,7 +57,7 @@ def lag_of_columns_ms(times_s, ahead, behind):
     return 1e3 * np.linalg.lstsq(columns, ahead - behind, rcond=None)[0][0]
 
 
-def heard(log, name):
+def frames_named(log, name):
     """Time, node and signals of each frame of this message in the bus's log."""
     message = cantools.database.load_file(rig.ROOT / "firmware" / "io" / "can" / "supercoil.dbc").get_message_by_name(name)
     for time, identifier, data in re.findall(r"^\(([\d.]+)\) \w+ ([0-9A-F]{3})#([0-9A-F]*)", log, re.M):
@@ -67,13 +67,13 @@ def heard(log, name):
 
 def reference_lags_ms(log):
     """For each motion of a minute, every ten seconds: how far the second's reference is behind the first's."""
-    told = {5: [], 9: []}
-    for time_s, node, signals in heard(log, "Tracking"):
-        if node in told:
-            told[node].append((time_s, signals["reference_m"]))
-    (times_s, first_m), (of_second_s, second_m) = (np.array(rows).T for rows in told.values())
+    references = {5: [], 9: []}
+    for time_s, node, signals in frames_named(log, "Tracking"):
+        if node in references:
+            references[node].append((time_s, signals["reference_m"]))
+    (times_s, first_m), (of_second_s, second_m) = (np.array(rows).T for rows in references.values())
     second_m = np.interp(times_s, of_second_s, second_m)
-    syncs_s = [time_s for time_s, _, _ in heard(log, "Sync")]
+    syncs_s = [time_s for time_s, _, _ in frames_named(log, "Sync")]
     begins_s = [after for before, after in zip([-math.inf, *syncs_s], syncs_s) if after - before > 1.5]
     lags_ms = []
     for begin_s in begins_s[:2]:
@@ -100,7 +100,7 @@ def judge_step(table, which, first, second, end_s, lags_ms):
 def judge(table, run, share):
     marks, _ = witness.said(run.console)
     console = run.console.replace("\r", "")
-    ended = two_boards.told(console)
+    ended = two_boards.exit_statuses(console)
     two_boards.judge_begin(table, run, ended)
     table.row("play ended with", ended["played"], 0, 0, "")
     first, second = two_boards.looks(run, share)

@@ -29,7 +29,7 @@ def looks(run, share):
     return witness.looks(run.witness), witness.looks((share / "witness-2").read_text().splitlines())
 
 
-def told(console):
+def exit_statuses(console):
     """Exit status by what ended with it."""
     lines = re.findall(r"^(arm \d|arm dead \d|held \d|played|drifted|local|first ended with|second ended with) (\d+)$", console, re.M)
     return {what: int(status) for what, status in lines}

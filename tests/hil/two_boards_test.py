@@ -21,7 +21,7 @@ def steady_mm(looks, begin_s, end_s):
 def judge(table, run, share):
     marks, _ = witness.said(run.console)
     console = run.console.replace("\r", "")
-    ended = two_boards.told(console)
+    ended = two_boards.exit_statuses(console)
     two_boards.judge_begin(table, run, ended)
     frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
     nodes = {node for _, node, message, _ in frames if message.name == "Status"}

@@ -25,7 +25,7 @@ def after(reports, state, begin_s):
 
 
 def can(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     sent = {log: [int(n) for n in counts.split()]
             for log, counts in re.findall(r"^(\w+) sent can\d ([\d ]+)\r?$", run.console, re.M)}
     for sender, hearer, way in (("second", "first", "can1 to can0"), ("first", "second", "can0 to can1")):

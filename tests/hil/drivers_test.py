@@ -23,7 +23,7 @@ SLOW_MS = 10.0  # how often the plant reads the stop circuit
 
 
 def drivers(table, run):
-    marks, reads = witness.said(run.console)
+    marks, reads = witness.marks_and_reads(run.console)
     looks = witness.looks(run.witness)
 
     def at(name, later_s=0.05):
@@ -78,7 +78,7 @@ def drivers(table, run):
 
 
 def panic(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     last = witness.looks(run.witness)[-1]
     table.row("kernel died: the run ends as", run.status, rig.DIED, rig.DIED, "")
     table.row("           the witness tells until", (last.time_s - marks["panic"]) * 1e3, -20, 20, "ms")
@@ -86,7 +86,7 @@ def panic(table, run):
 
 
 def watchdog(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     table.row("watchdog not fed: the run ends as", run.status, rig.DIED, rig.DIED, "")
     table.row("           off after the last feeding", marks["hungry"] - marks["fed"], 2, 6, "s")
 

@@ -41,7 +41,7 @@ def states(console):
 
 
 def track(table, run, seconds):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     table.row("the script ended with", run.status, 0, 0, "")
     table.row("armed after", marks["armed"] - marks["disarmed"], 0, 10, "s")
     table.row("identified after", marks["identified"] - marks["armed"], 50, 90, "s")
@@ -106,7 +106,7 @@ def means(look):
 
 
 def deaths(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     looks = witness.looks(run.witness)
     for mark, what, max_ms, by in DEATHS:
         before = witness.at(looks, marks[mark] - 0.05)

@@ -29,31 +29,31 @@ def board_toml():
     return f'{text}\n[can]\ninterface = "can0"\nbit_rate = {BIT_RATE}\n'
 
 
-def said(run, pattern):
+def matches(run, pattern):
     return re.findall(pattern, run.console.replace("\r", ""), re.M)
 
 
 def judge_start(table, run, frames):
     table.row("the script ended with", run.status, 0, 0, "")
     status = [(time, signals) for time, node, message, signals in frames if message.name == "Status" and node == 1]
-    date_s, rtc_s, uptime_s = (float(clock) for clock in said(run, r"^clocks (\S+) (\S+) (\S+)")[0])
+    date_s, rtc_s, uptime_s = (float(clock) for clock in matches(run, r"^clocks (\S+) (\S+) (\S+)")[0])
     kernel_s = rtc_s - POWER_ON_S - uptime_s
     table.row("power-on to the first heartbeat on the bus (RTC: to the second)", kernel_s + status[0][0] - date_s + uptime_s, 1, 120, "s")
     # U-Boot polls the card until it answers, and QEMU counts that as time of the board.
     print(f"          of which until the kernel's start: {kernel_s:.0f} s")
     table.row("    which says disarmed", str(status[0][1]["state"]) == "disarmed", 1, 1, "")
     table.row("    nodes heard", len({node for _, node, message, _ in frames if message.name == "Status"}), 2, 2, "")
-    table.row("units that failed", len(said(run, r"^failed (.+)")), 0, 0, "")
-    table.row("the host's name is the board's", said(run, r"^host (.*)") == ["rig-no-1"], 1, 1, "")
-    table.row("bit rate of can0", int(said(run, r"^can0 bit_rate (\d+)")[0]), BIT_RATE, BIT_RATE, "")
-    table.row("its queue", int(said(run, r"^can0 queue (\d+)")[0]), 100, 100, "")
-    table.row("the kernel is real-time", "PREEMPT_RT" in said(run, r"^kernel (.*)")[0], 1, 1, "")
-    table.row("root read, learned written", sorted(said(run, r"^mount (.*)")) == ["/ ro", "/var/lib/supercoil rw"], 1, 1, "")
-    table.row("    the root can be written", len(said(run, r"^the root can be written")), 0, 0, "")
+    table.row("units that failed", len(matches(run, r"^failed (.+)")), 0, 0, "")
+    table.row("the host's name is the board's", matches(run, r"^host (.*)") == ["rig-no-1"], 1, 1, "")
+    table.row("bit rate of can0", int(matches(run, r"^can0 bit_rate (\d+)")[0]), BIT_RATE, BIT_RATE, "")
+    table.row("its queue", int(matches(run, r"^can0 queue (\d+)")[0]), 100, 100, "")
+    table.row("the kernel is real-time", "PREEMPT_RT" in matches(run, r"^kernel (.*)")[0], 1, 1, "")
+    table.row("root read, learned written", sorted(matches(run, r"^mount (.*)")) == ["/ ro", "/var/lib/supercoil rw"], 1, 1, "")
+    table.row("    the root can be written", len(matches(run, r"^the root can be written")), 0, 0, "")
 
 
 def judge_tracking(table, run, frames):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     table.row("over CAN: armed and identified after", marks["identified"] - marks["disarmed"], 50, 120, "s")
     looks = witness.looks(run.witness)
     half_s = (marks["identified"] + marks["tracked"]) / 2
@@ -64,19 +64,19 @@ def judge_tracking(table, run, frames):
     table.row("    power a second after disarm", looks[-1].channels[0].power_W, 0, 0, "W")
     table.row("faults told on the bus", sum(message.name == "Status" and str(signals["state"]) == "fault"
                                             for _, _, message, signals in frames), 0, 0, "")
-    table.row("what it learned is kept", len(said(run, r"^kept learned-1.toml$")), 1, 1, "")
+    table.row("what it learned is kept", len(matches(run, r"^kept learned-1.toml$")), 1, 1, "")
 
 
 def judge_again(table, run):
     table.row("the next power-on: the script ended with", run.status, 0, 0, "")
-    table.row("    what it learned is there", len(said(run, r"^kept learned-1.toml$")), 1, 1, "")
-    table.row("    supercoild runs", said(run, r"^service (\w+)") == ["active"], 1, 1, "")
+    table.row("    what it learned is there", len(matches(run, r"^kept learned-1.toml$")), 1, 1, "")
+    table.row("    supercoild runs", matches(run, r"^service (\w+)") == ["active"], 1, 1, "")
 
 
 def judge_four(table, run):
     table.row("with four CPUs: the script ended with", run.status, 0, 0, "")
-    table.row("    isolated is the last", said(run, r"^isolated (.*)") == ["3"], 1, 1, "")
-    table.row("    and has the loop, which is one thread", said(run, r"^allowed (.*)").count("3"), 1, 1, "")
+    table.row("    isolated is the last", matches(run, r"^isolated (.*)") == ["3"], 1, 1, "")
+    table.row("    and has the loop, which is one thread", matches(run, r"^allowed (.*)").count("3"), 1, 1, "")
 
 
 def judge_refused(what, message):
@@ -86,9 +86,9 @@ def judge_refused(what, message):
         before = console.split("rig: script begins")[0]
         table.row("    the console says so", bool(re.search(message, before)), 1, 1, "")
         table.row("    and the journal", bool(re.search(rf"^journal .*{message}", console, re.M)), 1, 1, "")
-        table.row("    supercoild does not run", said(run, r"^service (\w+)") == ["inactive"], 1, 1, "")
-        table.row("    failed is", said(run, r"^failed (.*)")[0].split() == ["supercoil-set-up.service"], 1, 1, "")
-        table.row("    frames from it", int(said(run, r"^frames (\d+)")[0]), 0, 0, "")
+        table.row("    supercoild does not run", matches(run, r"^service (\w+)") == ["inactive"], 1, 1, "")
+        table.row("    failed is", matches(run, r"^failed (.*)")[0].split() == ["supercoil-set-up.service"], 1, 1, "")
+        table.row("    frames from it", int(matches(run, r"^frames (\d+)")[0]), 0, 0, "")
         table.row("    most duty ever", max(channel.duty for look in witness.looks(run.witness) for channel in look.channels), 0, 0, "")
     return judge
 

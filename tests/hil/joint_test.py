@@ -67,7 +67,7 @@ def cut(table, run, looks, marks):
 
 
 def judge(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     console = run.console.replace("\r", "")
     ended = {what: int(status) for what, status in
              re.findall(r"^(identified|tracked|pulled|its command ended with|firmware ended with) (\d+)$", console, re.M)}

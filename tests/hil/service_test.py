@@ -21,13 +21,13 @@ RESTART_S = 1.0
 HOOK_S = 7.0  # until the stop hook has run: this processor needs seconds to start a program
 
 
-def said(console, pattern):
+def match_of(console, pattern):
     found = re.search(pattern, console, re.M)
     return found and found[1]
 
 
 def cold_after(table, run, mark, what, max_ms, zeroed_s, since_edge=False):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     looks = witness.looks(run.witness)
     table.row(f"{what}: power before", witness.at(looks, marks[mark] - 0.05).channels[0].power_W, 1.5, 2.5, "W")
     off = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
@@ -40,17 +40,17 @@ def cold_after(table, run, mark, what, max_ms, zeroed_s, since_edge=False):
 
 def judge(table, run):
     console = run.console
-    marks, _ = witness.said(console)
+    marks, _ = witness.marks_and_reads(console)
     table.row("the script ended with", run.status, 0, 0, "")
-    table.row("Type=notify, and it told that it was ready", said(console, r"^service Type (\w+)") == "notify", 1, 1, "")
-    user = int(said(console, r"^service user (\d+)"))
-    table.row("runs as the user supercoil", int(said(console, r"^service uid (\d+)")), max(1, user), user, "")
-    table.row("capabilities", int(said(console, r"^service capabilities (\w+)"), 16), 0, 0, "")
+    table.row("Type=notify, and it told that it was ready", match_of(console, r"^service Type (\w+)") == "notify", 1, 1, "")
+    user = int(match_of(console, r"^service user (\d+)"))
+    table.row("runs as the user supercoil", int(match_of(console, r"^service uid (\d+)")), max(1, user), user, "")
+    table.row("capabilities", int(match_of(console, r"^service capabilities (\w+)"), 16), 0, 0, "")
     table.row("real-time steps that did not work", len(re.findall(r"^journal .*\bnot (?:memory|priority|CPUs|on CPU)", console, re.M)), 0, 0, "")
     table.row("real-time steps that worked", len(re.findall(r"^journal .*(?:memory locked|priority \d+|CPUs kept)", console, re.M)), 3, 20, "")
-    table.row("memory locked", int(said(console, r"^service locked_KiB (\d+)")) / 1024, 0, 16, "MiB")
+    table.row("memory locked", int(match_of(console, r"^service locked_KiB (\d+)")) / 1024, 0, 16, "MiB")
     table.row("--off is refused beside it, its process named", bool(re.search(r"^beside .*\b\d+", console, re.M)), 1, 1, "")
-    table.row("systemd-analyze security", float(said(console, r"^exposure ([\d.]+)") or "nan"), 0, 2.0, "")
+    table.row("systemd-analyze security", float(match_of(console, r"^exposure ([\d.]+)") or "nan"), 0, 2.0, "")
     cold_after(table, run, "kill", "SIGKILL", DECAY_MS, HOOK_S, since_edge=True)
     table.row("    started again, disarmed, after", marks["killed_again"] - marks["kill"], RESTART_S, RESTART_S + 16, "s")
     cold_after(table, run, "stopped", "SIGSTOP", DECAY_MS, WATCHDOG_S + HOOK_S, since_edge=True)
@@ -59,8 +59,8 @@ def judge(table, run):
     # systemctl itself takes its time to begin.
     cold_after(table, run, "stop", "systemctl stop", 1500, 2)
     table.row("    ended by itself, after", marks["stop_ended"] - marks["stop"], 0, 7, "s")
-    table.row("    and well", said(console, r"^stopped (\w+ \w+)") == "success inactive", 1, 1, "")
-    table.row("a wrong configuration: status 2, not tried again", said(console, r"^wrong (\w+ \d+ \d+)") == "failed 2 0", 1, 1, "")
+    table.row("    and well", match_of(console, r"^stopped (\w+ \w+)") == "success inactive", 1, 1, "")
+    table.row("a wrong configuration: status 2, not tried again", match_of(console, r"^wrong (\w+ \d+ \d+)") == "failed 2 0", 1, 1, "")
     table.row("    and the journal names the key", bool(re.search(r"board\.toml:\d+.*rate_Hz", console)), 1, 1, "")
 
 

@@ -30,7 +30,7 @@ def swing_m(looks, channel, period_s, end_s):
 
 
 def judge(table, run, seconds):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     console = run.console.replace("\r", "")
     looks = witness.looks(run.witness)
     sizes = cycles(run.console)

@@ -61,7 +61,7 @@ def decoded(dbc, log):
 
 
 def judge(table, run, dbc, log):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     table.row("the script ended with", run.status, 0, 0, "")
     frames = list(decoded(dbc, log))
     nodes = {node for _, node, message, _ in frames if message.name == "Status"}
@@ -148,7 +148,7 @@ def judge_muscle(table, frames, asked):
 
 
 def judge_python(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     table.row("the Python example ended with", int(re.search(r"^example ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
     reported_m = [float(m) for m in re.findall(r"^example: ([\d.e-]+) m,", run.console, re.M)]
     table.row("    where it saw the muscle at its end", reported_m[-1] * 1e3, 4.5, 5.5, "mm")

@@ -98,7 +98,7 @@ def judge_step(table, which, first, second, end_s, lags_ms):
 
 
 def judge(table, run, share):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     console = run.console.replace("\r", "")
     ended = two_boards.exit_statuses(console)
     two_boards.judge_begin(table, run, ended)

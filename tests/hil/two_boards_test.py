@@ -19,7 +19,7 @@ def steady_mm(looks, begin_s, end_s):
 
 
 def judge(table, run, share):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     console = run.console.replace("\r", "")
     ended = two_boards.exit_statuses(console)
     two_boards.judge_begin(table, run, ended)

@@ -62,7 +62,7 @@ def end_of(table, what, looks, began_s, over_s):
 
 
 def judge(table, run):
-    marks, _ = witness.said(run.console)
+    marks, _ = witness.marks_and_reads(run.console)
     looks = witness.looks(run.witness)
     console = run.console.replace("\r", "")
     table.row("the script ended with", run.status, 0, 0, "")

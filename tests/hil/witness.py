@@ -67,7 +67,7 @@ def first(found, from_s, holds):
     return next((look for look in found if look.time_s >= from_s and holds(look)), None)
 
 
-def said(console):
+def marks_and_reads(console):
     """Marks (name: seconds; the latest of each) and readings (name: counts, None for no value) of a script."""
     marks = {name: float(time) for name, time in re.findall(r"^mark (\w+) ([\d.]+)\r?$", console, re.M)}
     reads = {name: None if counts == "none" else int(counts)

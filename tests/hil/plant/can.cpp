@@ -18,7 +18,7 @@ using namespace supercoil;
 
 constexpr std::array<const char*, 4> state_names{"active", "error_passive", "bus_off", "down"};
 
-void tell_frame(const char* interface, const hal::CanFrame& frame) {
+void print_frame(const char* interface, const hal::CanFrame& frame) {
   std::printf("frame %s %x ", interface, unsigned{frame.id});
   for (std::size_t i = 0; i < frame.length; ++i)
     std::printf("%02x", unsigned{frame.data[i]});
@@ -46,8 +46,8 @@ void run(hal_linux::SocketCan& can, const char* interface, long every_ms, hal::C
   auto state = static_cast<hal::CanState>(-1);
   Sent sent;
   for (long ms = 1; sigtimedwait(&ending, nullptr, &millisecond) < 0; ++ms) {
-    for (hal::CanFrame heard; can.receive(heard) == hal::Status::ok;)
-      tell_frame(interface, heard);
+    for (hal::CanFrame received; can.receive(received) == hal::Status::ok;)
+      print_frame(interface, received);
     if (every_ms > 0 && ms % every_ms == 0) {
       ++frame.data[0];
       sent.add(can.send(frame));

@@ -14,11 +14,11 @@ namespace {
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
 double ratio() {
-  static const double told = [] {
+  static const double configured = [] {
     const char* ppm = std::getenv("SUPERCOIL_RIG_DRIFT_PPM");
     return ppm == nullptr ? 0.0 : 1e-6 * std::strtod(ppm, nullptr);
   }();
-  return told;
+  return configured;
 }
 
 std::int64_t count(const timespec& time) {

@@ -59,6 +59,7 @@ class Live(OnServedBoard):
 
     def test_a_script_needs_only_the_token(self):
         served = self.serve()
+        self.arm(served)
         order = json.dumps({"node": 1, "opcode": "arm"})
         bearer = {"Authorization": f"Bearer {served.token}"}
         # Any program on this machine may stop it, but no page of another server.

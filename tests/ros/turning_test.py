@@ -60,7 +60,7 @@ class Turning(Bridged):
             return diagnosis if diagnosis and judge({value.key: value.value for value in diagnosis.values}) else None
         return self.wait(as_wanted, meanwhile)
 
-    def test_a_joint_turns_to_an_angle(self):
+    def test_the_joint_turns_to_an_angle(self):
         self.arm()
         self.wait(lambda: abs(self.reference_m() - arc_m(WANTED_RAD)) < 1e-6, self.again({"elbow": WANTED_RAD}))
         self.wait(lambda: abs(self.state().position[0] - WANTED_RAD) < 0.01, self.again({"elbow": WANTED_RAD}))

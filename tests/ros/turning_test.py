@@ -60,7 +60,7 @@ class Turning(Bridged):
             return diagnosis if diagnosis and judge({value.key: value.value for value in diagnosis.values}) else None
         return self.wait(as_wanted, meanwhile)
 
-    def test_the_joint_turns_to_an_angle(self):
+    def test_it_turns_to_an_angle(self):
         self.arm()
         self.wait(lambda: abs(self.reference_m() - arc_m(WANTED_RAD)) < 1e-6, self.again({"elbow": WANTED_RAD}))
         self.wait(lambda: abs(self.state().position[0] - WANTED_RAD) < 0.01, self.again({"elbow": WANTED_RAD}))
@@ -102,7 +102,7 @@ class Turning(Bridged):
         self.assertIn("1.500000 rad is out of range", diagnosis.message)
         self.diagnosis_of("elbow", "a command of nan rad is ignored", self.again({"elbow": math.nan}))
 
-    def test_an_antagonist_is_not_a_joint_even_if_named(self):
+    def test_named_antagonist_is_not_a_joint(self):
         # A bridge that has commanded nothing yet holds no lease, so another master may.
         self.end_bridge()
         self.start_bridge()

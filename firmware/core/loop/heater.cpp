@@ -15,7 +15,7 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
 }
 
 /// How long the current sense shows a pulse: it acts late, is averaged, and is read late.
-double settling_s(const HeaterSettings& h) {
+double sense_settling_s(const HeaterSettings& h) {
   constexpr double time_constants = 5.0;
   return h.delay_s + time_constants * h.sense_filter_s + h.current.max_age_s;
 }
@@ -38,7 +38,7 @@ Heater::Heater(const ChannelSettings& settings, const BoardSettings& board,
       power_bounds_(supercoil::power_bounds(settings, board)),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
-      sense_ticks_(static_cast<int>(std::ceil(settling_s(settings.heater) / board.step_s()))),
+      sense_ticks_(static_cast<int>(std::ceil(sense_settling_s(settings.heater) / board.step_s()))),
       max_power_W_(settings.limiter.max_W),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),

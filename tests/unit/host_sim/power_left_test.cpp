@@ -56,6 +56,6 @@ TEST(AvailablePower, FollowsTheHotEndOfTheBoardsInterval) {
   check_follows_the_boards_interval(derated(INFINITY));
 }
 
-TEST(PowerLeft, UsesTheBoardsSlowestTimeConstant) {
+TEST(AvailablePower, UsesTheBoardsSlowestTimeConstant) {
   check_follows_the_boards_interval(derated(2.0));
 }

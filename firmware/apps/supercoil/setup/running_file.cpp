@@ -10,7 +10,7 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr int shown_digits = 6;
+constexpr int file_digits = 6;
 
 /// The key in the file for a quantity that the board tells.
 std::string place_in_file(std::size_t quantity) {
@@ -30,7 +30,7 @@ bool same(double a, double b) {
 }
 
 std::string value_text(double value) {
-  return std::isnan(value) ? "none" : number_text(value, shown_digits);
+  return std::isnan(value) ? "none" : number_text(value, file_digits);
 }
 
 }  // namespace

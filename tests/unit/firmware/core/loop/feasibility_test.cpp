@@ -59,7 +59,8 @@ TEST_GROUP(Feasibility) {
     control::ReferenceModel<double> model(controller.model, step_s);
     model.set({from_m, 0.0, 0.0});
     for (int i = 0; i < 200000; ++i) {
-      if (shaper.step(to_m, model.motion(), {0.0, max_W}).what != control::Infeasible::nothing)
+      if (shaper.step(to_m, model.motion(), {0.0, max_W}).infeasible !=
+          control::Infeasible::nothing)
         return false;
       model.step(to_m);
     }

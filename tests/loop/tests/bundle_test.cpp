@@ -110,7 +110,8 @@ TEST(Bundle, AntiWindupUsesTheLowestPowerLimit) {
     CHECK(fresh.snapshot().limited);
     return fresh.snapshot().demanded_W;
   };
-  DOUBLES_EQUAL(demanded_W(leader, last), demanded_W(last, last), 0.02);
+  // A dither makes room in other ticks when another heater is the weakest.
+  DOUBLES_EQUAL(demanded_W(leader, last), demanded_W(last, last), 0.05);
 }
 
 TEST(Bundle, AFaultOfOneMuscleCoolsAll) {

@@ -84,11 +84,16 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
 /// The error that was promised for the run.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
-  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; the sensor showed %.1f um\n",
+  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; ",
               json["promised_rms_m"].get<double>() * 1e6,
               json["promised_by"] == "own" ? "" : " by the recommended controller",
-              json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup",
-              json["tracking_shown_rms_m"].get<double>() * 1e6);
+              json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup");
+  const auto& shown_rms_m = json["tracking_shown_rms_m"];
+  if (shown_rms_m.is_null()) {
+    std::puts("the sensor had no reading in some ticks");
+  } else {
+    std::printf("the sensor showed %.1f um\n", shown_rms_m.get<double>() * 1e6);
+  }
 }
 
 /// How identify, calibrate and the first motion ended, if there were any.

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/commands.hpp"
+#include "apps/common/finite.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/options.hpp"
 #include "apps/supercoil/setup/options.hpp"
@@ -73,7 +74,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
       "--for", options.hold_s,
       "Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, "
       "then it expires; identify and calibrate are renewed until they end]");
-  hold->check(CLI::PositiveNumber);
+  hold->check(is_finite)->check(CLI::PositiveNumber);
   command
       ->add_flag_callback(
           "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },
@@ -87,6 +88,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
           ->type_name("VALUE");
   CLI::Option* period =
       command->add_option("--period", options.sine_period_s, "Period of the sine in s")
+          ->check(is_finite)
           ->check(CLI::Range(0.2, 1e4));
   amplitude->needs(period);
   period->needs(amplitude);
@@ -122,6 +124,7 @@ void add_play(CLI::App& app, PlayOptions& options) {
       ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str();
   play->add_option("--settle", options.settle_s, "Seconds to hold the first row before the start")
+      ->check(is_finite)
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   play->add_flag("--hold", options.hold, "Hold the last row until Ctrl-C [the muscle rests]");
@@ -222,6 +225,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   doctor
       ->add_option("--power", options.power_W,
                    "The greater of the two powers in W [a safe one by the configuration]")
+      ->check(is_finite)
       ->check(CLI::Range(0.01, 1e3))
       ->needs(compare);
   doctor->add_option("--socket", options.socket, "Where supercoild listens, to compare")
@@ -250,11 +254,13 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
   CLI::Option* text =
       monitor->add_flag("--text", options.text, "Show the values on this terminal; serve no page");
   monitor->add_option("--keep", options.keep_s, "History in seconds that a newly opened page shows")
+      ->check(is_finite)
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   monitor
       ->add_option("--bit-rate", options.bit_rate,
                    "Bit rate of the bus in bit/s, from which its load is computed")
+      ->check(is_finite)
       ->check(CLI::Range(1e4, 1e6))
       ->capture_default_str();
   CLI::Option* setup =

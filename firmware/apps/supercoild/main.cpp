@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/common/finite.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "text/program_version.hpp"
@@ -23,12 +24,15 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
       "and end");
   CLI::Option* rate =
       app.add_option("--rate", options.rate_Hz, "Loop rate in Hz of one channel, without --config")
+          ->check(is_finite)
           ->check(CLI::Range(100.0, 10e3))
           ->capture_default_str();
   CLI::Option* seconds = app.add_option("--seconds", options.seconds, "Seconds to measure")
+                             ->check(is_finite)
                              ->check(CLI::Range(0.1, 1e6))
                              ->capture_default_str();
   CLI::Option* ticks = app.add_option("--ticks", options.ticks, "Ticks to measure")
+                           ->check(is_finite)
                            ->check(CLI::Range(1.0, 1e9))
                            ->excludes(seconds);
   CLI::Option* plot =

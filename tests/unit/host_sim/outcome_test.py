@@ -129,6 +129,13 @@ class Outcome(ProgramCase):
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; the sensor showed {1e6 * shown_m:.1f} um\n", done.stdout)
 
+    def test_a_sensor_without_a_reading_does_not_end_the_report(self):
+        done, summary = self.run_of(FOLLOWS + "[[event]]\nat_s = 5.0\ninjected_fault.position_loose = true\n")
+        self.assertIsNone(summary["tracking_shown_rms_m"])
+        self.assertIn("as the sensor shows it; the sensor had no reading in some ticks\n", done.stdout)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the run ended in fault 10 sensor_out_of_range", done.stderr)
+
     def test_a_failed_identify_is_a_failure_with_its_reason(self):
         weak = "simulation.duration_s = 300.0\noperator.action = 'identify'\nplant.force_per_kelvin_N_per_K = 2e-5\n"
         done, summary = self.run_of(weak)

@@ -125,6 +125,11 @@ class Identify(unittest.TestCase):
         self.refused([(t, x, 2) for t, x, _ in rows], 2, "power never changes from 2 W")
         self.refused(rows, 1, "the columns are time_s, position_m, heated", head="time_s,position_m,heated")
 
+    def test_nan_is_no_option(self):
+        for option in ("--thermal-mass", "--stiffness", "--moving-mass", "--power-scale", "--position-scale", "--from", "--to"):
+            done = self.identify("trace.csv", option, "nan", status=2)
+            self.assertIn(f"{option}: nan: must be a finite number", done.stderr)
+
     def test_a_gap_can_be_bridged(self):
         rows = self.samples()
         name = self.write("gap.csv", "time_s,position_m,power_W", rows[:500] + rows[540:])

@@ -1,6 +1,7 @@
 // The options of supercoil identify.
 #include <CLI/CLI.hpp>
 
+#include "apps/common/finite.hpp"
 #include "apps/supercoil/identify/options.hpp"
 
 namespace supercoil::operating {
@@ -33,19 +34,23 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
       ->add_option("--position-scale", o.columns.position.scale,
                    "Factor on the position, which must grow when the muscle is heated: −1 if the "
                    "sensor counts the other way")
+      ->check(is_finite)
       ->capture_default_str();
   add_column(*identify, "power", o.columns.power, "W or mW [by the name, else W]");
   identify
       ->add_option("--power-scale", o.columns.power.scale,
                    "Factor on the power: for a column that is 1 while heated, the power itself")
+      ->check(is_finite)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   identify
       ->add_option("--channel", o.columns.channel,
                    "Channel to fit, 1 to 16, of a file with several")
       ->check(CLI::Range(1, 16));
-  identify->add_option("--from", o.from_s, "Ignore what is before this time in s [the first]");
-  identify->add_option("--to", o.to_s, "Ignore what is after this time in s [the last]");
+  identify->add_option("--from", o.from_s, "Ignore what is before this time in s [the first]")
+      ->check(is_finite);
+  identify->add_option("--to", o.to_s, "Ignore what is after this time in s [the last]")
+      ->check(is_finite);
   identify
       ->add_option("--fit", o.fit,
                    "Fit to this span, FROM:TO in s [up to the last heating from rest; with fewer "
@@ -61,15 +66,18 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
       ->add_option(
           "--thermal-mass", o.thermal_mass_J_per_K,
           "Thermal mass of the muscle in J/K, which position and power do not determine [0.162]")
+      ->check(is_finite)
       ->check(CLI::Range(1e-4, 1e3));
   CLI::Option* stiffness =
       identify
           ->add_option("--stiffness", o.stiffness_N_per_m,
                        "Stiffness in N/m, which position and power do not determine [16]")
+          ->check(is_finite)
           ->check(CLI::Range(1e-2, 1e6));
   identify
       ->add_option("--moving-mass", o.moving_mass_kg,
                    "Moving mass in kg, the load included; the stiffness then follows from it")
+      ->check(is_finite)
       ->check(CLI::Range(1e-5, 1e3))
       ->excludes(stiffness);
   identify->add_option("--muscle", o.muscle, "Write the [muscle] table to this file [print it]")

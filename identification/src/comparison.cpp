@@ -173,6 +173,16 @@ std::string muscle_rejection(const Comparison& c) {
     return text.data();
   }
   const EvaluatedModel& best = c.best();
+  for (std::size_t i = 0; i < best.fit.parameters.size(); ++i) {
+    const Parameter& p = best.fit.parameters[i];
+    if (p.member != &Muscle::time_constant_s && p.member != &Muscle::gain_m_per_W) continue;
+    if (!is_at_limit(p, best.fit.numbers[static_cast<Eigen::Index>(i)])) continue;
+    std::snprintf(text.data(), text.size(),
+                  "the fit ended at its limit of %s, %.3g: slower, faster or weaker than any such "
+                  "muscle, or the times or powers have another unit",
+                  std::string(p.name).c_str(), best.fit.muscle.*p.member);
+    return text.data();
+  }
   if (best.unseen_rms_m > max_error_ratio * c.sizes.stroke_m) {
     std::snprintf(
         text.data(), text.size(),

@@ -97,16 +97,11 @@ void find_accuracy(Residuals& residuals, Fit& fit, const Sizes& sizes) {
   fit.cross_validated_m = accuracy.cross_validated * 0.01 * sizes.stroke_m;
 }
 
-Muscle neutral_start(const Samples& samples, const Sizes& sizes, double time_constant_s) {
+Muscle neutral_start(const Sizes& sizes, double time_constant_s) {
   Muscle start;
   start.gain_m_per_W = 2.0 * sizes.stroke_m / sizes.full_W;
   start.time_constant_s = time_constant_s;
-  start.rest_m = 0.0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (!samples.measured(k)) continue;
-    start.rest_m = samples.position_m[k];
-    break;
-  }
+  start.rest_m = sizes.first_m;
   return start;
 }
 
@@ -120,11 +115,14 @@ double Fit::deviation(std::size_t i) const {
 Sizes sizes_of(const Samples& samples) {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
-  Sizes sizes{0.0, 0.0, static_cast<double>(samples.size()) * samples.step_s, 0.0, samples.step_s};
+  Sizes sizes{};
+  sizes.duration_s = static_cast<double>(samples.size()) * samples.step_s;
+  sizes.step_s = samples.step_s;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     sizes.full_W = std::max(sizes.full_W, samples.power_W[k]);
     sizes.energy_J += samples.power_W[k] * samples.step_s;
     if (!samples.measured(k)) continue;
+    if (lowest > highest) sizes.first_m = samples.position_m[k];
     lowest = std::min(lowest, samples.position_m[k]);
     highest = std::max(highest, samples.position_m[k]);
   }
@@ -159,7 +157,7 @@ Fit fit_model(const Effects& effects, const Samples& samples, Span span) {
   Fit best;
   best.rms_m = std::numeric_limits<double>::infinity();
   for (const double time_constant_s : {1.0, 4.0, 16.0}) {
-    Fit found = refit(neutral_start(samples, sizes, time_constant_s), effects, samples, span);
+    Fit found = refit(neutral_start(sizes, time_constant_s), effects, samples, span);
     if (found.rms_m < best.rms_m) best = std::move(found);
   }
   return best;

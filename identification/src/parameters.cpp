@@ -10,8 +10,8 @@ namespace supercoil::identification {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Limit of fits and starts, in prior deviations.
-constexpr double max_deviations = 3.0;
+/// Limit of fits and starts, in prior deviations: time constants of 0.034 to 742 s.
+constexpr double max_deviations = 5.0;
 /// Part of the force comes without play, and at least half of the motion without creep.
 constexpr double max_play_ratio = 0.9;
 constexpr double max_creep = 0.5;
@@ -25,7 +25,7 @@ double limited(const Parameter& parameter, double number) {
 
 double value_of(const Parameter& p, double number) {
   return p.logarithmic ? std::min(p.highest, p.unit * std::exp(limited(p, number)))
-                       : p.unit * limited(p, number);
+                       : p.centre + p.unit * limited(p, number);
 }
 
 /// Collects the parameters of a model.
@@ -36,8 +36,8 @@ class List {
     parameters.push_back({name, member, true, middle, highest, deviation, true});
   }
   void either_sign(std::string_view name, double Muscle::*member, double unit, double deviation,
-                   bool of_muscle) {
-    parameters.push_back({name, member, false, unit, unbounded, deviation, of_muscle});
+                   bool of_muscle, double centre = 0.0) {
+    parameters.push_back({name, member, false, unit, unbounded, deviation, of_muscle, centre});
   }
 
   std::vector<Parameter> parameters;
@@ -82,7 +82,8 @@ std::vector<Parameter> parameters_of(const Effects& effects, const Sizes& s) {
                 max_phase_step_rad / s.step_s);
   list.positive("damping_ratio", &Muscle::damping_ratio, 0.8, 1.0);
   add_effects(list, effects, s);
-  list.either_sign("rest_m", &Muscle::rest_m, s.stroke_m, 3.0, false);
+  // An absolute sensor may be far from zero.
+  list.either_sign("rest_m", &Muscle::rest_m, s.stroke_m, 3.0, false, s.first_m);
   list.either_sign("start_W", &Muscle::start_W, s.full_W, 0.3, false);
   list.either_sign("start_offset_m", &Muscle::start_offset_m, s.stroke_m, 0.03, false);
   list.either_sign("start_m_per_s", &Muscle::start_m_per_s, s.stroke_m, 0.03, false);
@@ -100,13 +101,17 @@ Eigen::VectorXd numbers_from(const std::vector<Parameter>& parameters, const Mus
   Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
-    const double ratio = muscle.*p.member / p.unit;
+    const double ratio = (muscle.*p.member - p.centre) / p.unit;
     double number = ratio;
     // A parameter that the muscle does not have yet starts in the middle.
     if (p.logarithmic) number = ratio > 0.0 ? std::log(ratio) : 0.0;
     numbers[static_cast<Eigen::Index>(i)] = limited(p, number);
   }
   return numbers;
+}
+
+bool is_at_limit(const Parameter& parameter, double number) {
+  return std::abs(number) > 0.999 * max_deviations * parameter.deviation;
 }
 
 double slope(const Parameter& parameter, double number) {

@@ -1,6 +1,7 @@
 """supercoil identify as seen by a laboratory, on recordings of muscles that supercoil-sim made."""
 
 import csv
+import itertools
 import json
 import math
 import os
@@ -124,6 +125,21 @@ class Identify(unittest.TestCase):
         self.refused([(t, 1e3 * x, p) for t, x, p in rows], 2 + highest, "is it in another unit (--position-unit)?")
         self.refused([(t, x, 2) for t, x, _ in rows], 2, "power never changes from 2 W")
         self.refused(rows, 1, "the columns are time_s, position_m, heated", head="time_s,position_m,heated")
+
+    def test_a_sensor_with_its_zero_far_away_gives_the_same(self):
+        far = self.write("far.csv", "time_s,position_m,power_W", [(t, x + 0.5, p) for t, x, p in self.samples()])
+        found = json.loads(self.identify(far, "--json", "--stiffness", 25, "--thermal-mass", 0.25).stdout)
+        fitted = found["linear_whole"]
+        self.assertAlmostEqual(fitted["gain_m_per_W"]["value"] / GAIN_M_PER_W, 1, delta=0.01)
+        self.assertAlmostEqual(fitted["time_constant_s"]["value"] / TIME_CONSTANT_S, 1, delta=0.01)
+
+    def test_a_muscle_beyond_the_fits_limits_is_not_found(self):
+        samples = self.samples()
+        slow = []  # a time constant of 790 s, in rows 0.95 s apart
+        for (t, x, p), (_, next_x, _) in itertools.pairwise(samples):
+            slow += [(190 * t, x, p), (190 * (t + 0.005), (x + next_x) / 2, p)]
+        done = self.identify(self.write("slow.csv", "time_s,position_m,power_W", slow), status=1)
+        self.assertIn("the fit ended at its limit of time_constant_s, 742: ", done.stdout)
 
     def test_nan_is_no_option(self):
         for option in ("--thermal-mass", "--stiffness", "--moving-mass", "--power-scale", "--position-scale", "--from", "--to"):

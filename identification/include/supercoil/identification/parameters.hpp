@@ -17,10 +17,11 @@ struct Sizes {
   double duration_s;  ///< of the whole recording
   double energy_J;    ///< of the whole recording
   double step_s;      ///< between samples
+  double first_m;     ///< first measured position
 };
 
 /// One fitted number, near 0 and of size 1: value = middle·exp(number), at most `highest`, or
-/// unit·number.
+/// centre + unit·number.
 struct Parameter {
   std::string_view name;  ///< Muscle's, with its unit
   double Muscle::*member;
@@ -29,6 +30,7 @@ struct Parameter {
   double highest;    ///< of the value
   double deviation;  ///< prior, of the number
   bool of_muscle;    ///< otherwise of the recording
+  double centre = 0.0;
 };
 
 /// The parameters of a model; those of the recording come last.
@@ -36,6 +38,9 @@ std::vector<Parameter> parameters_of(const Effects& effects, const Sizes& sizes)
 
 Muscle muscle_from(const std::vector<Parameter>& parameters, const Eigen::VectorXd& numbers);
 Eigen::VectorXd numbers_from(const std::vector<Parameter>& parameters, const Muscle& muscle);
+
+/// Whether the fit ended where it was limited: the true value may be beyond.
+bool is_at_limit(const Parameter& parameter, double number);
 
 /// d value / d number.
 double slope(const Parameter& parameter, double number);

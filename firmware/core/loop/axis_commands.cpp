@@ -178,7 +178,7 @@ Reply Axis::scale(double true_m) {
 void Axis::follow_comparisons() {
   const board::Measured& current = heater_.current();
   const bool sensed = current.present && heater_.supply_V() > 0.0;
-  if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
+  if (!sensed || heater_.cut_by() > LimitedBy::maximum) return restart_comparisons();
   // A probe pulse is not part of the power at which the meter is read.
   if (!heater_.probe_settling())
     comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);

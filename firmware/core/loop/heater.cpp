@@ -147,8 +147,8 @@ void Heater::limit(const ChannelState& state, double demanded_W, double proven_W
   limiter_.set_cap(max_power_W());
   limiter_.set_unproven(proven_W);
   allowed_ = state.may_heat() ? limiter_.step(demanded_W, heat_.hottest_C()) : Limiter::Result{};
-  cut_ = allowed_.by != LimitedBy::nothing;
-  if (!cut_ && state.may_heat()) allowed_.by = lowered_by;
+  cut_by_ = allowed_.by;
+  if (cut_by_ == LimitedBy::nothing && state.may_heat()) allowed_.by = lowered_by;
 }
 
 void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
@@ -167,7 +167,7 @@ void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
   }
   write_enable(state.enable());
   write_duty(state.enable() ? out.step : 0);
-  const bool cut = cut_ || out.clipped;
+  const bool cut = cut_by_ != LimitedBy::nothing || out.clipped;
   // A dither that was cut does not count.
   const board::AppliedPower set{out.applied_W, out.duty, cut || allowed_.by != LimitedBy::nothing,
                                 state.may_heat() && !cut ? dither_W : 0.0};

@@ -117,6 +117,9 @@ class Heater {
   }
   const Limiter& limiter() const { return limiter_; }
   const Limiter::Result& allowed() const { return allowed_; }
+  /// Why the limiter gave less than the demand with its dither. A demand that only makes room for
+  /// the dither is not cut.
+  LimitedBy cut_by() const { return cut_by_; }
   const board::AppliedPower& acting() const { return acting_; }
   bool lines_ok() const { return lines_ok_; }
 
@@ -158,7 +161,7 @@ class Heater {
   std::atomic<double> max_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;
-  bool cut_ = false;  ///< the limiter gave less than the demand with its dither
+  LimitedBy cut_by_ = LimitedBy::nothing;
   board::PowerStage power_stage_;
   board::OutputDelay delay_;
   board::AppliedPower set_;     ///< at this tick

@@ -8,6 +8,8 @@ from sim_program import EXAMPLES, SHORT, ProgramCase
 QUIET = ("--out", "out", "--no-plot", "--no-trace", "--no-can")
 FOLLOWS = "controller.kind = 'learned_ff'\nsimulation.duration_s = 60.0\n"
 WEAK = "simulation.duration_s = 60.0\ncontroller = {kind = 'pi', proportional_W_per_m = 20.0, integral_W_per_m_s = 1.0}\n"
+IDENTIFIED = ("simulation.duration_s = 400.0\noperator.action = 'identify'\n"
+              "event = [{at_s = 140.0, operator.action = 'track'}]\n")
 
 
 class Outcome(ProgramCase):
@@ -128,6 +130,20 @@ class Outcome(ProgramCase):
         # The sensor's own noise is 10 um.
         self.assertLess(abs(shown_m - (summary["tracking_rms_m"] ** 2 + 10e-6 ** 2) ** 0.5), 1e-6)
         self.assertIn(f"promised: {1e6 * summary['promised_rms_m']:.1f} um rms, as the sensor shows it; the sensor showed {1e6 * shown_m:.1f} um\n", done.stdout)
+
+    def test_an_identified_muscle_that_saturates_is_a_fault_in_spite_of_dithers(self):
+        done, summary = self.run_of(IDENTIFIED + "power.max_W = 3.0\ncontroller.kind = 'pi'\nreference = {kind = 'step', to_m = 0.02}\n", "--allow-fault")
+        fault, = summary["faults"]
+        self.assertEqual(fault["name"], "controller_invalid")
+        self.assertAlmostEqual(fault["at_s"], 262, delta=2)
+
+    def test_an_identified_muscle_holds_what_derating_leaves_it(self):
+        model = "{kind = 'poles', poles_rad_per_s = [3.276, 3.276, 3.276]}"
+        law = "controller = {kind = 'learned_ff', shape_reference = true}\nestimator.kind = 'least_squares'\n"
+        done, summary = self.run_of(IDENTIFIED + law + f"reference_model = {model}\nreference = {{kind = 'step', to_m = 0.025}}\n")
+        self.assertEqual((done.returncode, summary["faults"]), (0, []))
+        self.assertLess(summary["tracking_rms_m"], 50e-6)
+        self.assertLess(summary["off_reference_rms_m"], 3e-3)
 
     def test_a_sensor_without_a_reading_does_not_end_the_report(self):
         done, summary = self.run_of(FOLLOWS + "[[event]]\nat_s = 5.0\ninjected_fault.position_loose = true\n")

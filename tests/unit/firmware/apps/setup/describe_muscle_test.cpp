@@ -12,7 +12,9 @@ namespace {
 /// What a bench would answer for the paper's muscle.
 MuscleAnswers paper_answers() {
   MuscleAnswers a;
-  const auto set = [&](QuestionId what, double value) { a.set(static_cast<std::size_t>(what), value); };
+  const auto set = [&](QuestionId what, double value) {
+    a.set(static_cast<std::size_t>(what), value);
+  };
   set(QuestionId::cold_resistance_Ohm, 10.0);
   set(QuestionId::load_g, 90.0);
   set(QuestionId::stretch_weight_g, 100.0);

@@ -275,9 +275,10 @@ tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t run
   Errors of_scenario;
   study.base = head.text("scenario", "sine");
   study.scenario = read_base(head, study.base, beside, document, of_scenario);
-  if (document.contains("scenario") && !document.get("scenario")->is_table())
+  if (document.contains("scenario") && !document.get("scenario")->is_table()) {
     top.wrong("scenario",
               "must be tables, such as [scenario.plant]; name the scenario in study.scenario");
+  }
   read_window(head, study);
   study.contenders = read_contenders(head, beside);
   head.finish();

@@ -38,9 +38,10 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
       static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
   sensor.range_m = section.number("range_m", sensor.range_m, {1e-4, 10.0});
   sensor.count_m = section.number("count_m", sensor.count_m, {0.0, 0.1 * sensor.range_m});
-  if (sensor.count_m > 0.0 && section.has("resolution_bits"))
+  if (sensor.count_m > 0.0 && section.has("resolution_bits")) {
     section.wrong("count_m",
                   "cannot be combined with resolution_bits: both set the size of a count");
+  }
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
   if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < min_position_rate_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");

@@ -43,9 +43,10 @@ class Residuals {
       const std::size_t k = rows_[static_cast<std::size_t>(i)];
       residual[i] = (predicted[k] - samples_.position_m[k]) / (0.01 * sizes_.stroke_m);
     }
-    for (Eigen::Index i = 0; i < inputs(); ++i)
+    for (Eigen::Index i = 0; i < inputs(); ++i) {
       residual[data() + i] =
           numbers[i] / parameters_[static_cast<std::size_t>(i)].deviation * std::sqrt(variance_);
+    }
     // A step too far counts as a bad one and does not end the search.
     if (!residual.allFinite()) residual.setConstant(1e6);
     return 0;

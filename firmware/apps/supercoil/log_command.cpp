@@ -90,9 +90,10 @@ int write_output(const std::string& path, const std::string& nothing, const Prod
 }
 
 int log_command(const LogOptions& options) {
-  if (options.mcap && options.out.empty() && isatty(STDOUT_FILENO) == 1)
+  if (options.mcap && options.out.empty() && isatty(STDOUT_FILENO) == 1) {
     return fail(exit_wrong_input,
                 "--mcap: MCAP is not written to a terminal; use --out FILE or a pipe");
+  }
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
     return refuse(options.json, exit_wrong_input,

@@ -105,9 +105,10 @@ int print_all(Commander& node, bool json) {
 
 int setting_command(const SettingOptions& options) {
   const auto setting = setting_of(options.name);
-  if (!options.name.empty() && !setting)
+  if (!options.name.empty() && !setting) {
     return refuse(options.json, exit_wrong_input,
                   "'" + options.name + "' " + unknown_setting_text(options));
+  }
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, can_client::answer_ids(id));
   if (!bus) return refuse(options.json, exit_failed, bus.error().text());

@@ -41,9 +41,10 @@ struct KnownThermalBounds {
   std::span<const control::TransferSpan> known() const { return {spans.data(), count}; }
   double min_heat_transfer_W_per_K(double rise_K) const {
     double min_W_per_K = bounds.min_transfer_W_per_K;
-    for (const control::TransferSpan& span : known())
+    for (const control::TransferSpan& span : known()) {
       min_W_per_K =
           std::max(min_W_per_K, std::min(span.min_at(rise_K), bounds.max_transfer_W_per_K));
+    }
     return min_W_per_K;
   }
   double max_heat_transfer_W_per_K(double rise_K) const {

@@ -75,9 +75,10 @@ class CanRig {
   Refusal claim(Master& sender) {
     sender.session = sender.name;
     Refusal refusal = command(sender, telemetry::Opcode::lease, telemetry::claim_value);
-    if (refusal == Refusal::claim_again)
+    if (refusal == Refusal::claim_again) {
       refusal =
           command(sender, telemetry::Opcode::lease, static_cast<float>(answers.back().granted));
+    }
     if (!answers.empty()) sender.session = answers.back().granted;
     return refusal;
   }

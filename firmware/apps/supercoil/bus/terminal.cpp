@@ -181,9 +181,10 @@ std::string state_text(const FrameHistory& frame_history,
                 frame_history.lost().empty() ? "" : "; LOST: ", frame_history.lost().c_str());
   std::string text = head.data();
   if (nodes.empty()) text += "no supercoil node is heard\n";
-  for (const auto& [number, node] : nodes)
+  for (const auto& [number, node] : nodes) {
     text += node_text(number, node,
                       controller_kinds.contains(number) ? controller_kinds.at(number) : "");
+  }
   return text;
 }
 

@@ -87,9 +87,10 @@ Player::Problem Player::renew(Node& node) {
   node.renewed = Clock::now();
   const auto answer = node.link->ask(Verb::renew, 0.0);
   if (!answer) return prefix_of(node) + answer.error().text();
-  if (answer->refusal != Refusal::none)
+  if (answer->refusal != Refusal::none) {
     return prefix_of(node) + "the board stopped it (" + answer_with_reason(*answer, Verb::renew) +
            ")";
+  }
   return take(node, Verb::none, "playback", node.link->playback());
 }
 

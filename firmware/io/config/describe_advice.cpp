@@ -59,6 +59,22 @@ void advise_probe(const ChannelSettings& c, double step_s, std::vector<std::stri
                   "armed; shorten the delay");
 }
 
+/// After a muscle softened on a sine, adaptive_ff left 46 um with the gradient estimator, as much
+/// as with none, and 1 um with least squares (November 2026).
+void advise_estimator(const ChannelSettings& c, std::vector<std::string>& lines) {
+  using control::EstimatorKind;
+  const bool adapts = std::ranges::any_of(c.estimators, [](const control::EstimatorSettings& e) {
+    return e.kind == EstimatorKind::least_squares;
+  });
+  if (adapts) return;
+  for (std::size_t i = 0; i < c.controllers.size(); ++i) {
+    if (c.controllers[i].kind != control::ControllerKind::adaptive_ff) continue;
+    lines.push_back("controller " + std::to_string(i) +
+                    ": adaptive_ff needs an estimator of kind least_squares; with any other it "
+                    "hardly adapts when the muscle changes");
+  }
+}
+
 /// For controllers whose power swings with the sensor's noise.
 void advise_noise(const ChannelSettings& c, const BoardSettings& board,
                   std::vector<std::string>& lines) {
@@ -118,6 +134,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   advise_weight(c, lines);
   if (is_led(c)) return lines;
   advise_noise(c, board, lines);
+  advise_estimator(c, lines);
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];
     const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;

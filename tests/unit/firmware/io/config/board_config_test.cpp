@@ -333,6 +333,18 @@ TEST(BoardConfig, RecommendsAControllerOrNamesAConfiguredOne) {
   CHECK(describe_recommendation(c.settings, 0).empty());
 }
 
+TEST(BoardConfig, AdvisesLeastSquaresForAdaptiveFeedforward) {
+  BoardConfig c = read(test::small_board_with("min_m = -0.001", "min_m = -0.03"));
+  ChannelSettings& channel = c.settings.channels[0];
+  channel.controllers[0].kind = control::ControllerKind::adaptive_ff;
+  channel.estimators[0].kind = control::EstimatorKind::gradient;
+  channel.supervision.max_travel_m = 3.0 * feasibility(channel, c.settings).travel_m;
+  LONGS_EQUAL(1, advice(c).size());
+  check_says(advice(c)[0], "adaptive_ff needs an estimator of kind least_squares");
+  channel.estimators[0].kind = control::EstimatorKind::least_squares;
+  CHECK(advice(c).empty());
+}
+
 TEST(BoardConfig, AdvisesWhenLittleOfTheTravelCanBeHeld) {
   BoardConfig c = read(test::small_board_with("min_m = -0.001", "min_m = -0.03"));
   ChannelSettings& channel = c.settings.channels[0];

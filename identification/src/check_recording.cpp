@@ -78,7 +78,9 @@ Checked check_times(Recording& r, Gaps gaps) {
     }
   }
   if (count == 0) return {};
-  if (gaps == Gaps::refuse && max_s > refused_intervals * usual_s && max_s > refused_gap_s) {
+  constexpr double rounding = 1.0 + 1e-6;  // 0.5 - 0.4 is more than 0.1
+  if (gaps == Gaps::refuse &&
+      max_s > rounding * std::max(refused_intervals * usual_s, refused_gap_s)) {
     return refuse(r.line[longest], "rows are missing: ", max_s, " s since the row before, ",
                   usual_s,
                   " s elsewhere. The power in the gap is not known: use a part without the gap "

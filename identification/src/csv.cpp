@@ -24,13 +24,14 @@ char separator_of(std::string_view line) {
 
 }  // namespace
 
-CsvLines::CsvLines(std::string_view text) : text_(text) {
+CsvLines::CsvLines(std::string_view text)
+    : text_(text), line_end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {
   if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
 }
 
 bool CsvLines::next() {
   while (!text_.empty()) {
-    const std::size_t end = text_.find('\n');
+    const std::size_t end = text_.find(line_end_);
     const std::string_view line = text_.substr(0, end);
     text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
     ++number_;

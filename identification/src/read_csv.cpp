@@ -112,6 +112,10 @@ class CsvReader {
     }
     const auto channel = std::find(fields.begin(), fields.end(), "channel");
     if (channel != fields.end()) channel_at_ = static_cast<std::size_t>(channel - fields.begin());
+    if (columns_.channel != 0 && !channel_at_) {
+      return tl::unexpected(
+          Problem{lines_.number(), "has no column named channel: leave out --channel"});
+    }
     return {};
   }
 

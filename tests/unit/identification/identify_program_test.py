@@ -141,6 +141,18 @@ class Identify(unittest.TestCase):
         done = self.identify(self.write("slow.csv", "time_s,position_m,power_W", slow), status=1)
         self.assertIn("the fit ended at its limit of time_constant_s, 742: ", done.stdout)
 
+    def test_a_missing_channel_is_named(self):
+        rows = [(t, x, p, 1) for t, x, p in self.samples()]
+        channels = self.write("channels.csv", "time_s,position_m,power_W,channel", rows)
+        self.assertIn("has no rows of channel 3", self.identify(channels, "--channel", 3, status=2).stderr)
+        plain = self.write("plain.csv", "time_s,position_m,power_W", self.samples())
+        self.assertIn("has no column named channel: leave out --channel", self.identify(plain, "--channel", 3, status=2).stderr)
+
+    def test_lines_may_end_with_carriage_returns_alone(self):
+        lines = ["time_s,position_m,power_W", *(f"{t},{x},{p}" for t, x, p in self.samples())]
+        (self.path / "mac.csv").write_bytes("\r".join(lines).encode())
+        self.assertIn("10000 rows", self.identify("mac.csv").stdout)
+
     def test_nan_is_no_option(self):
         for option in ("--thermal-mass", "--stiffness", "--moving-mass", "--power-scale", "--position-scale", "--from", "--to"):
             done = self.identify("trace.csv", option, "nan", status=2)

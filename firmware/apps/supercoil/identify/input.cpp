@@ -47,6 +47,8 @@ Result<Recording> read_input(const IdentifyOptions& o) {
   auto recording = flight ? from_flight_recording(*content, o.columns.channel)
                           : identification::read_csv(*content, o.columns);
   if (!recording) return text_of(recording.error());
+  if (recording->size() == 0 && o.columns.channel != 0)
+    return text_of({0, "has no rows of channel " + std::to_string(o.columns.channel)});
   identification::cut(*recording, {o.from_s, o.to_s});
   const auto gaps = o.bridge_gaps ? identification::Gaps::bridge : identification::Gaps::refuse;
   if (auto checked = identification::check(*recording, gaps); !checked)

@@ -9,7 +9,8 @@
 namespace supercoil::identification {
 
 /// The separator is the first of semicolon, tab and comma that the first line contains, or else
-/// spaces. Empty lines and lines that begin with # are skipped; spaces and quotes around a field
+/// spaces. Lines end with \n, \r\n, or \r alone. Empty lines and lines that begin with # are skipped;
+/// spaces and quotes around a field
 /// are removed.
 class CsvLines {
  public:
@@ -29,6 +30,7 @@ class CsvLines {
   void split(std::string_view line);
 
   std::string_view text_;
+  char line_end_;  ///< '\r' in a text that has no '\n'
   std::size_t number_ = 0;
   char separator_ = '\0';  ///< before the first line
   std::vector<std::string_view> fields_;

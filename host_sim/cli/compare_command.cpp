@@ -46,6 +46,10 @@ int compare_command(const CompareOptions& options) {
   if (!plan) return refuse_lines(options.json, plan.error().text());
   for (const std::string& reason : plan->impossible)
     std::fprintf(stderr, "supercoil-sim: left out: %s", reason.c_str());
+  if (plan->runs.empty()) {
+    return refuse(options.json, exit_wrong_input,
+                  "there is nothing to run: all is left out, or this part has no runs");
+  }
   auto folder = OutputFolder::open(options.out);
   if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
 

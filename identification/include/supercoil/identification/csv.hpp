@@ -9,9 +9,8 @@
 namespace supercoil::identification {
 
 /// The separator is the first of semicolon, tab and comma that the first line contains, or else
-/// spaces. Lines end with \n, \r\n, or \r alone. Empty lines and lines that begin with # are skipped;
-/// spaces and quotes around a field
-/// are removed.
+/// spaces. Lines end with \n, \r\n, or \r alone. Empty lines and lines that begin with # are
+/// skipped; spaces and quotes around a field are removed.
 class CsvLines {
  public:
   /// text must outlive it.

@@ -71,6 +71,14 @@ class Compare(Batch, ProgramCase):
         (self.path / "brief.toml").write_text("# Another comment\n" + BRIEF + "# and another\n")
         self.assertIn("4 of 4 runs are already in", self.batch("--out", "whole").stderr)
 
+    def test_nothing_to_run_is_refused(self):
+        for arguments in (("--controllers", "pi", "--seeds", "1", "--shard", "3/5"),
+                          ("--controllers", "learned_ff", "--arithmetic", "q8.24")):
+            done = subprocess.run([PROGRAM, "compare", "--disturbances", "nominal", *arguments],
+                                  cwd=self.path, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("there is nothing to run", done.stderr)
+
     def test_another_definition_is_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))

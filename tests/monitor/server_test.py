@@ -88,6 +88,8 @@ class Live(OnServedBoard):
                       '{"node":1,"opcode":"power","value":1e999}', '{"node":1,"opcode":7}', "\xff\x00", "[" * 4000):
             status, answer = served.post("/api/command", wrong)
             self.assertEqual((status, list(answer)), (400, ["error"]), wrong)
+            if not wrong.startswith('{"'):
+                self.assertIn("must be a JSON object", answer["error"])
         for path in ("/api/history?from_s=x", "/api/history?to_s=1e300", "/api/history?from_s=nan"):
             self.assertEqual(served.get(path)[0], 400, path)
         self.assertEqual(served.get("/api/fault/no_such")[0], 404)

@@ -14,9 +14,9 @@ namespace {
 using nlohmann::json;
 
 Result<std::uint8_t> node_of(const json& read) {
-  const auto node = read.is_object() ? read.find("node") : read.end();
-  if (!read.is_object() || node == read.end() || !node->is_number_integer() || *node < 1 ||
-      *node > can::max_nodes) {
+  if (!read.is_object()) return failure("the request must be a JSON object");
+  const auto node = read.find("node");
+  if (node == read.end() || !node->is_number_integer() || *node < 1 || *node > can::max_nodes) {
     return failure("node must be 1 to " + std::to_string(can::max_nodes));
   }
   return node->get<std::uint8_t>();

@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/common/commands.hpp"
+#include "apps/common/command_line.hpp"
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "cli/results_json.hpp"

@@ -9,8 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/common/commands.hpp"
-#include "apps/common/finite.hpp"
+#include "apps/common/command_line.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/options.hpp"
 #include "apps/supercoil/setup/options.hpp"

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common/command_line.hpp"
 #include "apps/common/exit_status.hpp"
-#include "apps/common/finite.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "text/program_version.hpp"

@@ -133,7 +133,8 @@ void Axis::limit(double share_W, double max_W) {
 }
 
 double Axis::held_W() const {
-  return std::min({own_range().max_W, max_hot_W(), proof_.held_W()}) - proof_.reserve_W();
+  const double limit_W = std::min({own_range().max_W, max_hot_W(), proof_.held_W()});
+  return std::max(0.0, limit_W - proof_.reserve_W());
 }
 
 control::PowerRange Axis::held_range() const {

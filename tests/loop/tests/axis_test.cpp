@@ -45,6 +45,17 @@ TEST(Axis, ReportsFrictionWhenLessThanHalfOfASmallMotionArrives) {
   }
 }
 
+/// With what a dither may take away, too.
+TEST(Axis, CountsOnNoPowerWhereDeratingLeavesNone) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.muscle_identified = true;
+  channel.limiter.derate_from_C = 1.0;
+  channel.limiter.derate_to_C = 2.0;
+  Rig hot(settings);
+  hot.run_ticks(2);
+  DOUBLES_EQUAL(0.0, hot.loop.channel(0).axis().opposition(1.0, 1.0).held_W, 0.0);
+}
+
 /// And stores it again with whatever else is stored.
 TEST(Axis, UnexplainedRatioSurvivesARestart) {
   for (const double stored : {0.0, 0.25}) {

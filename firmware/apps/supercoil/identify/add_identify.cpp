@@ -1,7 +1,7 @@
 // The options of supercoil identify.
 #include <CLI/CLI.hpp>
 
-#include "apps/common/finite.hpp"
+#include "apps/common/command_line.hpp"
 #include "apps/supercoil/identify/options.hpp"
 
 namespace supercoil::operating {

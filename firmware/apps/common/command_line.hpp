@@ -1,7 +1,8 @@
-// Commands of a program that has several.
+// Checks of a command line that CLI11 does not make.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include "text/nearest.hpp"
 
 namespace supercoil {
+
+/// For options that take a number: CLI11's ranges accept NaN.
+inline const CLI::Validator is_finite(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return ok ? std::string() : text + ": must be a finite number";
+    },
+    "");
 
 /// What is wrong with the first word; empty if it is a command, an option or absent. CLI11 would
 /// only say that a command is missing.

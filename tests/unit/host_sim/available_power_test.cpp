@@ -1,4 +1,6 @@
 // The power that the board's limiter leaves; the forecast computes it as the board itself does.
+#include "runner/available_power.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,6 @@
 
 #include "supercoil/control/thermal/rise_interval_observer.hpp"
 
-#include "runner/available_power.hpp"
 #include "runner/board_of.hpp"
 #include "unit/host_sim/support/scenarios.hpp"
 

@@ -14,12 +14,14 @@ MracSettings MracSettings::scaled(double factor) const {
   return result;
 }
 
-std::optional<MracSettings> mrac_preset(std::string_view name) {
+std::optional<MracSettings> mrac_preset(std::string_view name, double max_W) {
   if (name == "printed") return MracSettings{};
   if (name == "a") {
     MracSettings a;
-    a.gain *= 20.0;
-    a.sigma_gain *= 20.0;
+    // θ̇ = Π φ ε: both φ and ε are in watts, so Π counts squared watts.
+    const double rate = 20.0 * (paper_max_W / max_W) * (paper_max_W / max_W);
+    a.gain *= rate;
+    a.sigma_gain *= rate;
     a.alpha = {20.0, 400.0};
     a.lambda = {400.0, 40.0, 1.0};
     a.damping = 1.0;

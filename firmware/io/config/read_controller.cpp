@@ -34,9 +34,9 @@ void read_mrac_lists(Section& section, MracSettings& m) {
   m.accept_failed_premises = section.flag("accept_failed_premises", false);
 }
 
-MracSettings read_mrac_preset(Section& section) {
+MracSettings read_mrac_preset(Section& section, double max_W) {
   const std::string preset = section.text("preset", "a");
-  if (const auto named = control::mrac_preset(preset)) return *named;
+  if (const auto named = control::mrac_preset(preset, max_W)) return *named;
   std::string names;
   for (const auto& [name, text] : control::mrac_presets)
     names += (names.empty() ? "" : ", ") + std::string(name);
@@ -58,7 +58,8 @@ control::ControllerSettings read_controller(
       model.value_or(control::adapts(c.kind) ? control::wm16_model() : control::design_model());
   if (c.kind != ControllerKind::power)
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
-  c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section) : *control::mrac_preset("a");
+  c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section, max_W)
+                                          : *control::mrac_preset("a", max_W);
   read_tunables(section, c);
   if (c.kind == ControllerKind::mrac) read_mrac_lists(section, c.mrac);
   for (const SettingsProblem& problem : contradictions(c))

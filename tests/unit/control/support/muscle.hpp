@@ -41,11 +41,13 @@ struct Tick {
   double applied_power_W;
 };
 
-/// Runs a controller on the paper's muscle. reference_m(time_s); observe(Tick) at each tick.
+/// Runs a controller on a muscle, the paper's if none is given. reference_m(time_s); observe(Tick)
+/// at each tick.
 template <class Controller, class Reference, class Observe>
 void run_closed_loop(Controller& controller, double step_s, double duration_s,
-                     const control::PowerRange& range, Reference reference_m, Observe observe) {
-  Muscle muscle(control::PhysicalParameters{}, step_s);
+                     const control::PowerRange& range, Reference reference_m, Observe observe,
+                     const control::PhysicalParameters& parameters = {}) {
+  Muscle muscle(parameters, step_s);
   double applied = 0.0;
   bool limited = false;
   const long ticks = std::lround(duration_s / step_s);

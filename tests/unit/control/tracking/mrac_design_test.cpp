@@ -39,9 +39,35 @@ double matched_difference(double step_s) {
   return worst;
 }
 
+/// How preset a moves a muscle that needs `scale` times the paper's power for the same motion.
+std::vector<double> positions_m(double scale) {
+  PhysicalParameters muscle;
+  muscle.thermal_mass_J_per_K *= scale;
+  muscle.heat_transfer_W_per_K *= scale;
+  ControllerSettings settings;
+  settings.set_nominal(muscle, scale * paper_max_W);
+  settings.mrac = *mrac_preset("a", scale * paper_max_W);
+  Controller controller(settings, 1e-3);
+  std::vector<double> result;
+  supercoil::test::run_closed_loop(
+      controller, 1e-3, 40.0, PowerRange{0.0, scale * paper_max_W}, supercoil::test::paper_sine_m,
+      [&](const supercoil::test::Tick& tick) { result.push_back(tick.position_m); }, muscle);
+  return result;
+}
+
 }  // namespace
 
 TEST_GROUP(MracDesign){};
+
+TEST(MracDesign, PresetAAdaptsEquallyFastWhateverThePowerOfTheMuscle) {
+  const auto papers = positions_m(1.0);
+  for (const double scale : {0.1, 3.0, 10.0}) {
+    const auto scaled = positions_m(scale);
+    CHECK_EQUAL(papers.size(), scaled.size());
+    for (std::size_t i = 0; i < papers.size(); ++i)
+      DOUBLES_EQUAL(papers[i], scaled[i], 1e-9);
+  }
+}
 
 TEST(MracDesign, MatchingSolvesThePolynomialIdentityAsNumpyDoes) {
   for (const auto& c : supercoil::test::reference("mrac", "matching")) {

@@ -46,9 +46,13 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> mr
     {"a", "the best of the paper's own laws: faster filters, gains x 20 (default)"},
 }};
 
+/// The power of the paper's muscle at most (Sec. 5.2), for which the presets were designed.
+inline constexpr double paper_max_W = 4.5;
+
 /// Presets: "printed", the paper's constants; "a", design A: α = [20 s, 400], λ = (s + 20)², Π and
 /// ν × 20, α0 = 1, c0(0) = 0.3, which tracks an order of magnitude better (docs/paper.md). Both are
-/// for signals in watts at rest. Empty for any other name.
-std::optional<MracSettings> mrac_preset(std::string_view name);
+/// for signals in watts at rest. Π and ν of "a" are scaled by (paper_max_W / max_W)², so that
+/// muscles of any max_W > 0 adapt equally fast. Empty for any other name.
+std::optional<MracSettings> mrac_preset(std::string_view name, double max_W = paper_max_W);
 
 }  // namespace supercoil::control

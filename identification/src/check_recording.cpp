@@ -52,11 +52,12 @@ Checked check_values(const Recording& r) {
 Checked check_times(Recording& r, Gaps gaps) {
   for (std::size_t i = 1; i < r.size(); ++i) {
     if (r.time_s[i] == r.time_s[i - 1]) {
-      return refuse(r.line[i], "the time ", r.time_s[i], " s occurs twice, first in line ",
-                    r.line[i - 1]);
+      return refuse(r.line[i], "the time ", time_text(r.time_s[i]),
+                    " s occurs twice, first in line ", r.line[i - 1]);
     }
     if (r.time_s[i] < r.time_s[i - 1]) {
-      return refuse(r.line[i], "the time goes back, from ", r.time_s[i - 1], " to ", r.time_s[i],
+      return refuse(r.line[i], "the time goes back, from ", time_text(r.time_s[i - 1]), " to ",
+                    time_text(r.time_s[i]),
                     " s: rows must be in order of time and come from one recording");
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <future>
 #include <iterator>
 #include <limits>
@@ -22,13 +21,6 @@ constexpr double min_stroke_ratio = 0.001;
 /// It must also lower the error of the whole motion by this ratio. An error within
 /// min_stroke_ratio needs no effect.
 constexpr double min_overall_ratio = 0.03;
-
-/// It is a shape-memory wire if that model's error is below this ratio of the best other model's,
-/// and the latter above min_error_ratio.
-constexpr double transformation_ratio = 0.6;
-constexpr double min_error_ratio = 0.005;
-/// Error on unseen data over the stroke, above which no model explains the motion.
-constexpr double max_error_ratio = 0.15;
 
 double explained_of(const Samples& samples, double rms_m, Span span) {
   double sum = 0.0;
@@ -53,21 +45,6 @@ double stroke_within(const Samples& samples, Span span) {
     highest = std::max(highest, samples.position_m[k]);
   }
   return highest - lowest;
-}
-
-EvaluatedModel evaluate(Fit fit, const Samples& samples, const Parts& parts) {
-  EvaluatedModel result;
-  result.fitted_rms_m = fit.rms_m;
-  result.unseen_rms_m = rms_error(samples, fit.predicted_m, parts.unseen);
-  result.fitted_explained = explained_of(samples, result.fitted_rms_m, parts.fitted);
-  result.unseen_explained = explained_of(samples, result.unseen_rms_m, parts.unseen);
-  result.fit = std::move(fit);
-  return result;
-}
-
-/// Over both parts, as if they were equally long.
-double overall_rms(const EvaluatedModel& model) {
-  return std::hypot(model.fitted_rms_m, model.unseen_rms_m) / std::sqrt(2.0);
 }
 
 /// A model's error on data to which it was not fitted.
@@ -155,46 +132,21 @@ std::size_t remove_effects_from(std::vector<EvaluatedModel>& models, std::size_t
   }
 }
 
-std::string muscle_rejection(const Comparison& c) {
-  double best_m = std::numeric_limits<double>::infinity();
-  for (const EvaluatedModel& model : c.models)
-    best_m = std::min(best_m, overall_rms(model));
-  const double transformed_m = overall_rms(c.transformation);
-  std::array<char, 400> text{};
-  if (best_m > min_error_ratio * c.sizes.stroke_m &&
-      transformed_m < transformation_ratio * best_m) {
-    std::snprintf(
-        text.data(), text.size(),
-        "nearly all of its stroke lies within a narrow range of heat, and heat below or above "
-        "that range hardly moves it: a material that transforms, such as shape-memory "
-        "wire, or an end stop. Such a model is off by %.2f %% of the stroke (rms), the "
-        "best model of a super-coiled polymer muscle by %.2f %%",
-        100.0 * transformed_m / c.sizes.stroke_m, 100.0 * best_m / c.sizes.stroke_m);
-    return text.data();
-  }
-  const EvaluatedModel& best = c.best();
-  for (std::size_t i = 0; i < best.fit.parameters.size(); ++i) {
-    const Parameter& p = best.fit.parameters[i];
-    if (p.member != &Muscle::time_constant_s && p.member != &Muscle::gain_m_per_W) continue;
-    if (!is_at_limit(p, best.fit.numbers[static_cast<Eigen::Index>(i)])) continue;
-    std::snprintf(text.data(), text.size(),
-                  "the fit ended at its limit of %s, %.3g: slower, faster or weaker than any such "
-                  "muscle, or the times or powers have another unit",
-                  std::string(p.name).c_str(), best.fit.muscle.*p.member);
-    return text.data();
-  }
-  if (best.unseen_rms_m > max_error_ratio * c.sizes.stroke_m) {
-    std::snprintf(
-        text.data(), text.size(),
-        "no model predicts the part that it was not fitted to: the best is off by %.0f %% of "
-        "the stroke (rms) there, and by %.1f %% where it was fitted. Something other than "
-        "power may move it, or something changed between the parts",
-        100.0 * best.unseen_rms_m / c.sizes.stroke_m, 100.0 * best.fitted_rms_m / c.sizes.stroke_m);
-  }
-  return text.data();
+}  // namespace
+
+EvaluatedModel evaluate(Fit fit, const Samples& samples, const Parts& parts) {
+  EvaluatedModel result;
+  result.fitted_rms_m = fit.rms_m;
+  result.unseen_rms_m = rms_error(samples, fit.predicted_m, parts.unseen);
+  result.fitted_explained = explained_of(samples, result.fitted_rms_m, parts.fitted);
+  result.unseen_explained = explained_of(samples, result.unseen_rms_m, parts.unseen);
+  result.fit = std::move(fit);
+  return result;
 }
 
-}  // namespace
+double overall_rms(const EvaluatedModel& model) {
+  return std::hypot(model.fitted_rms_m, model.unseen_rms_m) / std::sqrt(2.0);
+}
 
 Parts default_parts(const Samples& samples) {
   const double full_W = sizes_of(samples).full_W;
@@ -233,7 +185,7 @@ Comparison compare(const Samples& samples, const Parts& parts) {
   result.chosen = remove_effects_from(result.models, added, samples, parts, stroke_m);
   result.transformation =
       evaluate(fit_model({Effect::transformation}, samples, parts.fitted), samples, parts);
-  result.rejection_reason = muscle_rejection(result);
+  result.rejection_reason = why_rejected(result, samples);
   return result;
 }
 

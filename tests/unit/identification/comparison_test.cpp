@@ -61,6 +61,26 @@ TEST(Comparison, ReportsMotionThatPowerDoesNotExplain) {
   STRCMP_CONTAINS("no model predicts", c.rejection_reason.c_str());
 }
 
+TEST(Comparison, NamesTheOptionForAPositionThatCountsBackwards) {
+  Samples samples = random_steps(120.0, full_W, 27);
+  record(other_muscle(), noise_m, 28, samples);
+  for (double& position_m : samples.position_m)
+    position_m = 0.02 - position_m;
+  const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
+  STRCMP_CONTAINS("--position-scale -1", c.rejection_reason.c_str());
+}
+
+TEST(Comparison, NamesAMuscleThatChangedBetweenTheParts) {
+  Samples samples = random_steps(120.0, full_W, 29);
+  record(other_muscle(), noise_m, 30, samples);
+  // It softens by a quarter, so that every motion is a third larger.
+  for (std::size_t k = 4000; k < samples.size(); ++k)
+    samples.position_m[k] *= 4.0 / 3.0;
+  const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
+  STRCMP_CONTAINS("changed between 0 to 80 s and 80 to 120 s: gain_m_per_W by +33 %",
+                  c.rejection_reason.c_str());
+}
+
 TEST(Comparison, ReportsAChangeOnlyWhenThereIsOne) {
   Samples samples = random_steps(120.0, full_W, 25);
   record(other_muscle(), noise_m, 26, samples);

@@ -172,7 +172,7 @@ class Identify(unittest.TestCase):
             heat += (power - heat) * 0.01 / 5.0
         name = self.write("wire.csv", "time_s,position_m,power_W", rows)
         done = self.identify(name, "--muscle", "m.toml", status=1)
-        self.assertIn("not a super-coiled polymer muscle", done.stdout)
+        self.assertIn("No model is accepted: this is not a super-coiled polymer muscle", done.stdout)
         self.assertIn("shape-memory wire", done.stdout)
         self.assertIn("no [muscle] table is written", done.stderr)
         self.assertFalse((self.path / "m.toml").exists())

@@ -43,7 +43,8 @@ Result<Span> span_in(const char* option, const std::string& text, const Samples&
   if (measured >= min_samples) return Span{*from, *to};
   return failure(std::string(option) + " " + text +
                  ": must be FROM:TO in seconds, 50 samples or more within " +
-                 std::to_string(samples.start_s) + " to " + std::to_string(samples.end_s()));
+                 identification::time_text(samples.start_s) + " to " +
+                 identification::time_text(samples.end_s()));
 }
 
 Result<Parts> parts_in(const IdentifyOptions& o, const Samples& samples) {
@@ -114,15 +115,14 @@ int identify_command(const IdentifyOptions& options) {
   if (!parts) return refuse(options.json, exit_wrong_input, parts.error().text());
   const Findings found = find(options, recording->size(), std::move(samples), *parts);
 
-  const bool muscle = found.comparison.rejection_reason.empty();
   std::string text = options.json ? json_report(found) : report(found);
   if (!options.plot.empty()) {
     if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
       return refuse(options.json, exit_failed, drawn.error().text());
   }
-  Result<std::string> table =
-      failure("no [muscle] table is written: this is not a super-coiled polymer muscle");
-  if (muscle) table = muscle_table(found);
+  const bool accepted = found.comparison.rejection_reason.empty();
+  Result<std::string> table = failure("no [muscle] table is written: no model is accepted");
+  if (accepted) table = muscle_table(found);
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;
   if (const auto written = files.write({STDOUT_FILENO, "standard output"}, text); !written)

@@ -12,6 +12,7 @@ namespace {
 using identification::Comparison;
 using identification::EvaluatedModel;
 using identification::Fit;
+using identification::time_text;
 
 /// With less motion than this share of the stroke, no model can be judged.
 constexpr double min_stroke_ratio = 0.1;
@@ -106,18 +107,18 @@ bool is_determined(const Fit& fit, std::size_t parameter) {
 std::string report(const Findings& f) {
   const Comparison& c = f.comparison;
   std::string text;
-  print(text, "%s: %zu rows, %.4g to %.4g s, used at %.4g Hz; stroke %.4g mm, power up to %.4g W\n",
-        f.file.c_str(), f.rows, f.samples.start_s, f.samples.end_s(), 1.0 / f.samples.step_s,
-        1e3 * c.sizes.stroke_m, c.sizes.full_W);
-  print(
-      text,
-      "Fitted to %.4g to %.4g s, judged by %.4g to %.4g s, which no fit has seen. Left out: each\n"
-      "fifth of the fitted part, predicted by a fit to the others. Both choose the model (*).\n",
-      c.parts.fitted.from_s, c.parts.fitted.to_s, c.parts.unseen.from_s, c.parts.unseen.to_s);
+  print(text, "%s: %zu rows, %s to %s s, used at %.4g Hz; stroke %.4g mm, power up to %.4g W\n",
+        f.file.c_str(), f.rows, time_text(f.samples.start_s).c_str(),
+        time_text(f.samples.end_s()).c_str(), 1.0 / f.samples.step_s, 1e3 * c.sizes.stroke_m,
+        c.sizes.full_W);
+  print(text,
+        "Fitted to %s to %s s, judged by %s to %s s, which no fit has seen. Left out: each\n"
+        "fifth of the fitted part, predicted by a fit to the others. Both choose the model (*).\n",
+        time_text(c.parts.fitted.from_s).c_str(), time_text(c.parts.fitted.to_s).c_str(),
+        time_text(c.parts.unseen.from_s).c_str(), time_text(c.parts.unseen.to_s).c_str());
   add_models(text, c);
   if (!c.rejection_reason.empty()) {
-    text += "\nAccording to the recording, this is not a super-coiled polymer muscle: " +
-            c.rejection_reason + ".\n";
+    text += "\nNo model is accepted: " + c.rejection_reason + ".\n";
     return text;
   }
   add_parameters(text, c.best().fit, f.whole);

@@ -23,6 +23,10 @@ struct Parts {
   Span unseen;
 };
 
+EvaluatedModel evaluate(Fit fit, const Samples& samples, const Parts& parts);
+/// Rms error over both parts, as if they were equally long.
+double overall_rms(const EvaluatedModel& model);
+
 /// The unseen part begins when the muscle is last heated after a second almost without power, if
 /// that happens at least twice (a start with heat counts) and the last time is after three tenths
 /// of the recording and before its last tenth; otherwise it is the last third.
@@ -37,7 +41,7 @@ struct Comparison {
   std::vector<EvaluatedModel> models;
   std::size_t chosen = 0;         ///< of models
   EvaluatedModel transformation;  ///< how a shape-memory wire would move
-  std::string rejection_reason;   ///< why it is not a muscle; empty: a model explains the motion
+  std::string rejection_reason;   ///< why no model is accepted; empty: one explains the motion
 
   const EvaluatedModel& best() const { return models[chosen]; }
 };
@@ -48,6 +52,11 @@ struct Comparison {
 /// much, down to one. That error is the unseen part's rms and the fitted part's cross-validated
 /// one, added in squares.
 Comparison compare(const Samples& samples, const Parts& parts);
+
+/// Why none of these models is accepted, and what to do about it where that is known: a material
+/// with a phase transformation, a fit at its limit, a position that counts the wrong way, a muscle
+/// that changed between the parts, other causes. Empty: the best one is accepted.
+std::string why_rejected(const Comparison& comparison, const Samples& samples);
 
 /// What a linear controller can use of a model: the linear model and what moves the rest length.
 Effects linear_effects(const Effects& effects);

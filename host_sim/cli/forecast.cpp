@@ -68,7 +68,7 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
                  {"off_reference_rms_m", f->off_reference_rms_m},
                  {"promised_rms_m", promise ? Json(promise->parts.error_m()) : Json()},
                  {"out_of_range", describe_out_of_range(scenario)},
-                 {"told", describe_reference(scenario)}};
+                 {"text", describe_reference(scenario)}};
   }
   return {{"scenario", scenario.name},
           {"ticks", scenario.ticks()},

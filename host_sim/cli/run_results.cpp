@@ -98,7 +98,7 @@ void print_promise(const nlohmann::ordered_json& json) {
 
 /// How identify, calibrate and the first motion ended, if there were any.
 void print_modes(const nlohmann::ordered_json& json) {
-  const auto& text = json["mode_result"]["told"];
+  const auto& text = json["mode_result"]["text"];
   if (!text.is_null())
     std::printf("the last identify or calibrate: %s\n", text.get<std::string>().c_str());
   const auto& motion = json["first_motion"];
@@ -149,7 +149,7 @@ void print_summary(const Summary& summary, const Scenario& scenario,
   print_noise(summary, scenario);
   print_modes(json);
   for (const auto& fault : json["faults"])
-    std::puts(fault["told"].get<std::string>().c_str());
+    std::puts(fault["text"].get<std::string>().c_str());
   std::printf("hottest %.1f K above ambient\nwritten to %s\n",
               json["hottest_temperature_rise_K"].get<double>(), folder.c_str());
 }

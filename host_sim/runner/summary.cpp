@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 
 /// Of summary.json: incremented when a key is renamed or its meaning changes. Version 0.1.0 of the
 /// programs wrote schema 1 without saying so.
-constexpr int schema_version = 5;
+constexpr int schema_version = 6;
 
 std::string page_of(Fault fault) {
   return "docs/faults/" + std::string(name(fault)) + ".md";
@@ -60,7 +60,7 @@ ordered_json mode_result_json(const Snapshot& snapshot) {
   const std::string text = describe_mode(snapshot);
   return {{"result", mode_result_names.at(static_cast<std::size_t>(snapshot.result))},
           {"notes", notes},
-          {"told", text.empty() ? ordered_json() : ordered_json(text)}};
+          {"text", text.empty() ? ordered_json() : ordered_json(text)}};
 }
 
 ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {
@@ -199,7 +199,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["never_armed_because"] = never_armed.empty() ? ordered_json() : ordered_json(never_armed);
   json["faults"] = ordered_json::array();
   for (const FaultEvent& f : faults_) {
-    json["faults"].push_back({{"told", f.text()},
+    json["faults"].push_back({{"text", f.text()},
                               {"at_s", f.time_s},
                               {"number", static_cast<int>(f.fault)},
                               {"name", std::string(name(f.fault))},

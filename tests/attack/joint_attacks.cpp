@@ -42,7 +42,7 @@ void add_mistakes(Attacks& attacks) {
   add_from_start(attacks, "current senses swapped").swapped_currents = true;
   JointAttack& both = add_from_start(attacks, "heaters and current senses swapped");
   both.swapped_heaters = both.swapped_currents = true;
-  both.blindness = "each channel heats the other's muscle, and tells of its own";
+  both.blindness = "each channel heats the other's muscle but reports its own";
   add_hot_air(attacks);
 }
 

@@ -317,7 +317,7 @@ void print_row(const Motion& motion, const std::string& controller, OpposedBy op
       "%-25s %-11s %-6s %-10s rms %.4f (median), %.4f deg (worst), at most %.4f; %2.0f C, "
       "%ld ticks outside, %d faults, %d not identified, %d held back by their heat\n",
       motion.name, controller.c_str(), opposed_by == OpposedBy::spring ? "spring" : "muscle",
-      identified ? "identified" : "told", rms[rms.size() / 2], rms.back(), worst.max_deg,
+      identified ? "identified" : "known", rms[rms.size() / 2], rms.back(), worst.max_deg,
       worst.hottest_C, worst.outside, faults, not_identified, held_back);
   std::fflush(stdout);
 }
@@ -350,7 +350,7 @@ void print_identified(OpposedBy opposed_by, int seeds) {
               opposed_by == OpposedBy::spring ? "spring" : "muscle", all_found, seeds);
   for (std::size_t i = 0; i < (opposed_by == OpposedBy::spring ? 1U : 2U); ++i) {
     std::printf(
-        "  channel %zu: θ2, θ3, θ4 at most %.2g / %.2g / %.2g %% off, told %.2g / %.2g / "
+        "  channel %zu: θ2, θ3, θ4 at most %.2g / %.2g / %.2g %% off, published %.2g / %.2g / "
         "%.2g %%; %.1f / %.1f / %.1f deviations\n",
         i + 1, 100.0 * worst[i][0], 100.0 * worst[i][1], 100.0 * worst[i][2],
         100.0 * reported[i][0], 100.0 * reported[i][1], 100.0 * reported[i][2], in_deviations[i][0],

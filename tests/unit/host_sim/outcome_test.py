@@ -156,7 +156,7 @@ class Outcome(ProgramCase):
     def test_a_failed_identify_is_a_failure_with_its_reason(self):
         weak = "simulation.duration_s = 300.0\noperator.action = 'identify'\nplant.force_per_kelvin_N_per_K = 2e-5\n"
         done, summary = self.run_of(weak)
-        result_text = summary["mode_result"]["told"]
+        result_text = summary["mode_result"]["text"]
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "too_little_motion"))
         self.assertIn("too_little_motion: the muscle moved by less than 1 % of its travel", result_text)
         self.assertEqual(result_text.count("too_little_motion"), 1)
@@ -172,8 +172,8 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
         fault = summary["faults"][0]
         self.assertGreater(fault["limit"], fault["measured"])
-        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (docs/faults/heater_open.md)", fault["told"])
-        self.assertIn(fault["told"] + "\n", done.stdout)
+        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (docs/faults/heater_open.md)", fault["text"])
+        self.assertIn(fault["text"] + "\n", done.stdout)
 
     def test_with_json_only_json_is_printed(self):
         done, summary = self.run_of(SHORT, "--json")

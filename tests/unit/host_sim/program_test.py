@@ -211,7 +211,7 @@ class Results(ProgramCase):
     def test_summary_identifies_the_run_and_its_results(self):
         summary = self.summary_of(SHORT)
         version = self.run_program("--version").stdout.strip()
-        self.assertEqual((summary["schema_version"], summary["program_version"], summary["seed"]), (5, version, 1))
+        self.assertEqual((summary["schema_version"], summary["program_version"], summary["seed"]), (6, version, 1))
         self.assertEqual(self.summary_of("# another comment\n" + SHORT)["scenario_crc32"], summary["scenario_crc32"])
         self.assertNotEqual(self.summary_of(SHORT + "power.pwm_bits = 11\n")["scenario_crc32"], summary["scenario_crc32"])
 

@@ -34,7 +34,7 @@ class ReferenceReport(ProgramCase):
         self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
         self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
         self.assertEqual([line in text for line in report["advice"]], [True, True])
-        self.assertEqual(report["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
+        self.assertEqual(report["reference"]["text"], re.search("\nreference: (.*)\n", text)[1])
 
     def test_an_infeasible_reference_is_reported_with_its_ratio_and_advice(self):
         # Through a fast model even the step to the middle of the sine asks for too much.
@@ -128,7 +128,7 @@ class ReferenceReport(ProgramCase):
         scenario = self.scenario(HOT + "reference = {kind = 'steps', levels_m = [0.018], hold_s = 50.0}\n")
         reference = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]
         self.assertEqual((reference["limited_by"], reference["held_by"]), ("temperature", "temperature"))
-        self.assertIn(f"holds {1e3 * reference['held_m']:.3g} mm indefinitely (limited_by temperature)", reference["told"])
+        self.assertIn(f"holds {1e3 * reference['held_m']:.3g} mm indefinitely (limited_by temperature)", reference["text"])
         self.assertGreater(reference["max_m"], reference["held_m"])
 
 

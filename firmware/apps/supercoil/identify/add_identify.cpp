@@ -32,7 +32,7 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
   add_column(*identify, "position", o.columns.position, "m, cm, mm or um [by the name, else m]");
   identify
       ->add_option("--position-scale", o.columns.position.scale,
-                   "Factor on the position, which must grow when the muscle is heated: −1 if the "
+                   "Factor on the position, which must grow when the muscle is heated: -1 if the "
                    "sensor counts the other way")
       ->check(is_finite)
       ->capture_default_str();

@@ -19,7 +19,7 @@ Json parameters_of(const Fit& fit) {
     if (!parameter.of_muscle) continue;
     result[std::string(parameter.name)] = {{"value", fit.muscle.*parameter.member},
                                            {"deviation", fit.deviation(i)},
-                                           {"told", is_determined(fit, i)}};
+                                           {"determined", is_determined(fit, i)}};
   }
   return result;
 }

@@ -1674,6 +1674,8 @@ Settings that are wrong from the beginning do not cause this fault: supercoild n
 
 ## Likely causes
 
+In your own program:
+
 - the file was edited while the board ran
 - a package was updated under the running firmware
 - a failing disk: the file was read differently

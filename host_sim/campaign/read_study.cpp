@@ -44,7 +44,7 @@ std::vector<std::string> texts(Section& section, const std::string& key) {
 
 /// "[a, b]", the second above the first.
 void read_ends(Section& section, const std::string& key, double lowest, Distribution& into) {
-  const auto ends = section.numbers(key, {1.0, 2.0}, {lowest, any.highest}, 2, 2);
+  const auto ends = section.numbers(key, {1.0, 2.0}, {lowest, any.max}, 2, 2);
   into.first = ends[0];
   into.second = ends[1];
   if (!(ends[0] < ends[1])) section.wrong(key, "the second value must be greater than the first");
@@ -54,8 +54,8 @@ void read_normal(Section& section, Distribution& into) {
   const auto given = section.numbers("normal", {0.0, 1.0}, any, 2, 2);
   into.first = given[0];
   into.second = given[1];
-  into.min = section.number("min", into.min, {into.min, any.highest});
-  into.max = section.number("max", into.max, {any.lowest, into.max});
+  into.min = section.number("min", into.min, {into.min, any.max});
+  into.max = section.number("max", into.max, {any.min, into.max});
   if (!(into.second > 0.0)) section.wrong("normal", "the standard deviation must be above 0");
   if (!(into.min < into.max)) return section.wrong("min", "must be below max");
   constexpr double low = 0.25;
@@ -98,7 +98,7 @@ void read_distribution(Section& section, Draw& draw) {
   }
   switch (draw.distribution.kind) {
     case Kind::uniform:
-      return read_ends(section, "uniform", any.lowest, draw.distribution);
+      return read_ends(section, "uniform", any.min, draw.distribution);
     case Kind::log_uniform:
       return read_ends(section, "log_uniform", 1e-300, draw.distribution);
     case Kind::normal:

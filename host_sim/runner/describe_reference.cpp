@@ -150,10 +150,10 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
 std::string describe_out_of_range(const Scenario& scenario) {
   const double max_m = firmware_of(scenario).channels[0].supervision.max_travel_m;
   const auto refused = [&](const Conditions& c) {
-    return follows_position(c) && (c.reference.lowest() < 0.0 || c.reference.highest() > max_m);
+    return follows_position(c) && (c.reference.min() < 0.0 || c.reference.max() > max_m);
   };
   const auto text = [&](const Conditions& c) {
-    return "goes from " + in_mm(c.reference.lowest()) + " to " + in_mm(c.reference.highest()) +
+    return "goes from " + in_mm(c.reference.min()) + " to " + in_mm(c.reference.max()) +
            ", but the board takes only 0 to " + in_mm(max_m) +
            " (limits.max_travel_m) and refuses all else, which ends in command_timeout";
   };

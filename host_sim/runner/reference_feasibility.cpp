@@ -140,7 +140,7 @@ void find_infeasible(const Conditions& c, double duration_s, double step,
     if (!unmet) met_s = time_s + step;
     if (std::isnan(f.invalid_s) && time_s - met_s >= saturated_s) f.invalid_s = time_s;
   }
-  f.max_m = std::fmin(f.max_m, c.reference.highest());  // a model may swing beyond
+  f.max_m = std::fmin(f.max_m, c.reference.max());  // a model may swing beyond
   f.infeasible_ratio = found.ratio();
   if (!found.found()) return;
   f.first_s = found.first_s();

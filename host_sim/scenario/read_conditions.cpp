@@ -185,15 +185,15 @@ void check_reach(Section& section, const Conditions& c) {
                               : 0.0;
     const double max_m =
         std::min(contracted_m(sensor.range_m), agonist.position_m(c.joint->plant.max_angle_rad));
-    if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;
-    message << "the reference goes from " << c.reference.lowest() * 1e3 << " to "
-            << c.reference.highest() * 1e3 << " mm, but sensor.position and the joint's end stops "
+    if (c.reference.min() >= min_m && c.reference.max() <= max_m) return;
+    message << "the reference goes from " << c.reference.min() * 1e3 << " to "
+            << c.reference.max() * 1e3 << " mm, but sensor.position and the joint's end stops "
             << "allow " << min_m * 1e3 << " to " << max_m * 1e3 << " mm";
-  } else if (c.reference.lowest() < 0.0) {
-    message << "the reference goes down to " << c.reference.lowest() * 1e3
+  } else if (c.reference.min() < 0.0) {
+    message << "the reference goes down to " << c.reference.min() * 1e3
             << " mm, but the muscle only contracts from 0";
-  } else if (c.reference.highest() > Conditions::travel_ratio * c.position_sensor.range_m) {
-    message << "the reference goes up to " << c.reference.highest() * 1e3
+  } else if (c.reference.max() > Conditions::travel_ratio * c.position_sensor.range_m) {
+    message << "the reference goes up to " << c.reference.max() * 1e3
             << " mm, but sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
   } else {
     return;
@@ -248,7 +248,7 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
   }
   check_reach(reference, c);
   const bool follows = c.reference.kind != ReferenceKind::power;
-  const double max_reference_m = std::max(c.reference.highest(), -c.reference.lowest());
+  const double max_reference_m = std::max(c.reference.max(), -c.reference.min());
   refuse_misfit(controller, control::check_fit(c.controller, step_s,
                                                follows ? max_reference_m : 0.0, c.power.max_W));
   refuse_misfit(estimator, control::check_fit(c.estimator, step_s, c.power.max_W));

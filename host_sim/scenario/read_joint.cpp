@@ -126,7 +126,7 @@ void refuse_impossible(const control::PhysicalParameters& believed, const std::s
   if (!violation) return;
   std::ostringstream message;
   message << "makes " << table << "." << violation->quantity << " = " << violation->value
-          << ", which must be " << violation->lowest << " to " << violation->highest;
+          << ", which must be " << violation->min << " to " << violation->max;
   diagnostics.add(static_cast<int>(document["joint"].node()->source().begin.line), "joint",
                   message.str());
 }

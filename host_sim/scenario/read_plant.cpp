@@ -21,8 +21,7 @@ PlantEffects read_effects(config::Section& section, PlantEffects effects) {
   effects.substeps = static_cast<int>(section.integer("substeps", effects.substeps, 1, 100));
   if (const auto violation = check(effects)) {
     std::ostringstream message;
-    message << "must be " << violation->lowest << " to " << violation->highest
-            << " with the other values";
+    message << "must be " << violation->min << " to " << violation->max << " with the other values";
     section.wrong(violation->quantity, message.str());
   }
   return effects;

@@ -34,11 +34,11 @@ double Reference::at(double time_s) const {
   return value;
 }
 
-double Reference::lowest() const {
+double Reference::min() const {
   return has_levels(kind) ? *std::min_element(levels.begin(), levels.end()) : offset - reach(terms);
 }
 
-double Reference::highest() const {
+double Reference::max() const {
   return has_levels(kind) ? *std::max_element(levels.begin(), levels.end()) : offset + reach(terms);
 }
 

@@ -36,8 +36,8 @@ struct Reference {
 
   double at(double time_s) const;
   /// The minimum and the maximum that it can take.
-  double lowest() const;
-  double highest() const;
+  double min() const;
+  double max() const;
   /// The hold of `steps`, or the shortest period of the terms; infinite for `step`.
   double min_period_s() const;
 };

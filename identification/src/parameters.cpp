@@ -24,7 +24,7 @@ double limited(const Parameter& parameter, double number) {
 }
 
 double value_of(const Parameter& p, double number) {
-  return p.logarithmic ? std::min(p.highest, p.unit * std::exp(limited(p, number)))
+  return p.logarithmic ? std::min(p.max, p.unit * std::exp(limited(p, number)))
                        : p.centre + p.unit * limited(p, number);
 }
 

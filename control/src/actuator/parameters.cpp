@@ -6,8 +6,8 @@ std::optional<Violation> check(const PhysicalParameters& parameters) {
   for (const PhysicalRange& range : physical_ranges) {
     const double value = parameters.*range.member;
     // Written so that a NaN fails.
-    if (!(value >= range.lowest && value <= range.highest)) {
-      return Violation{range.name, value, range.lowest, range.highest};
+    if (!(value >= range.min && value <= range.max)) {
+      return Violation{range.name, value, range.min, range.max};
     }
   }
   return std::nullopt;

@@ -217,7 +217,7 @@ bool Tunable::estimators_have() const {
 
 bool Tunable::in_range(double value) const {
   const bool whole = is_number() || value == std::floor(value);
-  return value >= lowest && value <= highest && whole;
+  return value >= min && value <= max && whole;
 }
 
 const std::array<Tunable, tunable_count>& tunables() {

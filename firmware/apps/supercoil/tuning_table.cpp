@@ -174,7 +174,7 @@ Result<double> tuning_value(Tuned what, const Tunable& tunable, const std::strin
   const bool is_number = error == std::errc{} && end == text.data() + text.size();
   if (names.empty() && is_number && tunable.in_range(value)) return value;
   std::array<char, 64> range{};
-  std::snprintf(range.data(), range.size(), "must be %g to %g", tunable.lowest, tunable.highest);
+  std::snprintf(range.data(), range.size(), "must be %g to %g", tunable.min, tunable.max);
   return failure(
       std::string(tunable.name) + (text.empty() ? ": has no value: " : " = " + text + ": ") +
       (names.empty() ? std::string(range.data()) : suggestion_or_all(text, names, "there are")));

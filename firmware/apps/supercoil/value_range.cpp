@@ -36,8 +36,8 @@ std::string scale_range(BoardLink& board, const std::string& channel) {
   const double raw_m = shown_m / (*known)[known_position_scale];
   const std::string shown = "; the sensor shows " + number_text(shown_m, digits) + " m there";
   if (!(raw_m > 0.0)) return shown + ": no scale can turn that into a place";
-  return shown + ": " + number_text(scale_rule().lowest * raw_m, digits) + " to " +
-         number_text(scale_rule().highest * raw_m, digits) + " are in range";
+  return shown + ": " + number_text(scale_rule().min * raw_m, digits) + " to " +
+         number_text(scale_rule().max * raw_m, digits) + " are in range";
 }
 
 std::string place_range(BoardLink& board, const std::string& channel, Tuned what) {

@@ -21,7 +21,7 @@ std::optional<control::Violation> check(const StoredTuning& tuning) {
       for (std::size_t i = 0; i < stored.values.size(); ++i) {
         const control::Tunable& t = control::tunables()[i];
         if (stored.values[i] && !t.in_range(*stored.values[i]))
-          return control::Violation{t.name.data(), *stored.values[i], t.lowest, t.highest};
+          return control::Violation{t.name.data(), *stored.values[i], t.min, t.max};
       }
     }
   }
@@ -68,7 +68,7 @@ std::optional<control::Violation> check(const Learned& learned) {
   }};
   for (const control::Violation& rule : rules) {
     // Written so that a NaN fails.
-    if (!(rule.value >= rule.lowest && rule.value <= rule.highest)) return rule;
+    if (!(rule.value >= rule.min && rule.value <= rule.max)) return rule;
   }
   return std::nullopt;
 }

@@ -254,7 +254,7 @@ std::vector<SettingsProblem> contradictions(const control::EstimatorSettings& es
 std::string misfit_text(const control::Violation& misfit) {
   std::ostringstream message;
   message << "does not fit arithmetic = \"q8.24\": it is stored as " << misfit.value
-          << " there, and must be " << misfit.lowest << " to " << misfit.highest;
+          << " there, and must be " << misfit.min << " to " << misfit.max;
   return message.str();
 }
 

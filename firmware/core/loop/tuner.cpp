@@ -73,7 +73,7 @@ Reply Tuner::prepare(std::size_t place, std::size_t parameter, double value) {
   if (std::isnan(this->value(TuningSet::prepared, place, parameter))) return Refusal::out_of_range;
   const control::Tunable& tunable = control::tunables()[parameter];
   if (!tunable.in_range(value))
-    return {Refusal::out_of_range, std::clamp(value, tunable.lowest, tunable.highest)};
+    return {Refusal::out_of_range, std::clamp(value, tunable.min, tunable.max)};
   at(*this, place, [&](auto& found, const auto&) { tunable.set(found.prepared, value); });
   return Refusal::none;
 }

@@ -8,8 +8,7 @@ control::PhysicalParameters read_parameters(Section& section,
                                             const control::PhysicalParameters& fallback) {
   control::PhysicalParameters p;
   for (const control::PhysicalRange& range : control::physical_ranges) {
-    p.*range.member =
-        section.number(range.name, fallback.*range.member, {range.lowest, range.highest});
+    p.*range.member = section.number(range.name, fallback.*range.member, {range.min, range.max});
   }
   return p;
 }

@@ -39,7 +39,7 @@ void read_tunables(Section& section, Settings& settings) {
     const double fallback = t.get(settings);
     if (std::isnan(fallback)) continue;
     if (t.type == TunableType::number) {
-      t.set(settings, section.number(t.name, fallback, {t.lowest, t.highest}));
+      t.set(settings, section.number(t.name, fallback, {t.min, t.max}));
     } else if (t.type == TunableType::flag) {
       t.set(settings, section.flag(t.name, fallback != 0.0) ? 1.0 : 0.0);
     }

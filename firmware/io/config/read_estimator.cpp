@@ -15,7 +15,7 @@ control::Theta read_four(Section& section, const char* key, const control::Theta
 /// Reads the values that are lists.
 void read_gradient(Section& section, control::GradientSettings& g) {
   const control::Tunable& gain = control::tunables()[control::tunable_named("gain_1")];
-  g.gain = read_four(section, "gain", g.gain, {gain.lowest, gain.highest});
+  g.gain = read_four(section, "gain", g.gain, {gain.min, gain.max});
   g.initial = read_four(section, "initial", g.initial, {-1e9, 1e9});
   if (section.has("lower") || section.has("upper")) {
     g.bounds =

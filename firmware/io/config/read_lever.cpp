@@ -26,9 +26,9 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
     const double lever_m = fallback_m ? section.number(lever_key, *fallback_m, radius_m)
                                       : section.required_number(lever_key, radius_m);
     // What is missing or wrong has been reported.
-    return control::Lever(std::isfinite(lever_m) ? lever_m : radius_m.highest);
+    return control::Lever(std::isfinite(lever_m) ? lever_m : radius_m.max);
   }
-  const auto radii_m = section.numbers(lever_key, {radius_m.highest, radius_m.highest}, radius_m, 2,
+  const auto radii_m = section.numbers(lever_key, {radius_m.max, radius_m.max}, radius_m, 2,
                                        control::Lever::max_points);
   if (!section.has(range_key)) {
     section.wrong(lever_key, "needs lever_range_deg, the angles of its first and its last lever");
@@ -60,8 +60,8 @@ std::optional<JointTravel> read_joint_travel(Section& section, const control::Le
   JointTravel travel{agonist.arc_m(rad_per_deg * range_deg[1]), 0.0};
   if (antagonist) travel.antagonist_m = -antagonist->arc_m(rad_per_deg * range_deg[0]);
   const bool turns_back =
-      antagonist ? travel.antagonist_m >= limits_of_travel_m.lowest : range_deg[0] == 0.0;
-  if (turns_back && travel.agonist_m >= limits_of_travel_m.lowest) return travel;
+      antagonist ? travel.antagonist_m >= limits_of_travel_m.min : range_deg[0] == 0.0;
+  if (turns_back && travel.agonist_m >= limits_of_travel_m.min) return travel;
   section.wrong(key, antagonist ? "must be two angles, the first below 0 and the second above it"
                                 : "must be two angles, the first 0, where the one muscle is cold, "
                                   "and the second above it");

@@ -63,7 +63,7 @@ void read_stiffness_ratio(Section& section, JointSettings& joint) {
 
 void read_pull(Section& section, const BoardSettings& board, JointSettings& joint,
                JointLabel& label) {
-  label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.highest});
+  label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.max});
   if (section.has("pretension_N")) joint.pretension_N = label.pretension_N;
   read_stiffness_ratio(section, joint);
   if (!section.has("max_pull_N")) return;

@@ -19,7 +19,7 @@ std::string shown(double value) {
 }
 
 std::string shown(const Range& range) {
-  return shown(range.lowest) + " to " + shown(range.highest);
+  return shown(range.min) + " to " + shown(range.max);
 }
 
 std::string joined_path(const std::string& path, std::string_view key) {
@@ -41,7 +41,7 @@ std::string shown(const toml::node& node) {
 }
 
 bool within(double value, const Range& range) {
-  return value >= range.lowest && value <= range.highest;  // false for a NaN
+  return value >= range.min && value <= range.max;  // false for a NaN
 }
 
 std::string list_rule(Range range, std::size_t min_count, std::size_t max_count) {

@@ -18,8 +18,8 @@ namespace supercoil::config {
 
 /// Minimum and maximum allowed value, inclusive.
 struct Range {
-  double lowest;
-  double highest;
+  double min;
+  double max;
 };
 
 /// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range

@@ -81,8 +81,8 @@ Result<board::Learned> read(const toml::table& file, unsigned format) {
   if (auto wrong = read_tuning(file, learned.tuning)) return failure(std::move(*wrong));
   if (const auto violation = check(learned)) {
     return failure(std::string(violation->quantity) + " = " + shortest_text(violation->value) +
-                   " is out of range: must be " + shortest_text(violation->lowest) + " to " +
-                   shortest_text(violation->highest));
+                   " is out of range: must be " + shortest_text(violation->min) + " to " +
+                   shortest_text(violation->max));
   }
   return learned;
 }

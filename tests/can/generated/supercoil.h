@@ -2388,7 +2388,7 @@ struct supercoil_status_t {
     uint8_t protocol_version;
 
     /**
-     * How the last identify or calibrate ended. found: the result is used from then on and stored; not_stored: it is used, but not stored; every other result changes nothing.
+     * How the last identify or calibrate ended. found: the result is used from then on and stored; not_stored: it is used, but not stored; every other result changes neither the muscle nor the controllers.
      *
      * Range: 0..11 (0..11 -)
      * Scale: 1

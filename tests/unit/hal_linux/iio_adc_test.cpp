@@ -135,13 +135,13 @@ TEST(IioAdc, ReportsTheRangeOfItsCounts) {
   const std::string type = at_48 + "/scan_elements/in_voltage0_type";
   CHECK_FALSE(count_range(place()).has_value());
   tree.write(type, "be:s16/16>>0\n");
-  LONGS_EQUAL(-32768, count_range(place())->lowest);
-  LONGS_EQUAL(32767, count_range(place())->highest);
+  LONGS_EQUAL(-32768, count_range(place())->min);
+  LONGS_EQUAL(32767, count_range(place())->max);
   tree.write(type, "be:u12/16>>2\n");
-  LONGS_EQUAL(0, count_range(place())->lowest);
-  LONGS_EQUAL(4095, count_range(place())->highest);
+  LONGS_EQUAL(0, count_range(place())->min);
+  LONGS_EQUAL(4095, count_range(place())->max);
   tree.write(type, "be:u32/32>>0\n");
-  CHECK(count_range(place())->highest == 0xFFFFFFFF);
+  CHECK(count_range(place())->max == 0xFFFFFFFF);
   tree.write(type, "be:u33/64>>0\n");
   CHECK_FALSE(count_range(place()).has_value());
   tree.write(type, "12 bits\n");

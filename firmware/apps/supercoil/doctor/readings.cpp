@@ -22,8 +22,8 @@ std::string number(double value) {
 /// The rail at which all readings are stuck; empty: none.
 std::string rail(const Readings& readings, const std::optional<hal_linux::CountRange>& range) {
   if (!range || readings.min() != readings.max()) return {};
-  if (readings.min() == range->lowest) return "lowest";
-  if (readings.min() == range->highest) return "highest";
+  if (readings.min() == range->min) return "lowest";
+  if (readings.min() == range->max) return "highest";
   return {};
 }
 

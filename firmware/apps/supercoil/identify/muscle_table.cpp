@@ -30,7 +30,7 @@ Result<std::string> muscle_table(const Findings& f) {
     std::snprintf(text.data(), text.size(),
                   "%s would be %.4g, which is not between %.4g and %.4g: this is not a thread "
                   "muscle, or --thermal-mass, --stiffness or --moving-mass must be changed",
-                  wrong->quantity, wrong->value, wrong->lowest, wrong->highest);
+                  wrong->quantity, wrong->value, wrong->min, wrong->max);
     return failure(std::string(text.data()));
   }
   const bool by_mass = f.assumed.moving_mass_kg.has_value();

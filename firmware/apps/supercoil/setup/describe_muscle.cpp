@@ -117,7 +117,7 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
   if (const auto wrong = control::check(d.muscle)) {
     std::ostringstream message;
     message << "the answers give a muscle with " << wrong->quantity << " = " << wrong->value
-            << "; it must be " << wrong->lowest << " to " << wrong->highest;
+            << "; it must be " << wrong->min << " to " << wrong->max;
     return failure(message.str());
   }
   const auto add = [&](const char* path, double value, const char* reason) {

@@ -51,7 +51,7 @@ Result<DescribeAnswers> ask_questions(const BoardRanges& board, SetupRecord& rec
   for (std::size_t i = 0; i < questions.size(); ++i) {
     Question q = next_question(i, answers.muscle, board);
     const double rated = answers.nameplate.suggested(static_cast<QuestionId>(i));
-    if (!std::isnan(rated)) q.fallback = std::fmin(rated, q.allowed.highest);
+    if (!std::isnan(rated)) q.fallback = std::fmin(rated, q.allowed.max);
     const auto value = ask_and_store(q, record, user);
     if (!value) return tl::unexpected(value.error());
     answers.muscle.set(i, *value);
@@ -75,7 +75,7 @@ Result<DescribeAnswers> complete_script(const Script& script, const SetupOptions
     if (answers.has(i)) {
       const Question q = next_question(i, answers, board);
       const double value = answers.of(static_cast<QuestionId>(i));
-      if (value > q.allowed.highest)
+      if (value > q.allowed.max)
         wrong += out_of_range_error(q, value, options.script, script.lines[i]).text() + "\n";
       continue;
     }

@@ -10,8 +10,8 @@ namespace {
 
 /// An unknown limit leaves the question's own limit.
 void limit_max(double highest, Question& q) {
-  if (highest >= q.allowed.lowest)
-    q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest, range_digits));
+  if (highest >= q.allowed.min)
+    q.allowed.max = std::min(q.allowed.max, rounded_down(highest, range_digits));
 }
 
 /// With neither this nor thread_g, nothing says how hot the muscle gets.

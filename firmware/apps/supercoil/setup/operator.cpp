@@ -8,8 +8,7 @@
 namespace supercoil::operating {
 
 std::string range_text(const config::Range& range) {
-  return number_text(range.lowest, range_digits) + " to " +
-         number_text(range.highest, range_digits);
+  return number_text(range.min, range_digits) + " to " + number_text(range.max, range_digits);
 }
 
 double rounded_down(double value, int significant_digits) {

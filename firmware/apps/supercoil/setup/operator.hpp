@@ -20,7 +20,7 @@ struct Question {
   config::Range allowed;
   double fallback;  ///< what an empty answer means; NaN: it must be answered
 
-  bool allows(double value) const { return value >= allowed.lowest && value <= allowed.highest; }
+  bool allows(double value) const { return value >= allowed.min && value <= allowed.max; }
 };
 
 class Operator {

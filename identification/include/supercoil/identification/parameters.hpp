@@ -20,14 +20,14 @@ struct Sizes {
   double first_m;     ///< first measured position
 };
 
-/// One fitted number, near 0 and of size 1: value = middle·exp(number), at most `highest`, or
+/// One fitted number, near 0 and of size 1: value = middle·exp(number), at most `max`, or
 /// centre + unit·number.
 struct Parameter {
   std::string_view name;  ///< Muscle's, with its unit
   double Muscle::*member;
   bool logarithmic;
   double unit;       ///< the middle if logarithmic
-  double highest;    ///< of the value
+  double max;        ///< of the value
   double deviation;  ///< prior, of the number
   bool of_muscle;    ///< otherwise of the recording
   double centre = 0.0;

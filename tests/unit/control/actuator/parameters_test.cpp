@@ -52,13 +52,13 @@ TEST(Parameters, RangeLimitsAreAllowedAndValuesJustBeyondAreNot) {
     PhysicalParameters p;
     p.*member = -1.0;
     const Violation range = *check(p);
-    for (const double end : {range.lowest, range.highest}) {
+    for (const double end : {range.min, range.max}) {
       p.*member = end;
       CHECK_FALSE(check(p).has_value());
     }
-    p.*member = std::nextafter(range.lowest, 0.0);
+    p.*member = std::nextafter(range.min, 0.0);
     CHECK(check(p).has_value());
-    p.*member = std::nextafter(range.highest, 1e300);
+    p.*member = std::nextafter(range.max, 1e300);
     CHECK(check(p).has_value());
   }
 }

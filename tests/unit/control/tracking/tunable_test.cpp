@@ -35,8 +35,8 @@ Tuning tuning_of(const Settings& settings) {
 
 /// A different value within the range.
 double another(const Tunable& tunable, double value) {
-  if (!tunable.is_number()) return value == tunable.highest ? tunable.highest - 1.0 : value + 1.0;
-  return value * 1.5 <= tunable.highest && value > 0.0 ? value * 1.5 : tunable.highest;
+  if (!tunable.is_number()) return value == tunable.max ? tunable.max - 1.0 : value + 1.0;
+  return value * 1.5 <= tunable.max && value > 0.0 ? value * 1.5 : tunable.max;
 }
 
 /// Returns false if these settings do not have the value.

@@ -331,7 +331,7 @@ TEST(JointPlant, StaysFiniteForEveryMuscleThatIsAllowed) {
     int bit = 0;
     for (const control::PhysicalRange& range : control::physical_ranges) {
       settings.agonist.parameters.*range.member =
-          (corner >> bit++ & 1) != 0 ? range.highest : range.lowest;
+          (corner >> bit++ & 1) != 0 ? range.max : range.min;
     }
     settings.antagonist->effects = test::real_muscle();
     settings.friction_ratio = corner % 3 == 0 ? 0.02 : 0.0;

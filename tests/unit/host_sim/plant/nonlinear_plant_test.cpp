@@ -157,7 +157,7 @@ TEST(NonlinearPlant, StaysFiniteForEveryMuscleThatIsAllowed) {
     control::PhysicalParameters muscle;
     int bit = 0;
     for (const control::PhysicalRange& range : control::physical_ranges)
-      muscle.*range.member = (corner >> bit++ & 1) != 0 ? range.highest : range.lowest;
+      muscle.*range.member = (corner >> bit++ & 1) != 0 ? range.max : range.min;
     PlantEffects effects = test::real_muscle();
     effects.friction_ratio = corner % 3 == 0 ? 0.02 : 0.0;
     NonlinearPlant plant(muscle, effects, tick_s);

@@ -78,8 +78,8 @@ TEST(JointScenario, SensorAndReferenceExtendToBothSides) {
   const Conditions c = read("[joint]").start;
   DOUBLES_EQUAL(-0.008, c.position_sensor.min_m, 0.0);
   DOUBLES_EQUAL(0.008, c.position_sensor.range_m, 0.0);
-  DOUBLES_EQUAL(-0.005, c.reference.lowest(), 1e-12);
-  DOUBLES_EQUAL(0.005, c.reference.highest(), 1e-12);
+  DOUBLES_EQUAL(-0.005, c.reference.min(), 1e-12);
+  DOUBLES_EQUAL(0.005, c.reference.max(), 1e-12);
   DOUBLES_EQUAL(
       -0.012, read("[joint]\n[sensor.position]\nrange_m = 0.012").start.position_sensor.min_m, 0.0);
 }

@@ -12,8 +12,8 @@ TEST(Reference, SineStartsAtItsOffset) {
   const Reference sine;
   DOUBLES_EQUAL(0.011, sine.at(0.0), 0.0);
   DOUBLES_EQUAL(0.020, sine.at(3.14159265358979 / 0.5), 1e-12);
-  DOUBLES_EQUAL(0.002, sine.lowest(), 1e-15);
-  DOUBLES_EQUAL(0.020, sine.highest(), 1e-15);
+  DOUBLES_EQUAL(0.002, sine.min(), 1e-15);
+  DOUBLES_EQUAL(0.020, sine.max(), 1e-15);
 }
 
 TEST(Reference, StepChangesOnceAtItsTime) {
@@ -29,7 +29,7 @@ TEST(Reference, StepsRepeat) {
   DOUBLES_EQUAL(0.015, steps.at(20.0), 0.0);
   DOUBLES_EQUAL(0.008, steps.at(59.999), 0.0);
   DOUBLES_EQUAL(0.005, steps.at(60.0), 0.0);
-  DOUBLES_EQUAL(0.015, steps.highest(), 0.0);
+  DOUBLES_EQUAL(0.015, steps.max(), 0.0);
 }
 
 TEST(Reference, PaperExcitationIsEquation18) {

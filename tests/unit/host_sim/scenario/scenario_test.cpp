@@ -118,7 +118,7 @@ trusted_error = 0.1
   CHECK(c.injected_faults == InjectedFaults{.heater_open = true});
   CHECK(c.action == OperatorAction::identify);
   CHECK(c.reference.kind == ReferenceKind::multisine);
-  DOUBLES_EQUAL(0.013, c.reference.highest(), 1e-15);
+  DOUBLES_EQUAL(0.013, c.reference.max(), 1e-15);
   DOUBLES_EQUAL(36.0, c.controller.model.gain, 1e-12);
   DOUBLES_EQUAL(11.0, c.controller.model.denominator[2], 1e-12);
   CHECK(c.controller.arithmetic == control::Arithmetic::float32);

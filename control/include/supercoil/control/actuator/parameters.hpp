@@ -45,8 +45,8 @@ struct TransferFunction {
 struct PhysicalRange {
   const char* name;  ///< as in the code and in configurations
   double PhysicalParameters::*member;
-  double lowest;
-  double highest;
+  double min;
+  double max;
 };
 inline constexpr std::array<PhysicalRange, 6> physical_ranges{{
     {"thermal_mass_J_per_K", &PhysicalParameters::thermal_mass_J_per_K, 1e-4, 1e3},

@@ -9,8 +9,8 @@ namespace supercoil::control {
 struct Violation {
   const char* quantity;
   double value;
-  double lowest;
-  double highest;
+  double min;
+  double max;
 };
 
 /// Remembers the first quantity that fixed point cannot hold.
@@ -20,8 +20,8 @@ class FixedPointFit {
   static constexpr double state = 32767.0;
 
   /// quantity: the setting's name in configurations.
-  void at_most(const char* quantity, double value, double highest) {
-    check({quantity, value, -highest, highest});
+  void at_most(const char* quantity, double value, double max) {
+    check({quantity, value, -max, max});
   }
   /// A gain below min_gain is lost in rounding.
   void gain(const char* quantity, double value) { check({quantity, value, min_gain, signal}); }
@@ -31,7 +31,7 @@ class FixedPointFit {
   static constexpr double min_gain = 16.0 / (1 << 24);
 
   void check(const Violation& v) {
-    if (!violation_ && !(v.value >= v.lowest && v.value <= v.highest)) violation_ = v;
+    if (!violation_ && !(v.value >= v.min && v.value <= v.max)) violation_ = v;
   }
   std::optional<Violation> violation_;
 };

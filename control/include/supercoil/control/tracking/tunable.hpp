@@ -36,8 +36,8 @@ struct Tunable {
 
   std::string_view name;  ///< as in configurations
   TunableType type;
-  double lowest;  ///< allowed, ends included
-  double highest;
+  double min;  ///< allowed, ends included
+  double max;
   Access<ControllerSettings> of_controller{};
   Access<EstimatorSettings> of_estimator{};
 

@@ -25,8 +25,8 @@ Result<DeviceFolder> find_iio_device(const std::string& device, const std::strin
 
 /// Range of a converter's counts: at either end it is at its rail.
 struct CountRange {
-  std::int64_t lowest = 0;
-  std::int64_t highest = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
 };
 
 /// From the type of the input's scans; empty when the device has none.

@@ -54,8 +54,8 @@ TEST(Codec, TuningRoundTrips) {
     for (std::size_t place = 0; place < set.tuning.controllers.size(); ++place) {
       for (std::size_t i = place; i < control::tunable_count; i += 3) {
         const control::Tunable& tunable = control::tunables()[i];
-        if (tunable.controllers_have()) set.tuning.controllers[place].values[i] = tunable.highest;
-        if (tunable.estimators_have()) set.tuning.estimators[place].values[i] = tunable.lowest;
+        if (tunable.controllers_have()) set.tuning.controllers[place].values[i] = tunable.max;
+        if (tunable.estimators_have()) set.tuning.estimators[place].values[i] = tunable.min;
       }
     }
     set.tuning.controller = 3.0;

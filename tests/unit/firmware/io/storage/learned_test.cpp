@@ -39,13 +39,13 @@ TEST(Learned, RangeLimitsAreAllowedAndValuesJustBeyondAreNot) {
     board::Learned set;
     field.of(set) = -1e9;
     const auto range = *check(set);
-    for (const double end : {range.lowest, range.highest}) {
+    for (const double end : {range.min, range.max}) {
       field.of(set) = end;
       CHECK_FALSE(check(set).has_value());
     }
-    field.of(set) = std::nextafter(range.lowest, -1e300);
+    field.of(set) = std::nextafter(range.min, -1e300);
     CHECK(check(set).has_value());
-    field.of(set) = std::nextafter(range.highest, 1e300);
+    field.of(set) = std::nextafter(range.max, 1e300);
     CHECK(check(set).has_value());
   }
 }

@@ -25,8 +25,8 @@ struct Signal {
   const char* name;
   float Row::*quantity;
   double quantum;
-  double lowest;
-  double highest;
+  double min;
+  double max;
   double (*read)(const Row& row);
 };
 
@@ -129,7 +129,7 @@ double read(const Signal& signal, float value) {
 bool is_right(const Signal& signal, float value) {
   const double back = read(signal, value);
   if (std::isnan(value)) return std::isnan(back);
-  const double expected = std::fmin(std::fmax(value, signal.lowest), signal.highest);
+  const double expected = std::fmin(std::fmax(value, signal.min), signal.max);
   // Half a quantum, plus the rounding of the largest raw number times the scale.
   return std::abs(back - expected) <= 0.5 * signal.quantum * (1.0 + 1e-6);
 }
@@ -144,7 +144,7 @@ TEST(Frames, EverySignalRoundTripsWithinHalfAQuantum) {
       // Most are within the range, some far beyond it.
       const auto thousandths = *rc::gen::inRange(-1'500'000, 1'500'001);
       const double part = thousandths * 1e-6;
-      RC_ASSERT(is_right(signal, static_cast<float>(part * signal.highest)));
+      RC_ASSERT(is_right(signal, static_cast<float>(part * signal.max)));
       RC_ASSERT(is_right(signal, *rc::gen::arbitrary<float>()));
     });
     CHECK_TEXT(holds, signal.name);
@@ -153,16 +153,16 @@ TEST(Frames, EverySignalRoundTripsWithinHalfAQuantum) {
 
 TEST(Frames, ExtremesSaturateAndNaNIsNotAvailable) {
   for (const Signal& signal : signals) {
-    const auto low = static_cast<float>(signal.lowest);
-    const auto high = static_cast<float>(signal.highest);
+    const auto low = static_cast<float>(signal.min);
+    const auto high = static_cast<float>(signal.max);
     for (const float value :
          {infinite, -infinite, std::nanf(""), std::numeric_limits<float>::max(),
           std::numeric_limits<float>::lowest(), std::numeric_limits<float>::denorm_min(), 0.0F,
           -0.0F, low, high, std::nextafter(low, -infinite), std::nextafter(high, infinite)}) {
       CHECK_TEXT(is_right(signal, value), signal.name);
     }
-    DOUBLES_EQUAL(signal.highest, read(signal, infinite), 1e-6 * signal.highest);
-    DOUBLES_EQUAL(signal.lowest, read(signal, -infinite), 1e-6 * signal.highest);
+    DOUBLES_EQUAL(signal.max, read(signal, infinite), 1e-6 * signal.max);
+    DOUBLES_EQUAL(signal.min, read(signal, -infinite), 1e-6 * signal.max);
   }
 }
 

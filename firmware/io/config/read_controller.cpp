@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "config/read_control.hpp"
 #include "loop/settings.hpp"
 
@@ -58,8 +60,9 @@ control::ControllerSettings read_controller(
       model.value_or(control::adapts(c.kind) ? control::wm16_model() : control::design_model());
   if (c.kind != ControllerKind::power)
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
-  c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section, max_W)
-                                          : *control::mrac_preset("a", max_W);
+  const double known_W = std::isfinite(max_W) ? max_W : control::paper_max_W;
+  c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section, known_W)
+                                          : *control::mrac_preset("a", known_W);
   read_tunables(section, c);
   if (c.kind == ControllerKind::mrac) read_mrac_lists(section, c.mrac);
   for (const SettingsProblem& problem : contradictions(c))

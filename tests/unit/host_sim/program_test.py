@@ -247,7 +247,7 @@ class Results(ProgramCase):
         listed = self.run_program("list")
         self.assertIn("sine", listed.stdout)
         self.assertIn("printed", listed.stdout)
-        self.assertIn("joint          Two real muscles that differ by a tenth turn a joint by 20 degrees either way; after a minute a weight hangs on its arm.\n", listed.stdout)
+        self.assertIn("joint          Two real muscles that differ by a tenth turn a joint by 20 degrees either way; after a minute a weight hangs on its arm\n", listed.stdout)
         self.assertEqual([p.name for p in self.path.iterdir()], ["s.toml"])
 
     def test_reproduce_writes_table_plots_and_page(self):

@@ -71,6 +71,27 @@ TEST(OscillationDetector, AGrowingOscillationIsReportedOnceItIsLarge) {
         0);
 }
 
+/// A load that swings by itself for minutes looks like an oscillation that nothing ends.
+TEST(OscillationDetector, LeavesASeventeenthOfTheFeedbackUntilTheMuscleIsIdentified) {
+  for (const auto kind : {ControllerKind::pi, ControllerKind::pd_ff, ControllerKind::adaptive_ff}) {
+    ControllerSettings settings;
+    settings.kind = kind;
+    Controller controller(settings, tick_s);
+    const Theta theta = theta_from(PhysicalParameters{});
+    controller.retune(theta);
+    const double configured = controller.gain(0).value;
+    for (int k = 0; k < 300'000; ++k) {
+      const double load_m = std::fmod(k * tick_s, 1.0) < 0.5 ? 0.3e-3 : -0.3e-3;
+      controller.step({.reference_m = 0.011, .position_m = 0.011 + load_m});
+    }
+    DOUBLES_EQUAL(std::pow(0.7, 8.0), controller.gain(0).value / configured, 1e-3);
+    controller.retune(theta);  // for the same muscle they stay lowered
+    CHECK(controller.gain(0).value < 0.1 * configured);
+    controller.retune(1.000001 * theta);
+    DOUBLES_EQUAL(1.0, controller.gain(0).value / configured, 1e-3);
+  }
+}
+
 TEST(OscillationDetector, SlowsALawDownUntilItTracksALightlyDampedMuscle) {
   PhysicalParameters muscle;
   muscle.damping_Ns_per_m = 0.12;

@@ -11,6 +11,9 @@ namespace supercoil::control {
 
 /// The factor by which a law lowers its feedback's gains each time its loop is found to oscillate.
 inline constexpr double oscillation_gain_ratio = 0.7;
+/// How often at most: to a seventeenth. A load or a fan that swings by itself looks like an
+/// oscillation that no reduction ends, and must not turn the feedback off.
+inline constexpr int max_oscillation_reductions = 8;
 
 /// Inputs of one tick. Positions are in watts at rest (metres over the muscle's DC gain), so that
 /// position, reference and power are of the same magnitude in every arithmetic.

@@ -126,6 +126,7 @@ class ModelFollower {
     if (tuned_for_ == theta) return;
     tuned_for_ = theta;
     oscillation_period_s_ = 0.0;
+    reductions_ = 0;
     if (shaper_) shaper_->retune(theta);
     if constexpr (requires { law_.retune(theta); }) law_.retune(theta);
   }
@@ -154,8 +155,11 @@ class ModelFollower {
   void watch(double position_m, double model_m) {
     if (!oscillation_.step(model_m - position_m, model_m)) return;
     oscillation_period_s_ = oscillation_.period_s();
-    if constexpr (requires { law_.slow_down(); })
-      if (slow_when_oscillating_) law_.slow_down();
+    if constexpr (requires { law_.slow_down(); }) {
+      if (!slow_when_oscillating_ || reductions_ == max_oscillation_reductions) return;
+      ++reductions_;
+      law_.slow_down();
+    }
   }
 
   ReferenceModelSettings model_settings_;
@@ -164,6 +168,7 @@ class ModelFollower {
   OscillationDetector oscillation_;
   bool slow_when_oscillating_;
   double oscillation_period_s_ = 0.0;
+  int reductions_ = 0;  // of the feedback, because of oscillations
   std::optional<ReferenceShaper> shaper_;
   std::optional<Theta> tuned_for_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.

@@ -23,19 +23,17 @@ class PdFeedforward {
       : settings_(settings),
         filter_(squared_pole(settings.derivative_filter_rad_per_s), step_s),
         filter_gain_(settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s),
-        proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
-        derivative_(to<Scalar>(settings.derivative_Ws_per_m * dc_gain_m_per_W)),
-        feedforward_(to<Scalar>(settings.feedforward_W_per_m * dc_gain_m_per_W)) {}
+        dc_gain_m_per_W_(dc_gain_m_per_W),
+        feedforward_(to<Scalar>(settings.feedforward_W_per_m * dc_gain_m_per_W)) {
+    scale_feedback(1.0);
+  }
 
   /// Starts with the model's velocity: a filter that started at rest would see a jump of speed.
   void start(const LawStart<Scalar>& at) { filter_.settle(at.position, at.model.velocity); }
 
-  void slow_down() {
-    settings_.proportional_W_per_m *= oscillation_gain_ratio;
-    settings_.derivative_Ws_per_m *= oscillation_gain_ratio;
-    proportional_ = proportional_ * to<Scalar>(oscillation_gain_ratio);
-    derivative_ = derivative_ * to<Scalar>(oscillation_gain_ratio);
-  }
+  void slow_down() { scale_feedback(ratio_ * oscillation_gain_ratio); }
+  /// The muscle was identified: the configured gains apply again. Not while the law runs.
+  void retune(const Theta&) { scale_feedback(1.0); }
 
   /// Returns the demanded power.
   Scalar step(const LawInput<Scalar>& in) {
@@ -47,17 +45,25 @@ class PdFeedforward {
 
   static constexpr std::size_t gains = 3;
   GainValue gain(std::size_t i) const {
-    if (i == 0) return {Gain::proportional, settings_.proportional_W_per_m};
-    if (i == 1) return {Gain::derivative, settings_.derivative_Ws_per_m};
+    if (i == 0) return {Gain::proportional, ratio_ * settings_.proportional_W_per_m};
+    if (i == 1) return {Gain::derivative, ratio_ * settings_.derivative_Ws_per_m};
     return {Gain::feedforward, settings_.feedforward_W_per_m};
   }
 
  private:
+  void scale_feedback(double ratio) {
+    ratio_ = ratio;
+    proportional_ = to<Scalar>(ratio * settings_.proportional_W_per_m * dc_gain_m_per_W_);
+    derivative_ = to<Scalar>(ratio * settings_.derivative_Ws_per_m * dc_gain_m_per_W_);
+  }
+
   PdFeedforwardSettings settings_;
   StateVariableFilter<Scalar, 2, Hold::first_order> filter_;
   Accumulator<Scalar> filter_gain_;
-  Scalar proportional_;
-  Scalar derivative_;
+  double dc_gain_m_per_W_;
+  double ratio_ = 1.0;  // of the feedback's gains in use over the configured ones
+  Scalar proportional_{};
+  Scalar derivative_{};
   Scalar feedforward_;
 };
 

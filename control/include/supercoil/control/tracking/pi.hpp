@@ -19,9 +19,9 @@ class Pi {
  public:
   /// dc_gain_m_per_W: metres per watt of the law's own unit.
   Pi(const PiSettings& settings, double dc_gain_m_per_W, double step_s)
-      : settings_(settings),
-        proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
-        integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
+      : settings_(settings), dc_gain_m_per_W_(dc_gain_m_per_W), step_s_(step_s) {
+    scale_feedback(1.0);
+  }
 
   /// To hold a power, the integral becomes that power less the proportional term; otherwise zero.
   void start(const LawStart<Scalar>& at) {
@@ -30,12 +30,9 @@ class Pi {
     if (!at.hold) integral_ = {};
   }
 
-  void slow_down() {
-    settings_.proportional_W_per_m *= oscillation_gain_ratio;
-    settings_.integral_W_per_m_s *= oscillation_gain_ratio;
-    proportional_ = proportional_ * to<Scalar>(oscillation_gain_ratio);
-    integral_step_ = integral_step_ * Accumulator<Scalar>(oscillation_gain_ratio);
-  }
+  void slow_down() { scale_feedback(ratio_ * oscillation_gain_ratio); }
+  /// The muscle was identified: the configured gains apply again. Not while the law runs.
+  void retune(const Theta&) { scale_feedback(1.0); }
 
   /// Returns the demanded power. The integrator holds while the power is limited, unless the error
   /// leads out of the limit.
@@ -51,14 +48,24 @@ class Pi {
 
   static constexpr std::size_t gains = 2;
   GainValue gain(std::size_t i) const {
-    if (i == 0) return {Gain::proportional, settings_.proportional_W_per_m};
-    return {Gain::integral, settings_.integral_W_per_m_s};
+    if (i == 0) return {Gain::proportional, ratio_ * settings_.proportional_W_per_m};
+    return {Gain::integral, ratio_ * settings_.integral_W_per_m_s};
   }
 
  private:
+  void scale_feedback(double ratio) {
+    ratio_ = ratio;
+    proportional_ = to<Scalar>(ratio * settings_.proportional_W_per_m * dc_gain_m_per_W_);
+    integral_step_ =
+        Accumulator<Scalar>(ratio * settings_.integral_W_per_m_s * dc_gain_m_per_W_ * step_s_);
+  }
+
   PiSettings settings_;
-  Scalar proportional_;
-  Accumulator<Scalar> integral_step_;
+  double dc_gain_m_per_W_;
+  double step_s_;
+  double ratio_ = 1.0;  // of the gains in use over the configured ones
+  Scalar proportional_{};
+  Accumulator<Scalar> integral_step_{};
   Accumulator<Scalar> integral_{};
   Scalar demanded_{};
 };

@@ -136,3 +136,14 @@ TEST(PowerRange, ClipsToItsEnds) {
 TEST(PowerRange, ClipsNaNToTheMinimum) {
   DOUBLES_EQUAL(0.5, (PowerRange{0.5, 4.5}.clip(std::numeric_limits<double>::quiet_NaN())), 0.0);
 }
+
+TEST(MracSafeguards, StartsFromScratch) {
+  MracSettings settings;
+  settings.initial_sigma = 0.5;
+  Law law(settings, fast_step_s);
+  warm_up(law);
+  CHECK(law.sigma() != 0.5);
+  law.start({});
+  DOUBLES_EQUAL(0.5, law.sigma(), 0.0);
+  CHECK(law.theta() == settings.initial);
+}

@@ -45,8 +45,9 @@ class Mrac {
         dead_zone_(settings.dead_zone_W),
         freeze_when_limited_(settings.freeze_when_limited),
         initial_(settings.initial.template cast<Wide>()),
+        initial_sigma_(settings.initial_sigma),
         theta_(initial_),
-        sigma_(settings.initial_sigma) {
+        sigma_(initial_sigma_) {
     if (settings.bounds) {
       bounds_ = Box<Wide, 6>{settings.bounds->lower.template cast<Wide>(),
                              settings.bounds->upper.template cast<Wide>()};
@@ -69,6 +70,7 @@ class Mrac {
     first_bank_.settle(omega, rates);
     second_bank_.settle(first_bank_.state(), rates * first_gain_);
     theta_ = initial_;
+    sigma_ = initial_sigma_;
     r0_ = estimated_error_ = Wide{};
     if (at.hold && at.reference > to<Scalar>(0.05)) {
       const Wide c0 = theta_[5] + (Wide(at.power) - theta_.dot(omega)) / Wide(at.reference);
@@ -177,6 +179,7 @@ class Mrac {
   Wide dead_zone_;
   bool freeze_when_limited_;
   WideParameters initial_;
+  Wide initial_sigma_;
   std::optional<Box<Wide, 6>> bounds_;
 
   Parameters omega_ = Parameters::Zero();

@@ -109,6 +109,8 @@ void Estimator::restart() {
         if constexpr (!is_none<decltype(running)>) running.estimator.restart();
       },
       any_);
+  excitation_.restart();
+  if (estimate_) estimate_->trusted = false;
 }
 
 }  // namespace supercoil::control

@@ -37,4 +37,12 @@ void ExcitationMonitor::close_block(const Vector<double, 4>& theta) {
                                        : std::numeric_limits<double>::infinity();
 }
 
+void ExcitationMonitor::restart() {
+  current_ = Block{};
+  ticks_in_block_ = 0;
+  filled_ = 0;
+  min_eigenvalue_ = 0.0;
+  error_bound_ = std::numeric_limits<double>::infinity();
+}
+
 }  // namespace supercoil::control

@@ -51,6 +51,30 @@ double difference_to_ode(const nlohmann::json& expected, double step_s) {
 
 TEST_GROUP(Gradient){};
 
+/// A warm muscle's position must not look like a step from zero.
+TEST(Gradient, KeepsWhatItLearnedWhenAWarmMuscleIsHeatedAgain) {
+  constexpr double step_s = 1e-3;
+  GradientSettings settings;
+  settings.initial = settings.scale.nominal;
+  GradientEstimator<double> estimator(settings, step_s);
+  Muscle muscle(PhysicalParameters{}, step_s);
+  const auto run = [&](double from_s, double to_s, bool heats) {
+    for (double time_s = from_s; time_s < to_s; time_s += step_s) {
+      const double power_W = heats ? paper_power_W(time_s) : 0.0;
+      muscle.step(power_W);
+      if (heats) estimator.step(muscle.position_m() / settings.scale.dc_gain_m_per_W, power_W);
+    }
+  };
+  run(0.0, 60.0, true);
+  run(60.0, 60.3, false);
+  estimator.restart();
+  const Theta nominal = settings.scale.nominal;
+  for (double time_s = 60.3; time_s < 90.0; time_s += 0.1) {
+    run(time_s, time_s + 0.1, true);
+    CHECK_COMPARE((estimator.theta() - nominal).cwiseQuotient(nominal).norm(), <, 0.1);
+  }
+}
+
 TEST(Gradient, FollowsThePapersDifferentialEquationToFirstOrderInTheStep) {
   const auto expected = supercoil::test::reference("estimation", "gradient");
   const double coarse = difference_to_ode(expected, 2e-3);

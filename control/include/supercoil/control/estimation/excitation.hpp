@@ -40,6 +40,9 @@ class ExcitationMonitor {
     if (++ticks_in_block_ == ticks_per_block_) close_block(theta);
   }
 
+  /// A pause: the window begins again.
+  void restart();
+
   /// λmin in W²s over the last whole window; 0 until one has passed.
   double min_eigenvalue() const { return min_eigenvalue_; }
   /// The largest distance of θ from the window's best fit, relative to the nominal parameters;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "supercoil/control/estimation/estimator_definition.hpp"
@@ -30,7 +32,9 @@ class GradientEstimator {
 
   /// step_s: the sampling period in seconds, > 0.
   GradientEstimator(const GradientSettings& settings, double step_s)
-      : model_(settings.lambda, settings.scale, step_s), nominal_(settings.scale.nominal) {
+      : model_(settings.lambda, settings.scale, step_s),
+        free_ticks_(std::llround(free_ratio * settings.lambda[1] / settings.lambda[0] / step_s)),
+        nominal_(settings.scale.nominal) {
     const Theta squared = nominal_.cwiseProduct(nominal_);
     gain_step_ = (settings.gain.cwiseQuotient(squared) * step_s).template cast<Scalar>();
     normalisation_ = to<Scalar>(settings.normalisation);
@@ -47,6 +51,10 @@ class GradientEstimator {
   /// since the last tick.
   void step(Scalar position_W, Scalar applied_power_W) {
     model_.step(position_W, applied_power_W);
+    if (waits_ > 0) {
+      --waits_;
+      return;
+    }
     const Vector<Scalar, 4>& phi = model_.phi();
     const Vector<Scalar, 4> theta = theta_.template cast<Scalar>();
     error_ = model_.z() - theta.dot(phi);
@@ -58,10 +66,13 @@ class GradientEstimator {
     if (bounds_) theta_ = project(theta_, *bounds_);
   }
 
-  /// The muscle is heated again after a pause: the filters start at rest, θ stays.
+  /// The muscle is heated again after a pause, warm and moving: the filters start where it is, and
+  /// θ stays until they have forgotten how it moved before.
   void restart() {
+    if (!model_.has_stepped()) return;
     model_.restart();
     error_ = Scalar{};
+    waits_ = free_ticks_;
   }
 
   /// θ in its own units.
@@ -73,7 +84,12 @@ class GradientEstimator {
   const ParametricModel<Scalar>& model() const { return model_; }
 
  private:
+  /// Of the sum of Λ's time constants: after it 0.1 % is left of a free response.
+  static constexpr double free_ratio = 7.0;
+
   ParametricModel<Scalar> model_;
+  std::int64_t free_ticks_;
+  std::int64_t waits_ = 0;  ///< ticks until θ adapts again
   Theta nominal_;
   Vector<Scalar, 4> gain_step_;  // Γ·step over the squared scale: Γ itself exceeds Q8.24
   Scalar normalisation_{};

@@ -34,6 +34,8 @@ class ParametricModel {
   /// position_W: this tick's position over the DC gain. applied_power_W: the power really applied
   /// since the last tick.
   void step(Scalar position_W, Scalar applied_power_W) {
+    stepped_ = true;
+    if (settles_) settle(position_W);
     power_.step(applied_power_W);
     position_.step(position_W);
     z_ = to<Scalar>(power_.state()[0]);
@@ -44,18 +46,26 @@ class ParametricModel {
     phi_[3] = to<Scalar>(x[0] * weights_[3]);
   }
 
-  /// Resets all signals as if nothing had ever moved.
+  /// The next step settles the filters as if a nominal muscle had long been held where it is then.
   void restart() {
-    power_.settle(Scalar{});
-    position_.settle(Scalar{});
+    settles_ = true;
     z_ = Scalar{};
     phi_ = Regressors::Zero();
   }
 
+  bool has_stepped() const { return stepped_; }
   Scalar z() const { return z_; }
   const Regressors& phi() const { return phi_; }
 
  private:
+  void settle(Scalar position_W) {
+    power_.settle(position_W);
+    position_.settle(position_W);
+    settles_ = false;
+  }
+
+  bool stepped_ = false;
+  bool settles_ = false;  ///< at the next step
   StateVariableFilter<Scalar, 3, Hold::zero_order> power_;
   StateVariableFilter<Scalar, 3, Hold::first_order> position_;
   Vector<Accumulator<Scalar>, 4> weights_;

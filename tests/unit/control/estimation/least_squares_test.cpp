@@ -140,6 +140,33 @@ TEST(LeastSquares, TrustDependsOnTheStandardDeviations) {
   CHECK((off.cwiseAbs().array() < 5.0 * estimate.deviation.array()).all());
 }
 
+/// Its deviations grow only within seconds.
+TEST(LeastSquares, IsNotTrustedFromTheFirstMomentsOfAChange) {
+  EstimatorSettings settings;
+  settings.kind = EstimatorKind::least_squares;
+  Estimator estimator(settings, 1e-3);
+  supercoil::test::NoisyMuscle muscle(1);
+  muscle.soften_at(95.0);
+  const auto see = [&](double position_m, double power_W) { estimator.step(position_m, power_W); };
+  muscle.run_until(95.0, see);
+  CHECK(estimator.estimate()->trusted);
+  const auto worst_error = [&] {
+    const Theta truth = theta_from(muscle.truth());
+    return (estimator.estimate()->theta - truth).cwiseQuotient(truth).norm();
+  };
+  for (double time_s = 95.5; time_s < 102.0; time_s += 0.1) {
+    muscle.run_until(time_s, see);
+    if (estimator.estimate()->trusted) CHECK_COMPARE(worst_error(), <, 0.2);
+  }
+  // A pause hides what happens to the muscle meanwhile.
+  muscle.run_until(300.0, see);
+  CHECK(estimator.estimate()->trusted);
+  estimator.restart();
+  CHECK_FALSE(estimator.estimate()->trusted);
+  muscle.run_until(302.0, see);
+  CHECK_FALSE(estimator.estimate()->trusted);
+}
+
 TEST(LeastSquares, LearnsAtTheSlowestAndFastestLoopRates) {
   for (const double step_s : {1e-2, 1e-4}) {
     LeastSquaresSettings settings;

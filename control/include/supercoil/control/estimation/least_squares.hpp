@@ -94,6 +94,11 @@ class LeastSquaresEstimator {
     return changes_ == 0 ? INFINITY : static_cast<double>(since_change_) * period_s_;
   }
   std::int64_t changes() const { return changes_; }
+  /// True when the deviations say how far θ is off: long enough after a start, a change, and any
+  /// residual that they do not explain, and θ within its bounds.
+  bool consistent() const {
+    return settled() && since_surprise_s_ > resettled_s && bounds_.contains(estimated());
+  }
   /// True when θ predicts the muscle, at least in the direction of its motion.
   bool settled() const {
     return running_s() > settled_s &&
@@ -113,6 +118,9 @@ class LeastSquaresEstimator {
   static constexpr double resettled_s = 6.0;
   /// Λ's slowest poles decay with 0.755/s: by then 3·10⁻⁷ is left of a free response.
   static constexpr double free_s = 20.0;
+  /// A residual this many times its usual mean square, on average over this time, is a surprise.
+  static constexpr double surprise_ratio = 25.0;
+  static constexpr double surprise_s = 0.3;
   /// How far from rest the muscle may be when it changes, over max_W.
   static constexpr double change_span = 2.2;
   /// Standard deviations of a change: of a load over max_W, and of each θ over its nominal in
@@ -212,16 +220,26 @@ class LeastSquaresEstimator {
     error_ = regression_.z() - theta_.template cast<Scalar>().dot(phi);
     const All gain = covariance_.update(phi, to<Scalar>(assumed_W2()), forgetting_, first_);
     theta_ += gain.template cast<Wide>() * Wide(error_);
-    accuracy_.step(observation());
+    const EstimateAccuracy::Observation seen = observation();
+    accuracy_.step(seen);
+    watch_residual(seen.residual_W);
     scale_ = std::min(1.0, covariance_scale());
     if (running_s() > settled_s) return_unexcited();
     if (updates_ % updates_per_accuracy == 0) update_accuracy();
     if (first_ == 0 && static_cast<double>(since_start_) * period_s_ > free_s) end_free_responses();
     ++since_change_;
-    const Parameters now = theta_.template tail<5>().template cast<double>();
+    const Parameters now = estimated();
     if (watch_.update(now) && settings_.detects_changes) change(position_W, now);
     publish_estimate();
   }
+
+  /// The accuracy's mean square grows too slowly to tell that the muscle changes.
+  void watch_residual(double residual_W) {
+    recent_W2_ += (residual_W * residual_W - recent_W2_) * std::min(1.0, period_s_ / surprise_s);
+    since_surprise_s_ += period_s_;
+    if (recent_W2_ > surprise_ratio * accuracy_.mean_square()) since_surprise_s_ = 0.0;
+  }
+  Parameters estimated() const { return theta_.template tail<5>().template cast<double>(); }
 
   /// Learns from how θ has moved what the model's error adds.
   void update_accuracy() {
@@ -241,7 +259,7 @@ class LeastSquaresEstimator {
   bool explains_change() const { return since_change_s() < explains_change_s_; }
 
   void publish_estimate() {
-    reported_ = theta_.template tail<5>().template cast<double>();
+    reported_ = estimated();
     if (explains_change()) {
       const auto simplest = change_.explained(reported_, assumed_covariance() / change_scale_);
       if (simplest) reported_ = *simplest;
@@ -334,6 +352,8 @@ class LeastSquaresEstimator {
   std::int64_t updates_ = 0;
   std::int64_t since_start_ = 0;  ///< of the filters, in updates
   std::int64_t since_change_ = 0;
+  double since_surprise_s_ = INFINITY;
+  double recent_W2_ = 0.0;  ///< mean square of the residual
   std::int64_t changes_ = 0;
   int selector_ = 0;    ///< of the parameters in return_unexcited()
   double scale_ = 1.0;  ///< assumed covariance over the true one, for what is added to it
@@ -343,7 +363,7 @@ class LeastSquaresEstimator {
 /// Bound for θ1…θ4 together, from least squares' standard deviations over nominal.
 double relative_error_bound(const Vector<double, 5>& deviations);
 
-/// Trusted according to its standard deviations.
+/// Trusted according to its standard deviations, while these hold.
 struct LeastSquaresEstimation {
   using Settings = LeastSquaresSettings;
   template <class Scalar>
@@ -377,7 +397,7 @@ struct LeastSquaresEstimation {
     return {.theta = parameters.template head<4>().cwiseProduct(nominal),
             .prediction_error_W = estimator.error(),
             .relative_error_bound = bound,
-            .trusted = bound <= trusted_error,
+            .trusted = bound <= trusted_error && estimator.consistent(),
             .settled = estimator.settled(),
             .bias_W = parameters[4],
             .deviation = deviations.template head<4>().cwiseProduct(nominal),

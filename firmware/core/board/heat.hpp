@@ -74,6 +74,8 @@ class Heat {
     learned_.learn(std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
                              std::fmin(-1.0 / control::max_time_constant_s(b), pole_rad_per_s)));
   }
+  /// Another muscle: the learned pole was the last one's.
+  void forget_pole() { learned_.forget(); }
 
   /// Expected positions are those of this muscle from now on, starting cold.
   void set_muscle(const control::PhysicalParameters& muscle) {

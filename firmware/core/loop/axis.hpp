@@ -237,6 +237,10 @@ class Axis {
   }
 
   board::Learned known() const;
+  const control::PhysicalParameters& file_muscle() const {
+    return settings_.configured_muscle ? *settings_.configured_muscle : settings_.muscle;
+  }
+  void forget_muscle(board::Learned& learned) const;
   void publish_muscle();
   static Refusal refusal_of(ModeResult kept);
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
@@ -265,6 +269,7 @@ class Axis {
   // Known of the muscle; the heater knows its heat and the senses.
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
   bool has_muscle_;                     ///< learned before or since: the stored set contains it
+  bool cleared_ = false;                ///< by a command; nothing was found since
   board::Calibration calibration_;
   double response_ratio_;     ///< of small motions, as ProofSettings has it; 0: not measured
   double unexplained_ratio_;  ///< by that muscle, if identify found it; 0: not measured

@@ -164,11 +164,22 @@ Reply Axis::scale(double true_m) {
   if (inputs_.in_joint || settings_.bundle.follows()) return Refusal::unsuitable;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
+  // What identify or calibrate has measured so far is in the old scale.
+  if (measures(mode_)) return Refusal::busy;
   if (!inputs_.position.present) return Refusal::not_ready;
   board::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
   if (!(true_m > 0.0)) return Refusal::out_of_range;
-  const Refusal refusal = refusal_of(keep(muscle_, found));
+  // A muscle that was identified moves by so much more or less; the configured one is as it is.
+  control::PhysicalParameters muscle = muscle_;
+  if (!(muscle == file_muscle())) muscle.force_per_kelvin_N_per_K *= true_m / measured_m;
+  const bool another = !(muscle == muscle_);
+  const Refusal refusal = refusal_of(keep(muscle, found));
+  if (another) {
+    heater_.set_muscle(muscle_);
+    inputs_.expected_jumped = true;
+  }
+  estimation_.restart();
   // This tick must be judged by the new scale, or it would look like motion in the next one.
   inputs_.position.value = calibrated(inputs_.sensor_m);
   return refusal;

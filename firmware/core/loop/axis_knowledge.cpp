@@ -40,6 +40,13 @@ void Axis::calibrate(const board::Calibration& calibration) {
   publish_muscle();
 }
 
+/// What was cleared is used until the next start, but must not be stored again with a calibration.
+void Axis::forget_muscle(board::Learned& learned) const {
+  learned.muscle = file_muscle();
+  learned.response_ratio = learned.unexplained_ratio = 0.0;
+  learned.identification = {};
+}
+
 /// Uses a result and passes it to the storage worker, unless one of its quantities is out of range.
 ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Calibration& found) {
   board::Learned learned = known();
@@ -47,12 +54,14 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   learned.calibration = found;
   learned.has_muscle = true;
   if (board::check(learned)) return ModeResult::implausible;
+  if (cleared_) forget_muscle(learned);
   const double before_m = inputs_.position.value;
   const double before_scale = calibration_.position_scale;
   const bool recalibrated = found != calibration_;
   const double response_ratio = response_ratio_ > 0.0 ? response_ratio_ : 1.0;
   if (!(muscle == muscle_) || response_ratio != proof_.settings().response_ratio)
     proof_.learn(muscle, response_ratio);
+  if (!(muscle == muscle_)) heater_.forget_pole();
   muscle_ = muscle;
   ++knowledge_;
   calibrate(found);
@@ -83,11 +92,13 @@ void Axis::follow_knowledge(const Axis& leader) {
 /// Keeps a muscle together with how well it was fitted.
 ModeResult Axis::keep_fitted(const control::PhysicalParameters& muscle, double unexplained_ratio,
                              const board::Identification& identification) {
-  const auto before = std::pair(unexplained_ratio_, identification_);
+  const auto before = std::tuple(unexplained_ratio_, identification_, cleared_);
   unexplained_ratio_ = unexplained_ratio;
   identification_ = identification;
+  cleared_ = false;
   const ModeResult kept = keep(muscle, calibration_);
-  if (kept == ModeResult::implausible) std::tie(unexplained_ratio_, identification_) = before;
+  if (kept == ModeResult::implausible)
+    std::tie(unexplained_ratio_, identification_, cleared_) = before;
   return kept;
 }
 
@@ -129,7 +140,9 @@ Refusal Axis::store(const Command& command) {
   if (what == 0.0) {
     if (!learned_updates_.push(std::nullopt)) return Refusal::queue_full;
     has_muscle_ = false;
+    cleared_ = true;
     heater_.set_thermal_facts({});
+    heater_.forget_pole();
     return Refusal::none;
   }
   if (what != 1.0) return Refusal::out_of_range;

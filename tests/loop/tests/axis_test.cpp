@@ -1,40 +1,15 @@
-// What an axis is commanded, what it publishes, and what it keeps.
+// What an axis is commanded, and what it publishes.
 #include <cmath>
 #include <optional>
 
 #include <CppUTest/TestHarness.h>
 
-#include "loop/support/rig.hpp"
+#include "loop/support/axis_case.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
 
-TEST_GROUP(Axis) {
-  RigSettings settings = rough_board();
-  std::optional<Rig> rig_;
-
-  Rig& rig() {
-    if (!rig_) {
-      rig_.emplace(settings);
-      rig_->boot();
-      rig_->arm();
-      rig_->run(0.2);
-    }
-    return *rig_;
-  }
-  Refusal answer_to(Verb verb, double value = 0.0) {
-    return rig().answer_to(verb, value);
-  }
-  /// The motion in the current window of heater_not_responding.
-  double moved_m() {
-    return rig().loop.channel(0).verdict().margin(Fault::heater_not_responding).measured;
-  }
-  board::LearnedUpdate update() {
-    board::LearnedUpdate update;
-    CHECK_TRUE(rig().loop.channel(0).take_learned_update(update));
-    return update;
-  }
-};
+TEST_GROUP_BASE(Axis, AxisCase){};
 
 TEST(Axis, ReportsFrictionWhenLessThanHalfOfASmallMotionArrives) {
   for (const double ratio : {0.0, 0.3, 0.7, 1.2}) {
@@ -54,32 +29,6 @@ TEST(Axis, CountsOnNoPowerWhereDeratingLeavesNone) {
   Rig hot(settings);
   hot.run_ticks(2);
   DOUBLES_EQUAL(0.0, hot.loop.channel(0).axis().opposition(1.0, 1.0).held_W, 0.0);
-}
-
-/// And stores it again with whatever else is stored.
-TEST(Axis, UnexplainedRatioSurvivesARestart) {
-  for (const double stored : {0.0, 0.25}) {
-    settings.firmware.channels[0].unexplained_ratio = stored;
-    rig_.reset();
-    const double reported = rig().loop.channel(0).known(known_unexplained_ratio);
-    CHECK_TRUE(stored > 0.0 ? reported == stored : std::isnan(reported));
-    rig().arm();
-    CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
-    DOUBLES_EQUAL(stored, update()->unexplained_ratio, 0.0);
-  }
-}
-
-/// And publishes it, until another muscle is stored.
-TEST(Axis, IdentifyDeviationsSurviveARestart) {
-  const board::Identification stored{{0.0, 0.2, 0.1, 0.05}, 1795219200.0};
-  settings.firmware.channels[0].identification = stored;
-  const Channel& channel = rig().loop.channel(0);
-  CHECK_TRUE(std::isnan(channel.known(known_theta1_deviation)));
-  DOUBLES_EQUAL(0.05, channel.known(known_theta1_deviation + 3), 0.0);
-  DOUBLES_EQUAL(1795219200.0, channel.known(known_identified), 0.0);
-  rig().arm();
-  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
-  CHECK(update()->identification == stored);
 }
 
 /// At once, not only at the next start. The muscle was believed to move half as far again.
@@ -141,42 +90,10 @@ TEST(Axis, UsesTheSelectedController) {
   LONGS_EQUAL(1, rig().snapshot().controller);
 }
 
-TEST(Axis, LaterUpdatesKeepEarlierResults) {
-  rig().hold_power(2.0, 4.0);
-  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
-  const auto scaled = update();
-  CHECK(scaled.has_value() && scaled->has_muscle);
-  DOUBLES_EQUAL(1.1, scaled->calibration.position_scale, 0.01);
-  // A change of scale is not a sensor jump.
-  rig().hold_power(2.0, 3.0);
-  CHECK(rig().fault() == Fault::none);
-  CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
-  CHECK(answer_to(Verb::store, store_tuning) == Refusal::none);
-  const auto stored = update();
-  CHECK(stored.has_value() && stored->has_muscle);
-  CHECK(stored->calibration == scaled->calibration);
-  DOUBLES_EQUAL(2.0, stored->tuning.controller.value_or(-1.0), 0.0);
-  DOUBLES_EQUAL(0.0, stored->tuning.estimator.value_or(-1.0), 0.0);
-  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
-  CHECK(update()->tuning == stored->tuning);
-  CHECK(answer_to(Verb::store, clear_tuning) == Refusal::none);
-  CHECK(update()->tuning == board::StoredTuning{});
-}
-
 TEST(Axis, RefusesInvalidTuningSlots) {
   for (const double place : {-1.0, 256.0, std::nan("")})
     CHECK(answer_to(Verb::tune, place) == Refusal::out_of_range);
   CHECK(answer_to(Verb::tune, 0.0) == Refusal::none);
-}
-
-TEST(Axis, ClearedMuscleIsNotStoredWithTheTuning) {
-  rig().hold_power(2.0, 4.0);
-  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
-  CHECK(update()->has_muscle);
-  CHECK(answer_to(Verb::store, 0.0) == Refusal::none);
-  CHECK_FALSE(update().has_value());
-  CHECK(answer_to(Verb::store, store_tuning) == Refusal::none);
-  CHECK_FALSE(update()->has_muscle);
 }
 
 TEST(Axis, StartsWithTheStoredController) {

@@ -21,6 +21,12 @@ class ThermalObserver {
     learned_ = true;
   }
 
+  /// As if no pole had been learned.
+  void forget() {
+    learned_ = false;
+    rise_K_ = 0.0;
+  }
+
   /// power_W ≥ 0, applied since the last tick.
   void step(double power_W) {
     if (!learned_) return;

@@ -74,11 +74,10 @@ class Heat {
     learned_.learn(std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
                              std::fmin(-1.0 / control::max_time_constant_s(b), pole_rad_per_s)));
   }
-  /// Another muscle: the learned pole was the last one's.
-  void forget_pole() { learned_.forget(); }
-
-  /// Expected positions are those of this muscle from now on, starting cold.
+  /// Expected positions are those of this muscle from now on, starting cold. A learned pole was the
+  /// last one's.
   void set_muscle(const control::PhysicalParameters& muscle) {
+    learned_.forget();
     expected_[0] = control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s_);
     expected_[0].learn(muscle.thermal_pole_rad_per_s());
     metres_per_K_ = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;

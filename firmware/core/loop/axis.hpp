@@ -246,7 +246,7 @@ class Axis {
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
   ModeResult keep_fitted(const control::PhysicalParameters& muscle, double unexplained_ratio,
                          const board::Identification& identification);
-  ModeResult keep_identified();
+  ModeResult keep_identified(double response_ratio);
   Refusal store_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(const board::Calibration& calibration);
 

@@ -173,12 +173,7 @@ Reply Axis::scale(double true_m) {
   // A muscle that was identified moves by so much more or less; the configured one is as it is.
   control::PhysicalParameters muscle = muscle_;
   if (!(muscle == file_muscle())) muscle.force_per_kelvin_N_per_K *= true_m / measured_m;
-  const bool another = !(muscle == muscle_);
   const Refusal refusal = refusal_of(keep(muscle, found));
-  if (another) {
-    heater_.set_muscle(muscle_);
-    inputs_.expected_jumped = true;
-  }
   estimation_.restart();
   // This tick must be judged by the new scale, or it would look like motion in the next one.
   inputs_.position.value = calibrated(inputs_.sensor_m);

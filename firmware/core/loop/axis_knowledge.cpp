@@ -59,9 +59,14 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   const double before_scale = calibration_.position_scale;
   const bool recalibrated = found != calibration_;
   const double response_ratio = response_ratio_ > 0.0 ? response_ratio_ : 1.0;
-  if (!(muscle == muscle_) || response_ratio != proof_.settings().response_ratio)
+  const bool another = !(muscle == muscle_);
+  if (another || response_ratio != proof_.settings().response_ratio)
     proof_.learn(muscle, response_ratio);
-  if (!(muscle == muscle_)) heater_.forget_pole();
+  if (another) {
+    // At once, as at the next start.
+    heater_.set_muscle(muscle);
+    inputs_.expected_jumped = true;
+  }
   muscle_ = muscle;
   ++knowledge_;
   calibrate(found);
@@ -142,7 +147,6 @@ Refusal Axis::store(const Command& command) {
     has_muscle_ = false;
     cleared_ = true;
     heater_.set_thermal_facts({});
-    heater_.forget_pole();
     return Refusal::none;
   }
   if (what != 1.0) return Refusal::out_of_range;

@@ -1,6 +1,7 @@
 // How an axis measures its muscle on command: identify and calibrate.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "loop/axis.hpp"
 
@@ -38,8 +39,7 @@ bool Axis::step_identify() {
       proof_.settings(), muscle, identify_.risen_m() / muscle.dc_gain_m_per_W(), 1.0 / step_s_);
   if (!std::isfinite(plan.dither.decided_s)) {
     // The response of an earlier muscle says nothing about this one.
-    response_ratio_ = 0.0;
-    return end_mode(keep_identified());
+    return end_mode(keep_identified(0.0));
   }
   small_signal_.start(plan, ExpectedMotion(muscle, plan.step_s));
   return false;
@@ -52,19 +52,15 @@ bool Axis::step_small_signal() {
     return false;
   }
   demanded_ = {};
-  response_ratio_ = small_signal_.response_ratio();
-  return end_mode(keep_identified());
+  return end_mode(keep_identified(small_signal_.response_ratio()));
 }
 
-/// What is expected follows the identified muscle from now on, as at the next start.
-ModeResult Axis::keep_identified() {
+ModeResult Axis::keep_identified(double response_ratio) {
   const auto& quality = identify_.quality();
+  const double before = std::exchange(response_ratio_, response_ratio);
   const ModeResult kept =
       keep_fitted(identify_.found(), quality.unexplained_ratio, identification_of(quality));
-  if (kept == ModeResult::found || kept == ModeResult::not_stored) {
-    heater_.set_muscle(muscle_);
-    inputs_.expected_jumped = true;
-  }
+  if (kept == ModeResult::implausible) response_ratio_ = before;
   return kept;
 }
 

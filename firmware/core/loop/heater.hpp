@@ -77,7 +77,6 @@ class Heater {
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
   /// Takes the muscle's thermal pole from a trusted estimate.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
-  void forget_pole() { heat_.forget_pole(); }
   void set_muscle(const control::PhysicalParameters& muscle) { heat_.set_muscle(muscle); }
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
   /// From any thread. Limits the power to max_W and the configured maximum.

@@ -56,6 +56,20 @@ TEST(HotEnd, IsTheHotterOfConfiguredAndLearned) {
                 hottest_after_K(settings, slower_pole, 60.0), 0.01);
 }
 
+TEST(HotEnd, AnotherMuscleForgetsTheLearnedCooling) {
+  Heat heat(settings, {}, tick_s);
+  heat.learn(slowest_pole);
+  const auto rest_K = [&] {
+    for (long i = std::lround(60.0 / tick_s); i > 0; --i)
+      heat.step(heating_W, heating_W, heating_W);
+    return heat.hottest_K();
+  };
+  const double configured_K = heating_W / settings.bounds.min_transfer_W_per_K;
+  CHECK_COMPARE(rest_K(), >, 1.1 * configured_K);
+  heat.set_muscle({});
+  DOUBLES_EQUAL(configured_K, rest_K(), 0.01);
+}
+
 TEST(HotEnd, AtBootSpansUpToTheConfiguredRise) {
   Heat heat(settings, {}, tick_s);
   DOUBLES_EQUAL(settings.air.warmest_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);

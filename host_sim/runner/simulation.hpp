@@ -68,6 +68,13 @@ struct TickRecord {
   std::optional<BundleRecord> bundle;          ///< where there is one
 };
 
+/// Of the hottest of its muscles.
+inline double hottest_rise_K(const TickRecord& record) {
+  if (record.bundle) return record.bundle->max_temperature_rise_K;
+  if (!record.antagonist) return record.temperature_rise_K;
+  return std::fmax(record.temperature_rise_K, record.antagonist->temperature_rise_K);
+}
+
 inline constexpr double temperature_rounding_K = 1e-9;
 /// Whether a temperature is not within the firmware's bounds for it.
 constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {

@@ -48,6 +48,7 @@ void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWir
   sensor.range_m = channel.supervision.max_position_m;
   sensor.count_m = std::abs(channel.position.scaling.per_count);
   sensor.rate_Hz = 0.0;
+  c.ambient.sensor_error_K = channel.thermal.air.error_K;
   c.power.pwm_steps = wiring.pwm.steps;
   c.power.delay_s = channel.heater.delay_s;
   c.power.max_W = channel.limiter.max_W;

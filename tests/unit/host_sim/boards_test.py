@@ -118,6 +118,28 @@ class Boards(ProgramCase):
         self.assertAlmostEqual(min(steps_m), 1.515e-6, delta=2e-9)
         self.assertGreater(len(steps_m), 100)
 
+    def test_the_air_has_a_sensor_if_the_boards_file_has_one(self):
+        example = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
+        sensor = '[ambient.sensor]\ndevice = "i2c-1/1-004a"\ninput = "voltage1"\nbus = "i2c-1"\nC_per_count = 0.01\nerror_K = 3.0\n'
+        (self.path / "without.toml").write_text(example)
+        (self.path / "with.toml").write_text(example.replace("\n[can]", f"\n{sensor}\n[can]", 1))
+        air = "simulation.duration_s = 0.1\noperator.action = 'none'\nambient = {air_C = 20.0, sensor_error_K = 1.5, sensor_offset_K = 0.5}\n"
+        hottest_K = []
+        for board in ("without", "with"):
+            done = self.run_program("run", self.scenario(air), "--board", f"{board}.toml", "--out", "out", "--no-plot")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            with (self.path / "out/trace.csv").open(newline="") as file:
+                hottest_K.append(float(next(csv.DictReader(file))["hottest_K"]))
+        # From the file's warmest air, 30 degrees, or from the sensor's reading and its error, 20.5 and 3.
+        self.assertAlmostEqual(hottest_K[0] - hottest_K[1], 30.0 - 23.5, delta=0.5)
+
+    def test_power_and_sensor_of_the_scenario_are_not_checked_where_a_boards_own_file_has_others(self):
+        example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        for text in ("power = {max_W = 20.0}\n", "power.pwm_bits = 3\n", "sensor.position.range_m = 0.015\n"):
+            self.assertEqual(self.run_program("run", self.scenario(text), "--check").returncode, 2)
+            done = self.run_program("run", self.scenario(text), "--check", "--board", example)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_a_joint_under_the_firmware_of_a_boards_own_file(self):
         example = EXAMPLES / "joint-as5600-ads1115.toml"
         text = "simulation.duration_s = 120.0\nreference.amplitude_m = 0.002\n[joint]\n[[event]]\nat_s = 60.0\njoint.co_contraction_W = 1.8\n"

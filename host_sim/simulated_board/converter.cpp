@@ -29,7 +29,8 @@ void SimulatedConverter::offer(double value, hal::Time now) {
   now_ = now;
   converted_ = false;
   if (period_ <= hal::Duration{} || now < next_ || faults_.silent) return;
-  next_ = now + period_;
+  next_ += period_;
+  if (next_ <= now) next_ = now + period_;
   pending_.push_back({convert(value), now, hal::Status::ok});
 }
 

@@ -6,6 +6,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "runner/simulation.hpp"
+#include "simulated_board/converter.hpp"
 #include "simulated_board/thermometer.hpp"
 #include "unit/host_sim/support/scenarios.hpp"
 
@@ -82,4 +83,20 @@ TEST(Sensors, CoarseCountsAreUpdatedAtTheirRate) {
   }
   CHECK_COMPARE(changes, >, 500);
   CHECK_COMPARE(changes, <=, 2001);
+}
+
+TEST(Sensors, ConversionsKeepARateThatDoesNotDivideTheTicks) {
+  const auto conversions_in_1_s = [](double rate_Hz) {
+    SimulatedConverter converter(ConverterSettings{.period_s = 1.0 / rate_Hz}, 1);
+    std::set<std::int32_t> counts;
+    for (int tick = 0; tick < 1000; ++tick) {
+      converter.offer(1e-3 * tick, hal::Time{} + tick * hal::duration_from(1e-3));
+      counts.insert(converter.latest().counts);
+    }
+    return static_cast<int>(counts.size());
+  };
+  LONGS_EQUAL(100, conversions_in_1_s(100.0));
+  LONGS_EQUAL(300, conversions_in_1_s(300.0));
+  LONGS_EQUAL(700, conversions_in_1_s(700.0));
+  LONGS_EQUAL(1000, conversions_in_1_s(3000.0));
 }

@@ -48,6 +48,15 @@ void print_limits(const char* label, const LimitCount& count, const Summary& sum
   std::printf("%sat a limit in %s of the ticks: %s\n", label, percent(all).c_str(), limits.c_str());
 }
 
+/// A position in µm, with at least three digits.
+std::string um_text(double position_m) {
+  constexpr double small_um = 10.0;
+  const double position_um = 1e6 * position_m;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), position_um < small_um ? "%.3g" : "%.1f", position_um);
+  return text.data();
+}
+
 /// Oscillation or divergence that the loop causes without the reference asking for it.
 void print_divergence(const Summary& summary, const Scenario& scenario) {
   if (summary.oscillated()) return;
@@ -84,15 +93,15 @@ void print_noise(const Summary& summary, const Scenario& scenario) {
 /// The error that was promised for the run.
 void print_promise(const nlohmann::ordered_json& json) {
   if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
-  std::printf("promised: %.1f um rms%s%s, as the sensor shows it; ",
-              json["promised_rms_m"].get<double>() * 1e6,
+  std::printf("promised: %s um rms%s%s, as the sensor shows it; ",
+              um_text(json["promised_rms_m"].get<double>()).c_str(),
               json["promised_by"] == "own" ? "" : " by the recommended controller",
               json["promised_on"] == "reference" ? "" : ", on the first motion of supercoil setup");
   const auto& shown_rms_m = json["tracking_shown_rms_m"];
   if (shown_rms_m.is_null()) {
     std::puts("the sensor had no reading in some ticks");
   } else {
-    std::printf("the sensor showed %.1f um\n", shown_rms_m.get<double>() * 1e6);
+    std::printf("the sensor showed %s um\n", um_text(shown_rms_m.get<double>()).c_str());
   }
 }
 
@@ -104,10 +113,10 @@ void print_modes(const nlohmann::ordered_json& json) {
   const auto& motion = json["first_motion"];
   if (motion.is_null() || motion["rms_m"].is_null()) return;
   const double rms_m = motion["rms_m"].get<double>();
-  std::printf("first motion: followed within %.1f um rms", 1e6 * rms_m);
+  std::printf("first motion: followed within %s um rms", um_text(rms_m).c_str());
   if (!motion["promised_rms_m"].is_null()) {
     const double promised_m = motion["promised_rms_m"].get<double>();
-    std::printf("; the promise of %.1f um is %s", 1e6 * promised_m,
+    std::printf("; the promise of %s um is %s", um_text(promised_m).c_str(),
                 rms_m <= promised_m ? "kept" : "not kept");
   }
   std::puts("");
@@ -124,10 +133,10 @@ void print_summary(const Summary& summary, const Scenario& scenario,
               json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
   if (!json["tracking_rms_m"].is_null()) {
-    std::printf("tracking error %.1f um rms, %.1f um at most (%g to %g s)\n",
-                json["tracking_rms_m"].get<double>() * 1e6,
-                json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
-                json["window_s"][1].get<double>());
+    std::printf("tracking error %s um rms, %s um at most (%g to %g s)\n",
+                um_text(json["tracking_rms_m"].get<double>()).c_str(),
+                um_text(json["tracking_max_m"].get<double>()).c_str(),
+                json["window_s"][0].get<double>(), json["window_s"][1].get<double>());
   }
   print_promise(json);
   if (const std::string passed = describe_passed(scenario);

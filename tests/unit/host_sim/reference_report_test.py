@@ -36,6 +36,24 @@ class ReferenceReport(ProgramCase):
         self.assertEqual([line in text for line in report["advice"]], [True, True])
         self.assertEqual(report["reference"]["text"], re.search("\nreference: (.*)\n", text)[1])
 
+    def test_a_reference_above_the_ceiling_is_reported(self):
+        line = "reference: goes up to 20 mm, but the load cannot rise above plant.ceiling_m, 15 mm\n"
+        low = SHORT + "plant.ceiling_m = 0.015\n"
+        self.assertIn(line, self.run_program("run", self.scenario(low), "--check").stdout)
+        report = json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)
+        self.assertEqual(f"reference: {report['reference']['above_ceiling']}\n", line)
+        later = SHORT + "[[event]]\nat_s = 1.0\nplant.ceiling_m = 0.015\n"
+        self.assertIn("reference: from the event at 1 s on it goes up to 20 mm", self.run_program("run", self.scenario(later), "--check").stdout)
+        self.assertNotIn("ceiling", self.run_program("run", self.scenario(SHORT), "--check").stdout)
+
+    def test_errors_of_small_muscles_have_three_digits(self):
+        small = (SHORT + "plant.force_per_kelvin_N_per_K = 2e-6\nsensor.position = {noise_rms_m = 1e-9, range_m = 1e-4}\n"
+                 "reference = {offset_m = 8e-6, amplitude_m = 4e-6}\n")
+        output, summary = self.after(small)
+        rms_um, max_um = 1e6 * summary["tracking_rms_m"], 1e6 * summary["tracking_max_m"]
+        self.assertLess(max_um, 10.0)
+        self.assertIn(f"tracking error {rms_um:.3g} um rms, {max_um:.3g} um at most", output)
+
     def test_an_infeasible_reference_is_reported_with_its_ratio_and_advice(self):
         # Through a fast model even the step to the middle of the sine asks for too much.
         for turn_rad_per_s, shape, poles, infeasible in ((2.0, "false", [4.0, 5.0, 6.0], True), (2.0, "true", [4.0, 5.0, 6.0], True),

@@ -22,6 +22,13 @@ control::FirstOrderHold<2, 1> mechanics(const Muscle& m, double step_s) {
   return control::first_order_hold<2, 1>(a, control::Vector<double, 2>{0.0, w * w}, step_s);
 }
 
+/// The state after a step whose input is a parabola, 0 at both ends and 1 in the middle: four
+/// thirds of that of a triangle.
+control::Vector<double, 2> parabola(const Muscle& m, double step_s) {
+  const auto half = mechanics(m, 0.5 * step_s);
+  return 4.0 / 3.0 * (half.transition * half.end + half.start);
+}
+
 /// Heat, plays and the input of the mechanics.
 class Drive {
  public:
@@ -42,6 +49,7 @@ class Drive {
     const double rest_W = power_W / transferred;
     const double before = u_;
     u_ = rest_W + (u_ - rest_W) * kept_;
+    bulge_W_ = (before - rest_W) * (std::sqrt(kept_) - 0.5 * (1.0 + kept_));
     heat_J_ += 0.5 * (before + u_) * step_s_;
     max_power_W_ = std::max(max_power_W_, u_);
     if (m_.play_ratio <= 0.0) return;
@@ -67,6 +75,12 @@ class Drive {
     return m_.gain_m_per_W * u * (1.0 + 0.5 * (m_.force_ratio - 1.0) * u / full_W_);
   }
 
+  /// By how much it was off a straight line in the middle of the last step.
+  double bulge_m() const {
+    if (m_.transformed_W > 0.0) return 0.0;
+    return m_.gain_m_per_W * bulge_W_ * (1.0 + (m_.force_ratio - 1.0) * u_ / full_W_);
+  }
+
   double rest_m(double time_s) const {
     const double first = std::clamp(max_power_W_ / m_.lonely_stroke_W, 0.0, 1.0);
     return m_.rest_m + m_.drift_m_per_s * time_s + m_.heat_drift_m_per_J * heat_J_ -
@@ -85,6 +99,7 @@ class Drive {
   double u_;
   double last_transfer_ = 0.0;
   double kept_ = 0.0;  // share of the difference from rest that is left after a step
+  double bulge_W_ = 0.0;
   double heat_J_ = 0.0;
   double max_power_W_ = 0.0;
   std::array<control::Play, plays> play_{};
@@ -95,6 +110,7 @@ class Drive {
 std::vector<double> motion(const Muscle& muscle, const Samples& samples, double full_W,
                            std::size_t count) {
   const auto hold = mechanics(muscle, samples.step_s);
+  const control::Vector<double, 2> bulged = parabola(muscle, samples.step_s);
   Drive drive(muscle, full_W, samples.step_s);
   const double late = std::exp(-samples.step_s / muscle.creep_s);
   double input = drive.position_m();
@@ -107,7 +123,9 @@ std::vector<double> motion(const Muscle& muscle, const Samples& samples, double 
         drive.rest_m(time_s) + (1.0 - muscle.creep_ratio) * state[0] + muscle.creep_ratio * crept;
     drive.heat(samples.power_W[k]);
     const double next = drive.position_m();
-    state = (hold.transition * state + hold.start * input + hold.end * next).eval();
+    state =
+        (hold.transition * state + hold.start * input + hold.end * next + bulged * drive.bulge_m())
+            .eval();
     crept = state[0] + (crept - state[0]) * late;
     input = next;
   }

@@ -92,6 +92,14 @@ TEST(Motion, OfALinearMuscleFollowsTheEquations) {
   DOUBLES_EQUAL(0.0, difference(other_muscle()), 1e-3);
 }
 
+TEST(Motion, OfAQuickMuscleFollowsTheEquations) {
+  Muscle quick = other_muscle();
+  quick.time_constant_s = 0.1;
+  quick.natural_frequency_rad_per_s = 30.0;
+  quick.damping_ratio = 0.8;
+  DOUBLES_EQUAL(0.0, difference(quick), 1e-3);
+}
+
 TEST(Motion, StartsWarmAndMovingAtTheGivenState) {
   Muscle muscle = other_muscle();
   muscle.start_W = 1.0;

@@ -37,6 +37,8 @@ constexpr double clearly_less_ratio = 0.95;
 /// Fraction of the recommended bandwidth. A slower loop corrects disturbances too late, whatever it
 /// promises for a motion without any.
 constexpr double slow_ratio = 0.5;
+/// Bandwidths that differ by less are the same in text.
+constexpr double same_ratio = 0.01;
 
 bool differ(double value, double from) {
   return !(std::abs(value / from - 1.0) <= significant_ratio);
@@ -112,6 +114,7 @@ void compare_with(const ControllerSettings& in_use, const ChannelSettings& chann
   if (then_m < clearly_less_ratio * now_m) return;
   const double bandwidth = in_use.learned_ff.bandwidth_rad_per_s;
   const double ratio = bandwidth / recommended.bandwidth_rad_per_s;
+  if (std::abs(ratio - 1.0) < same_ratio) return;
   const std::string own = number_text(bandwidth, text_digits) + " rad/s";
   std::string why(closest);
   if (ratio >= slow_ratio && ratio < 1.0) {

@@ -99,6 +99,11 @@ TEST(RecommendedController, IsNotCalledCloserThanAControllerThatPromisesLess) {
   DOUBLES_EQUAL(8.0, sooner.bandwidth_rad_per_s, 0.01);
   STRCMP_CONTAINS("corrects what disturbs it sooner than 2 rad/s, which promises a smaller error",
                   sooner.reason.c_str());
+  // The same but for rounding.
+  for (const double in_use_rad_per_s : {7.9999, 8.0001}) {
+    STRCMP_CONTAINS("follows closest, and asks for no motion",
+                    suits_beside(in_use_rad_per_s, 1e-9).reason.c_str());
+  }
 }
 
 TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferenceModel) {

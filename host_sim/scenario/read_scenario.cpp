@@ -103,7 +103,8 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
   std::vector<WrittenEvent> events;
   toml::node* node = document.get("event");
   if (node == nullptr) return events;
-  if (!node->is_array_of_tables()) {
+  const toml::array* list = node->as_array();
+  if (!node->is_array_of_tables() && !(list != nullptr && list->empty())) {
     diagnostics.add(static_cast<int>(node->source().begin.line), "event",
                     "must be written as [[event]], one for each");
   } else {
@@ -117,6 +118,8 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
       }
       config::Section section(&event, "event", diagnostics);
       const double at_s = section.number("at_s", 0.0, {0.0, duration_s});
+      if (at_s == duration_s)
+        section.wrong("at_s", "must be before the end of the run, duration_s");
       const bool reset = section.flag("reset", false);
       event.erase("at_s");
       event.erase("reset");

@@ -85,6 +85,15 @@ TEST(Events, AfterTheEndAreRefused) {
                problems("[simulation]\nduration_s = 10.0\n[[event]]\nat_s = 11.0\n").c_str());
 }
 
+TEST(Events, AtTheEndAreRefused) {
+  STRCMP_EQUAL("s.toml:4: event.at_s = 10: must be before the end of the run, duration_s\n",
+               problems("[simulation]\nduration_s = 10.0\n[[event]]\nat_s = 10.0\n").c_str());
+}
+
+TEST(Events, MayBeAnEmptyList) {
+  LONGS_EQUAL(0, read("event = []\n").events.size());
+}
+
 TEST(Events, CannotChangeTheSimulationItself) {
   STRCMP_EQUAL("s.toml:3: event.simulation: cannot change during a run\n",
                problems("[[event]]\nat_s = 1.0\nsimulation.seed = 2\n").c_str());

@@ -113,8 +113,7 @@ bool set_all(toml::table& document, const Draw& draw, const toml::node& value) {
 /// Replaces the scenario's own tables on control: all contenders meet the same.
 void use_contender(toml::table& document, const compare::Document& contender) {
   if (contender.text.empty()) return;
-  for (const char* table : {"controller", "estimator", "reference_model"})
-    document.erase(table);
+  erase_control(document);
   config::Diagnostics ignored(contender.name);  // it was read before
   apply_changes(document, config::parse(contender.text, ignored));
 }

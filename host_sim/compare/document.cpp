@@ -63,10 +63,13 @@ supercoil::Result<Document> find_disturbance_now(const std::string& name) {
   return document;
 }
 
-/// NAME+SECONDS; a file's name may also contain a +.
+/// NAME+SECONDS; a file's name and its folders may also contain a +.
 supercoil::Result<Document> find_disturbance(const std::string& name) {
-  const std::size_t plus = name.rfind('+');
-  if (plus == std::string::npos || name.ends_with(".toml")) return find_disturbance_now(name);
+  constexpr std::string_view extension = ".toml";
+  const std::size_t file_end = name.rfind(extension);
+  const std::size_t plus =
+      name.find('+', file_end == std::string::npos ? 0 : file_end + extension.size());
+  if (plus == std::string::npos) return find_disturbance_now(name);
   double later_s = 0.0;
   const char* end = name.data() + name.size();
   const auto read = std::from_chars(name.data() + plus + 1, end, later_s);

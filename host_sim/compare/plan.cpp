@@ -25,11 +25,18 @@ void set_arithmetic(toml::table& document, const std::string& arithmetic) {
 
 /// Four levels over the range of the disturbance's sine, each held for 5/ω: the paper's sine
 /// becomes 5, 15, 8 and 20 mm, 20 s each. Without an event it runs for three rounds of them.
-void ask_for_steps(toml::table& document) {
-  const auto sine = document["reference"];
-  const double offset_m = sine["offset_m"].value_or(0.011);
-  const double amplitude_m = sine["amplitude_m"].value_or(0.009);
-  const double hold_s = 5.0 / sine["angular_frequency_rad_per_s"].value_or(0.25);
+supercoil::Result<void> ask_for_steps(toml::table& document, const std::string& name) {
+  const auto scenario = scenario_from(document, name);
+  if (!scenario) return failure(config::to_text(scenario.error()));
+  const Reference& sine = scenario->start.reference;
+  if (sine.kind != ReferenceKind::sine) {
+    return failure("--disturbances " + name + ": its [reference] is of kind " +
+                   std::string(control::name_of(reference_names, sine.kind)) +
+                   ", but :steps needs a sine\n");
+  }
+  const double offset_m = sine.offset;
+  const double amplitude_m = sine.terms.front().amplitude;
+  const double hold_s = 5.0 / sine.terms.front().angular_frequency_rad_per_s;
   toml::array levels_m;
   for (const double part : {-2.0 / 3.0, 4.0 / 9.0, -1.0 / 3.0, 1.0})
     levels_m.push_back(offset_m + part * amplitude_m);
@@ -39,6 +46,7 @@ void ask_for_steps(toml::table& document) {
     apply_changes(document,
                   toml::table{{"simulation", toml::table{{"duration_s", 12.0 * hold_s}}}});
   }
+  return {};
 }
 
 /// For a controller that is tuned by hand to each muscle, the disturbance provides the keys.
@@ -63,10 +71,12 @@ supercoil::Result<Case> combine(const Document& controller, const Document& dist
                    config::to_text(of_disturbance.problems()));
   }
   // All controllers meet the same, whatever the disturbance was written for.
-  for (const char* table : {"controller", "estimator", "reference_model"})
-    document.erase(table);
+  erase_control(document);
   tune(chosen, document, controller.name);
-  if (disturbance.steps) ask_for_steps(document);
+  if (disturbance.steps) {
+    if (auto asked = ask_for_steps(document, disturbance.name); !asked)
+      return tl::unexpected(asked.error());
+  }
   apply_changes(document, std::move(chosen));
   set_arithmetic(document, arithmetic);
   // The name has the delay of the events.

@@ -149,6 +149,19 @@ void apply_changes(toml::table& document, toml::table&& changes) {
   }
 }
 
+void erase_control(toml::table& document) {
+  const auto erase_from = [](toml::table& table) {
+    for (const char* key : {"controller", "estimator", "reference_model"})
+      table.erase(key);
+  };
+  erase_from(document);
+  toml::array* events = document.get_as<toml::array>("event");
+  if (events == nullptr) return;
+  for (toml::node& event : *events) {
+    if (toml::table* table = event.as_table()) erase_from(*table);
+  }
+}
+
 namespace {
 
 KnownBefore known_before(const std::optional<board::Learned>& learned,

@@ -27,8 +27,13 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
 /// kind replaces the old one; other keys are merged into those that are there.
 void apply_changes(toml::table& document, toml::table&& changes);
 
+/// Takes [controller], [estimator] and [reference_model] out of a document and of its events, for a
+/// contender that brings its own.
+void erase_control(toml::table& document);
+
 /// The same from a document.
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const LearnedMuscles& learned = {});
+                                 const LearnedMuscles& learned = {},
+                                 Hardware hardware = Hardware::scenarios);
 
 }  // namespace supercoil::host_sim

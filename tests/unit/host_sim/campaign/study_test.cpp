@@ -183,6 +183,19 @@ TEST(Study, SetsElementsOfListsAndEvents) {
   }
 }
 
+TEST(Study, ItsControllersReplaceThoseOfItsEvents) {
+  const Study study = study_of(
+      "[study]\nscenario = 'pwm'\ncontrollers = ['pd_ff']\n[[scenario.event]]\nat_s = 1.0\n"
+      "plant.load_N = 0.1\ncontroller.kind = 'pi'\nestimator.kind = 'none'\n" +
+      draw("constant = 16.0"));
+  const Draws draws(study);
+  const auto scenario = draws.scenario(draws.of_run(0), 0, 0);
+  if (!scenario) FAIL(supercoil::config::to_text(scenario.error()).c_str());
+  CHECK_FALSE(scenario->events[0].new_controller);
+  CHECK_FALSE(scenario->events[0].new_estimator);
+  DOUBLES_EQUAL(0.1, scenario->events[0].conditions.plant.load_N, 0.0);
+}
+
 TEST(Study, ListValuesKeepTheirType) {
   const Study study = study_of(
       "[study]\nruns = 40\n[[draw]]\nkeys = 'plant.preset'\nlist = ['real', 'b']\n"

@@ -71,6 +71,33 @@ class Compare(Batch, ProgramCase):
         (self.path / "brief.toml").write_text("# Another comment\n" + BRIEF + "# and another\n")
         self.assertIn("4 of 4 runs are already in", self.batch("--out", "whole").stderr)
 
+    def test_a_controller_in_an_event_replaces_no_contender(self):
+        event = "[simulation]\nduration_s = 3.0\n[[event]]\nat_s = 1.0\nplant.stiffness_N_per_m = 12.0\n"
+        rows = []
+        for name, more in (("plain", ""), ("other", "controller.kind = 'pi'\nestimator.kind = 'none'\n")):
+            (self.path / name).mkdir()
+            (self.path / name / "brief.toml").write_text(event + more)
+            self.compare("--controllers", "pd_ff", "--disturbances", f"{name}/brief.toml", "--seeds", 1, "--no-plot", "--out", f"{name}/out")
+            rows.append(self.rows(f"{name}/out"))
+        self.assertEqual(*rows)
+
+    def test_steps_are_within_the_sine_of_the_file_which_may_be_a_joints(self):
+        (self.path / "joint.toml").write_text("[joint]\n")
+        # A sine of 5 mm at 0, which takes 20 s for 5 rad.
+        self.compare("--controllers", "pi", "--disturbances", "joint.toml:steps", "--seeds", 1, "--no-plot", "--out", "steps")
+        row, = self.rows("steps")
+        self.assertEqual(row["fault"], "")
+        (self.path / "power.toml").write_text("reference.kind = 'steps'\n")
+        refused = self.compare("--controllers", "pi", "--disturbances", "power.toml:steps", status=2)
+        self.assertIn("--disturbances power:steps: its [reference] is of kind steps, but :steps needs a sine", refused.stderr)
+
+    def test_a_files_name_and_folder_may_contain_a_plus(self):
+        (self.path / "a+b").mkdir()
+        (self.path / "a+b/c+d.toml").write_text("simulation.duration_s = 1.0\n")
+        names = "a+b/c+d.toml,a+b/c+d.toml:steps,a+b/c+d.toml+0.5"
+        self.compare("--controllers", "pi", "--disturbances", names, "--seeds", 1, "--no-plot", "--out", "plus")
+        self.assertEqual({row["disturbance"] for row in self.rows("plus")}, {"c+d", "c+d:steps", "c+d+0.5"})
+
     def test_nothing_to_run_is_refused(self):
         for arguments in (("--controllers", "pi", "--seeds", "1", "--shard", "3/5"),
                           ("--controllers", "learned_ff", "--arithmetic", "q8.24")):

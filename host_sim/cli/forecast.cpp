@@ -38,7 +38,8 @@ void print_forecast(const Scenario& scenario) {
   print_lines("muscle", {describe_rest(scenario)});
   print_lines("recommended", config::describe_recommendation(board, 0));
   print_lines("reference", {describe_reference(scenario), describe_passed(scenario),
-                            describe_out_of_range(scenario), describe_scenario_promise(scenario)});
+                            describe_out_of_range(scenario), describe_ceiling(scenario),
+                            describe_scenario_promise(scenario)});
   print_lines("advice", advice_of(scenario, board));
 }
 
@@ -68,6 +69,7 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
                  {"off_reference_rms_m", f->off_reference_rms_m},
                  {"promised_rms_m", promise ? Json(promise->parts.error_m()) : Json()},
                  {"out_of_range", describe_out_of_range(scenario)},
+                 {"above_ceiling", describe_ceiling(scenario)},
                  {"text", describe_reference(scenario)}};
   }
   return {{"scenario", scenario.name},

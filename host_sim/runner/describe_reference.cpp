@@ -167,6 +167,24 @@ std::string describe_out_of_range(const Scenario& scenario) {
   return {};
 }
 
+std::string describe_ceiling(const Scenario& scenario) {
+  const auto too_high = [](const Conditions& c) {
+    return follows_position(c) && c.reference.max() > c.plant.effects.ceiling_m;
+  };
+  const auto text = [](const Conditions& c) {
+    return "goes up to " + in_mm(c.reference.max()) +
+           ", but the load cannot rise above plant.ceiling_m, " + in_mm(c.plant.effects.ceiling_m);
+  };
+  if (too_high(scenario.start)) return text(scenario.start);
+  for (const Event& event : scenario.events) {
+    if (too_high(event.conditions)) {
+      return "from the event at " + number_text(event.at_s, 6) + " s on it " +
+             text(event.conditions);
+    }
+  }
+  return {};
+}
+
 double rest_m(const Scenario& scenario) {
   const PlantSettings& plant = scenario.start.plant;
   return 0.0 - plant.load_N / plant.parameters.stiffness_N_per_m;

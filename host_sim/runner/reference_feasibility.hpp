@@ -65,6 +65,10 @@ std::string describe_passed(const Scenario& scenario);
 /// empty: it does not, or a joint's other muscle takes it there.
 std::string describe_out_of_range(const Scenario& scenario);
 
+/// Warns that the reference goes, at the start or after an event, higher than the load can rise;
+/// empty: it does not.
+std::string describe_ceiling(const Scenario& scenario);
+
 /// After a run: how much was infeasible, since when, and what to do; empty: nothing was.
 std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario);
 

@@ -124,7 +124,8 @@ tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options
   if (!learned) return tl::unexpected(wrong_option("--learned", "", learned.error().text()));
   std::vector<Scenario> scenarios;
   for (std::size_t i = 0; i < options.scenarios.size(); ++i) {
-    auto scenario = read_scenario(options.scenarios[i], *learned);
+    const Hardware hardware = options.boards.empty() ? Hardware::scenarios : Hardware::boards;
+    auto scenario = read_scenario(options.scenarios[i], *learned, hardware);
     if (!scenario) return tl::unexpected(std::move(scenario.error()));
     if (auto used = use_own_board(options, i, *learned, *scenario); !used)
       return tl::unexpected(std::move(used.error()));

@@ -20,6 +20,8 @@ using config::Section;
 /// A muscle other than the paper's may become longer than it was: its sensor sees some of that.
 constexpr double default_min_ratio = -0.25;
 constexpr double min_position_rate_Hz = 20.0;
+/// Of a reading, whose counts are 32 bits wide.
+constexpr int max_bits = 30;
 /// To both sides.
 constexpr double joint_range_m = 0.008;
 constexpr double spring_joint_range_m = 0.011;
@@ -35,7 +37,7 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   if (moves == Moves::spring_joint) sensor.range_m = spring_joint_range_m;
   sensor.noise_rms_m = section.number("noise_rms_m", sensor.noise_rms_m, {0.0, 0.1});
   sensor.resolution_bits =
-      static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
+      static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, max_bits));
   sensor.range_m = section.number("range_m", sensor.range_m, {1e-4, 10.0});
   sensor.count_m = section.number("count_m", sensor.count_m, {0.0, 0.1 * sensor.range_m});
   if (sensor.count_m > 0.0 && section.has("resolution_bits")) {
@@ -49,6 +51,13 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   if (moves == Moves::joint) min_m = -sensor.range_m;
   // A joint moves to both sides, and its antagonist's travel is what lies below zero.
   sensor.min_m = section.number("min_m", min_m, {-10.0, moves == Moves::joint ? -1e-4 : 0.0});
+  const double min_count_m = (sensor.range_m - sensor.min_m) / (1 << max_bits);
+  if (sensor.count_m > 0.0 && sensor.count_m < min_count_m) {
+    std::ostringstream message;
+    message << "must be 0 or at least the sensor's span over 2^" << max_bits << ", " << min_count_m
+            << " m";
+    section.wrong("count_m", message.str());
+  }
   section.finish();
   return sensor;
 }
@@ -64,7 +73,29 @@ ThermometerSettings read_thermometer(Section section) {
   return thermometer;
 }
 
-PowerSettings read_power(Section section, double resistance_Ohm, double step_s) {
+/// Refuses powers that a supply over this resistance cannot give, and too coarse ones.
+void check_power(Section& section, const PowerSettings& power, double resistance_Ohm) {
+  const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
+  std::ostringstream message;
+  if (power.max_W > full_scale_W) {
+    message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
+            << full_scale_W << " W";
+    return section.wrong("max_W", message.str());
+  }
+  if (power.pwm_steps == 0) return;
+  const double step_W = full_scale_W / power.pwm_steps;
+  if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) || power.max_W < step_W) {
+    message << "makes the power steps too coarse: one step is " << step_W
+            << " W, and no step lies within min_W to max_W";
+    section.wrong("pwm_bits", message.str());
+  } else if (const double duty = HeaterSettings{}.probe_duty; duty * power.pwm_steps < 1.0) {
+    message << "makes the power steps too coarse: a probe's duty, " << duty
+            << ", is less than one of " << power.pwm_steps << " steps";
+    section.wrong("pwm_bits", message.str());
+  }
+}
+
+PowerSettings read_power(Section section, double resistance_Ohm, double step_s, Hardware hardware) {
   PowerSettings power;
   power.max_W = section.number("max_W", power.max_W, {1e-3, 1e3});
   power.min_W = section.number("min_W", power.min_W, {0.0, 1e3});
@@ -72,21 +103,7 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   const auto pwm_bits = static_cast<int>(section.integer("pwm_bits", 0, 0, 24));
   power.pwm_steps = (1 << pwm_bits) - 1;
   power.supply_V = section.number("supply_V", power.supply_V, {0.5, 60.0});
-  const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
-  std::ostringstream message;
-  if (power.max_W > full_scale_W) {
-    message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
-            << full_scale_W << " W";
-    section.wrong("max_W", message.str());
-  } else if (power.pwm_steps > 0) {
-    const double step_W = full_scale_W / power.pwm_steps;
-    if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) ||
-        power.max_W < step_W) {
-      message << "makes the power steps too coarse: one step is " << step_W
-              << " W, and no step lies within min_W to max_W";
-      section.wrong("pwm_bits", message.str());
-    }
-  }
+  if (hardware == Hardware::scenarios) check_power(section, power, resistance_Ohm);
   power.error_feedback = section.flag("error_feedback", power.error_feedback);
   const double max_s = static_cast<double>(board::OutputDelay::max_ticks) * step_s;
   power.delay_s = section.number("delay_s", power.delay_s, {0.0, max_s});
@@ -204,7 +221,7 @@ void check_reach(Section& section, const Conditions& c) {
 }  // namespace
 
 Conditions read_conditions(const toml::table& document, const BelievedMuscles& believed,
-                           double step_s, Diagnostics& diagnostics) {
+                           double step_s, Hardware hardware, Diagnostics& diagnostics) {
   Section root(&document, "", diagnostics);
   Conditions c;
   c.muscle = believed.muscle;
@@ -221,7 +238,7 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
   if (c.antagonist() != nullptr) max_Ohm = std::max(max_Ohm, c.antagonist()->plant.resistance_Ohm);
   for (const PlantSettings& companion : c.companions)
     max_Ohm = std::max(max_Ohm, companion.resistance_Ohm);
-  c.power = read_power(root.section("power"), max_Ohm, step_s);
+  c.power = read_power(root.section("power"), max_Ohm, step_s, hardware);
   if (c.antagonist() != nullptr) {
     c.joint->antagonist->co_contraction_W =
         read_co_contraction_W(document, c.power.max_W, diagnostics);
@@ -246,7 +263,7 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
       c.reference.kind == ReferenceKind::power) {
     reference.wrong("kind", "needs [controller] kind = \"power\": a controller follows a position");
   }
-  check_reach(reference, c);
+  if (hardware == Hardware::scenarios) check_reach(reference, c);
   const bool follows = c.reference.kind != ReferenceKind::power;
   const double max_reference_m = std::max(c.reference.max(), -c.reference.min());
   refuse_misfit(controller, control::check_fit(c.controller, step_s,

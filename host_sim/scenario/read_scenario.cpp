@@ -181,15 +181,15 @@ KnownBefore known_before(const std::optional<board::Learned>& learned,
 }  // namespace
 
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const LearnedMuscles& learned) {
+                                  const LearnedMuscles& learned, Hardware hardware) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
-  return scenario_from(std::move(document), name, learned);
+  return scenario_from(std::move(document), name, learned, hardware);
 }
 
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const LearnedMuscles& learned) {
+                                 const LearnedMuscles& learned, Hardware hardware) {
   config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
@@ -200,7 +200,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   BelievedMuscles believed = configured;
   if (learned[0]) believed.muscle = learned[0]->muscle;
   if (learned[1]) believed.antagonist = learned[1]->muscle;
-  scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
+  scenario.start = read_conditions(document, believed, scenario.step_s(), hardware, diagnostics);
   const Conditions& start = scenario.start;
   scenario.known[0] = known_before(learned[0], configured.muscle, start.plant);
   scenario.known[1] =
@@ -223,7 +223,8 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     apply_changes(document, std::move(event->changes));
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
-      moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
+      moment.conditions =
+          read_conditions(document, believed, scenario.step_s(), hardware, diagnostics);
       // The default depends on the muscle, but the sensor stays the same.
       moment.conditions.position_sensor.min_m = scenario.start.position_sensor.min_m;
       // Another weight stretches the muscle by more: 0 stays at its rest under the first weight.
@@ -235,9 +236,10 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   return scenario;
 }
 
-ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned) {
+ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned,
+                                 Hardware hardware) {
   if (const auto text = builtin_scenario(path)) {
-    return parse_scenario(std::string(*text), path, learned);
+    return parse_scenario(std::string(*text), path, learned, hardware);
   }
   config::Diagnostics diagnostics(path);
   const bool is_name = path.find('.') == std::string::npos && path.find('/') == std::string::npos;
@@ -251,7 +253,7 @@ ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& 
   }
   const std::string text = config::read_text(path, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
-  return parse_scenario(text, path, learned);
+  return parse_scenario(text, path, learned, hardware);
 }
 
 }  // namespace supercoil::host_sim

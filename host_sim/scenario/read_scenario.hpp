@@ -15,13 +15,19 @@ namespace supercoil::host_sim {
 /// A scenario, or everything that is wrong with it.
 using ScenarioOrProblems = tl::expected<Scenario, Errors>;
 
+/// Whose power stage and position sensor a scenario is checked against: its own, or those of a
+/// board that use_board() puts in their place.
+enum class Hardware { scenarios, boards };
+
 /// path: a .toml file, or the name of a built-in scenario.
 /// learned: replaces [muscle] and [joint.antagonist_muscle].
-ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned = {});
+ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned = {},
+                                 Hardware hardware = Hardware::scenarios);
 
 /// The same from text; name: for messages.
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const LearnedMuscles& learned = {});
+                                  const LearnedMuscles& learned = {},
+                                  Hardware hardware = Hardware::scenarios);
 
 /// Lays one document over another, like an event over what was before it: a table that names its
 /// kind replaces the old one; other keys are merged into those that are there.

@@ -9,6 +9,7 @@
 #include "config/diagnostics.hpp"
 #include "config/section.hpp"
 #include "scenario/conditions.hpp"
+#include "scenario/read_scenario.hpp"
 #include "scenario/reference.hpp"
 #include "scenario/scenario.hpp"
 
@@ -62,6 +63,6 @@ BelievedMuscles read_muscles(const toml::table& document, config::Diagnostics& d
 
 /// All tables other than [simulation], [muscle] and [[event]]; also finds keys that no table has.
 Conditions read_conditions(const toml::table& document, const BelievedMuscles& believed,
-                           double step_s, config::Diagnostics& diagnostics);
+                           double step_s, Hardware hardware, config::Diagnostics& diagnostics);
 
 }  // namespace supercoil::host_sim

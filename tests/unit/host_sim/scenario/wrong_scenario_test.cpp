@@ -219,6 +219,24 @@ TEST(WrongScenario, PwmWithoutAStepInsideTheLimits) {
       "power.pwm_bits = 1");
 }
 
+TEST(WrongScenario, PwmWithoutAStepForAProbe) {
+  check_answer(
+      "s.toml:1: power.pwm_bits = 5: makes the power steps too coarse: a probe's duty, 0.02, is "
+      "less than one of 31 steps",
+      "power.pwm_bits = 5");
+  STRCMP_EQUAL("in order", problems("power.pwm_bits = 6").c_str());
+}
+
+TEST(WrongScenario, SensorWithMoreCountsThanAReadingHolds) {
+  check_answer("s.toml:1: sensor.position.resolution_bits = 31: must be 0 to 30",
+               "sensor.position.resolution_bits = 31");
+  check_answer(
+      "s.toml:1: sensor.position.count_m = 3e-11: must be 0 or at least the sensor's span over "
+      "2^30, 3.72529e-11 m",
+      "sensor.position.count_m = 3e-11");
+  STRCMP_EQUAL("in order", problems("sensor.position.resolution_bits = 30").c_str());
+}
+
 TEST(WrongScenario, KeyWithTensOfThousandsOfParts) {
   std::string text = "a";
   for (int i = 0; i < 40000; ++i)

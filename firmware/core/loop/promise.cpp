@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
+#include "supercoil/control/thermal/interval_observer.hpp"
+
+#include "board/known_heat.hpp"
 #include "modes/identify.hpp"
+#include "supervisor/proof.hpp"
 
 namespace supercoil {
 
@@ -33,6 +38,8 @@ constexpr double min_snr_without_dither = 20.0;
 constexpr double ringing_margin = 0.3;
 /// As in dither_for.
 constexpr double max_dither_m = 20e-6;
+/// About a step of the proof.
+constexpr double proof_step_s = 0.01;
 /// Used until identify has measured what the linear model leaves unexplained: four of five random
 /// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
 constexpr double default_unexplained_ratio = 0.015;
@@ -64,6 +71,39 @@ double amplitude_at(double period_s, double widest_period_s) {
   const double widest = std::numbers::sqrt3 / slower_than_fastest;
   const double quicker = widest * std::fmax(1.0, widest_period_s / period_s);
   return std::hypot(1.0, widest) / std::hypot(1.0, quicker);
+}
+
+/// Rms motion that dithers cause in the motion's last period, without what the feedback corrects:
+/// the proof as it runs on the linear muscle without noise.
+double dithered_m(const ChannelSettings& channel, const BoardSettings& board,
+                  const FirstMotion& motion) {
+  const ProofSettings settings = proof_settings(channel, board);
+  Proof proof(settings, channel.muscle, true, board.rate_Hz);
+  const std::int64_t ticks = std::max<std::int64_t>(1, std::llround(proof_step_s * board.rate_Hz));
+  const double step_s = static_cast<double>(ticks) * board.step_s();
+  ExpectedMotion followed(channel.muscle, step_s, settings.response_ratio);
+  ExpectedMotion dithered = followed;
+  control::BasicIntervalObserver<double> heat(
+      board::known_thermal_bounds(channel.thermal, channel.heat).bounds, step_s);
+  const double turn = 2.0 * std::numbers::pi / motion.period_s;
+  const double lead_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
+  const auto steps = std::llround(motion.end_s() / step_s);
+  const auto judged = std::llround(motion.settled_s() / step_s);
+  double square_sum_m2 = 0.0;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double angle = turn * step_s * static_cast<double>(i);
+    const double asked_m = motion.middle_m + load_m(channel) -
+                           motion.amplitude_m * (std::cos(angle) - turn * lead_s * std::sin(angle));
+    const double asked_W = std::max(0.0, asked_m / channel.muscle.dc_gain_m_per_W());
+    const double max_W = std::min(channel.limiter.max_W, proof.max_W());
+    const double power_W = std::clamp(proof.with_dither_W(asked_W, max_W), 0.0, max_W);
+    heat.step(settings.max_power_ratio * power_W);
+    const double off_m = dithered.step(power_W - asked_W);
+    if (i >= judged) square_sum_m2 += off_m * off_m;
+    proof.step(
+        {power_W, power_W - asked_W, ticks, true, followed.step(power_W), heat.max_K(), true, 0.0});
+  }
+  return std::sqrt(square_sum_m2 / static_cast<double>(steps - judged));
 }
 
 }  // namespace
@@ -119,16 +159,24 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   const double probe_W =
       channel.heater.probe_duty * supply_V * supply_V / channel.heater.cold_resistance_Ohm;
   const double below = std::clamp((middle_W - probe_W) / amplitude_W, -1.0, 1.0);
-  const double below_s = motion.period_s / std::numbers::pi * std::acos(below);
+  const double below_s =
+      below > -1.0 ? motion.period_s / std::numbers::pi * std::acos(below) : INFINITY;
   // In less time the power rises again, which measures the resistance before it is old.
-  if (below_s > channel.heater.probe_every_s)
-    p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
+  const double every_s = channel.heater.probe_every_s;
+  if (below_s > every_s) {
+    const double peak_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
+    // The rms of peaks that decay with the muscle's time constant.
+    p.probe_m = peak_m * std::min(1.0, std::sqrt(0.5 * tau_s / every_s));
+  }
 
   // If the motion itself shows too little, a dither tests whether the muscle still responds.
   const double fast_motion_m =
       motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
   if (channel.supervision.proof_of_response && fast_motion_m < min_snr_without_dither * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
+  // A quick muscle that may be quickly too hot is tested already where a larger motion turns.
+  if (channel.supervision.proof_of_response)
+    p.dither_m = std::max(p.dither_m, dithered_m(channel, board, motion));
 
   p.delay_m = motion.amplitude_m / std::numbers::sqrt2 * turn * channel.heater.delay_s *
               std::min(1.0, turn / bandwidth);

@@ -26,7 +26,7 @@ FirstMotion plan_first_motion(const Feasibility& feasibility, double unexplained
 struct Promise {
   double noise_m = 0.0;   ///< the sensor's own noise and counts, and what feedback makes of them
   double probe_m = 0.0;   ///< pulses that measure the resistance at low power
-  double dither_m = 0.0;  ///< dither that proves the response of a muscle that hardly moves
+  double dither_m = 0.0;  ///< dither that proves the response where the motion is too small
   double pwm_m = 0.0;     ///< rounding of the power to PWM steps
   double delay_m = 0.0;   ///< power that acts later than the motion needs it
   double unexplained_m = 0.0;  ///< motion that the linear model does not explain

@@ -106,20 +106,47 @@ TEST(Promise, ModelErrorScalesWithTheSizeOfTheMotion) {
 TEST(Promise, AProbeCountsOnlyWhereThePowerIsLowForLong) {
   DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
   motion.period_s = 60.0;
-  motion.middle_m = 0.6e-3;
-  motion.amplitude_m = 0.4e-3;
-  // Caused by 2 % of 13.2 V at 10 Ω for 50 ms, through a first-order lag of 1.82 s.
-  const double peak_m =
-      channel.muscle.dc_gain_m_per_W() * 0.02 * 13.2 * 13.2 / 10.0 * 0.05 / (0.162 / 0.089);
-  DOUBLES_EQUAL(peak_m, promised().probe_m, 1e-9);
+  motion.middle_m = 1.5e-3;
+  motion.amplitude_m = 1.4e-3;
+  // Caused by 2 % of 13.2 V at 10 Ω for 50 ms, through a first-order lag of 1.82 s, every 5 s.
+  const double tau_s = 0.162 / 0.089;
+  const double peak_m = channel.muscle.dc_gain_m_per_W() * 0.02 * 13.2 * 13.2 / 10.0 * 0.05 / tau_s;
+  DOUBLES_EQUAL(peak_m * std::sqrt(tau_s / 10.0), promised().probe_m, 1e-9);
   channel.heater.probe_every_s = 300.0;
   DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
+}
+
+TEST(Promise, AProbeCountsWhereThePowerIsAlwaysLow) {
+  motion.period_s = 2.0;
+  motion.middle_m = 0.6e-3;
+  motion.amplitude_m = 0.01e-3;
+  CHECK(promised().probe_m > 0.0);
 }
 
 TEST(Promise, ATooSmallMotionAddsADither) {
   DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
   motion.amplitude_m = 100e-6;
   DOUBLES_EQUAL(20e-6 / std::numbers::sqrt2, promised().dither_m, 1e-12);
+  channel.supervision.proof_of_response = false;
+  DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
+}
+
+TEST(Promise, AQuickMuscleIsDitheredWhereItsMotionTurns) {
+  board.rate_Hz = 100.0;
+  channel.muscle = {.thermal_mass_J_per_K = 0.0075,
+                    .heat_transfer_W_per_K = 0.0375,
+                    .stiffness_N_per_m = 11.25,
+                    .damping_Ns_per_m = 1.2,
+                    .moving_mass_kg = 0.05,
+                    .force_per_kelvin_N_per_K = 7e-4};
+  channel.thermal.bounds = {0.006, 0.011, 0.023, 0.079};
+  channel.limiter.max_W = 5.0;
+  channel.supervision.position_noise_rms_m = 1.7e-6;
+  channel.position.scaling.per_count = 6e-7;
+  motion = plan_first_motion(feasibility(channel, board), 0.0);
+  CHECK(motion.amplitude_m > 20.0 * 1.7e-6);
+  CHECK(promised().dither_m > 1e-6);
+  CHECK(promised().dither_m < 20e-6);
   channel.supervision.proof_of_response = false;
   DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
 }

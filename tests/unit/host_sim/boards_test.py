@@ -120,10 +120,12 @@ class Boards(ProgramCase):
 
     def test_the_air_has_a_sensor_if_the_boards_file_has_one(self):
         example = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
-        sensor = '[ambient.sensor]\ndevice = "i2c-1/1-004a"\ninput = "voltage1"\nbus = "i2c-1"\nC_per_count = 0.01\nerror_K = 3.0\n'
+        sensor = ('[ambient.sensor]\ndevice = "i2c-1/1-004a"\ninput = "voltage1"\nbus = "i2c-1"\n'
+                  "C_per_count = 0.01\nerror_K = 3.0\n")
         (self.path / "without.toml").write_text(example)
         (self.path / "with.toml").write_text(example.replace("\n[can]", f"\n{sensor}\n[can]", 1))
-        air = "simulation.duration_s = 0.1\noperator.action = 'none'\nambient = {air_C = 20.0, sensor_error_K = 1.5, sensor_offset_K = 0.5}\n"
+        air = ("simulation.duration_s = 0.1\noperator.action = 'none'\n"
+               "ambient = {air_C = 20.0, sensor_error_K = 1.5, sensor_offset_K = 0.5}\n")
         hottest_K = []
         for board in ("without", "with"):
             done = self.run_program("run", self.scenario(air), "--board", f"{board}.toml", "--out", "out", "--no-plot")

@@ -43,11 +43,13 @@ class ReferenceReport(ProgramCase):
         report = json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)
         self.assertEqual(f"reference: {report['reference']['above_ceiling']}\n", line)
         later = SHORT + "[[event]]\nat_s = 1.0\nplant.ceiling_m = 0.015\n"
-        self.assertIn("reference: from the event at 1 s on it goes up to 20 mm", self.run_program("run", self.scenario(later), "--check").stdout)
+        self.assertIn("reference: from the event at 1 s on it goes up to 20 mm",
+                      self.run_program("run", self.scenario(later), "--check").stdout)
         self.assertNotIn("ceiling", self.run_program("run", self.scenario(SHORT), "--check").stdout)
 
     def test_errors_of_small_muscles_have_three_digits(self):
-        small = (SHORT + "plant.force_per_kelvin_N_per_K = 2e-6\nsensor.position = {noise_rms_m = 1e-9, range_m = 1e-4}\n"
+        small = (SHORT + "plant.force_per_kelvin_N_per_K = 2e-6\n"
+                 "sensor.position = {noise_rms_m = 1e-9, range_m = 1e-4}\n"
                  "reference = {offset_m = 8e-6, amplitude_m = 4e-6}\n")
         output, summary = self.after(small)
         rms_um, max_um = 1e6 * summary["tracking_rms_m"], 1e6 * summary["tracking_max_m"]

@@ -77,19 +77,22 @@ class Compare(Batch, ProgramCase):
         for name, more in (("plain", ""), ("other", "controller.kind = 'pi'\nestimator.kind = 'none'\n")):
             (self.path / name).mkdir()
             (self.path / name / "brief.toml").write_text(event + more)
-            self.compare("--controllers", "pd_ff", "--disturbances", f"{name}/brief.toml", "--seeds", 1, "--no-plot", "--out", f"{name}/out")
+            self.compare("--controllers", "pd_ff", "--disturbances", f"{name}/brief.toml", "--seeds", 1, "--no-plot",
+                         "--out", f"{name}/out")
             rows.append(self.rows(f"{name}/out"))
         self.assertEqual(*rows)
 
     def test_steps_are_within_the_sine_of_the_file_which_may_be_a_joints(self):
         (self.path / "joint.toml").write_text("[joint]\n")
         # A sine of 5 mm at 0, which takes 20 s for 5 rad.
-        self.compare("--controllers", "pi", "--disturbances", "joint.toml:steps", "--seeds", 1, "--no-plot", "--out", "steps")
+        self.compare("--controllers", "pi", "--disturbances", "joint.toml:steps", "--seeds", 1, "--no-plot",
+                     "--out", "steps")
         row, = self.rows("steps")
         self.assertEqual(row["fault"], "")
         (self.path / "power.toml").write_text("reference.kind = 'steps'\n")
         refused = self.compare("--controllers", "pi", "--disturbances", "power.toml:steps", status=2)
-        self.assertIn("--disturbances power:steps: its [reference] is of kind steps, but :steps needs a sine", refused.stderr)
+        self.assertIn("--disturbances power:steps: its [reference] is of kind steps, but :steps needs a sine",
+                      refused.stderr)
 
     def test_a_files_name_and_folder_may_contain_a_plus(self):
         (self.path / "a+b").mkdir()

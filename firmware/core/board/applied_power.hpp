@@ -6,6 +6,7 @@
 
 namespace supercoil::board {
 
+/// The power that a duty gives for a tick.
 struct AppliedPower {
   double power_W = 0.0;
   double duty = 0.0;

@@ -39,6 +39,7 @@ struct KnownThermalBounds {
   std::size_t count = 0;
 
   std::span<const control::TransferSpan> known() const { return {spans.data(), count}; }
+  /// By the bounds and what each span tells about this rise; never outside of the bounds.
   double min_heat_transfer_W_per_K(double rise_K) const {
     double min_W_per_K = bounds.min_transfer_W_per_K;
     for (const control::TransferSpan& span : known()) {
@@ -47,6 +48,7 @@ struct KnownThermalBounds {
     }
     return min_W_per_K;
   }
+  /// Likewise.
   double max_heat_transfer_W_per_K(double rise_K) const {
     double max_W_per_K = bounds.max_transfer_W_per_K;
     for (const control::TransferSpan& span : known())

@@ -84,6 +84,7 @@ struct StoredValues {
   template <class Settings>
   static StoredValues difference(const Settings& now, Settings configured);
   template <class Settings>
+  /// Puts them over configured settings; a value that the kind of law does not have is ignored.
   void apply_to(Settings& configured) const;
   friend bool operator==(const StoredValues&, const StoredValues&) = default;
 };
@@ -110,6 +111,7 @@ void StoredValues::apply_to(Settings& configured) const {
   }
 }
 
+/// What was tuned and chosen on the running board, and stored for the next start.
 struct StoredTuning {
   /// By place; controllers and estimators after these cannot be tuned.
   std::array<StoredValues, 4> controllers;

@@ -27,6 +27,7 @@ class MeterComparison {
     double supply_step_V = 0.0;  ///< of a count
     double current_step_A = 0.0;
   };
+  /// Which of the channel's two senses the meter is compared with.
   enum Sense : std::uint8_t { supply, current };
 
   static constexpr double min_gain = 0.7;

@@ -24,6 +24,7 @@ class PowerBounds {
     double min_power_ratio = 1.0;
     double max_power_ratio = 1.0;
   };
+  /// In the unit of what it bounds; min <= max.
   struct Interval {
     double min;
     double max;
@@ -31,6 +32,7 @@ class PowerBounds {
 
   explicit PowerBounds(const Settings& settings) : settings_(settings) {}
 
+  /// A comparison with a meter; one with error_ratio 0 counts as none.
   void set(const board::SenseComparison& senses) {
     error_ratio_ = senses.error_ratio;
     compared_ = senses.compared();

@@ -15,6 +15,7 @@ class PowerStage {
     int steps = 4095;            ///< of the PWM's period, ≥ 1
     bool error_feedback = true;  ///< what rounding took from one duty is added to the next
   };
+  /// One tick's PWM step, and the power that it gives.
   struct Output {
     int step = 0;
     double duty = 0.0;

@@ -16,6 +16,7 @@ class Probe {
   void stop() { running_ = false; }
   bool running() const { return running_; }
 
+  /// A tick's result; `ended` is true in the last tick of the pulse.
   struct Result {
     bool ended = false;
     double resistance_Ohm = 0.0;  ///< 0: no current flowed

@@ -60,6 +60,7 @@ class Axis {
        const board::ChannelDevices& devices, const ChannelState& state);
 
   // In a tick, in this order.
+  /// Takes the newest readings of the position and the current; one that is too old is not present.
   void sample(hal::Time now);
   /// In a joint: what the other muscle has done since the last tick.
   void oppose(const Opposition& other) {
@@ -170,6 +171,7 @@ class Axis {
   double published_muscle(std::size_t quantity) const { return published_muscle_.get(quantity); }
   /// Of the trajectory; from any thread.
   PlaybackStatus playback() const { return playback_.status(); }
+  /// As Playback::align; from one other thread.
   void align_playback(double ahead_s) { playback_.align(ahead_s); }
   /// As Channel::take_learned_update.
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }

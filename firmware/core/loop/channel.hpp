@@ -26,6 +26,8 @@ struct BoardTick {
   const board::Measured* air = nullptr;  ///< in °C; null: no sensor
 };
 
+/// Axis, supervisor and commands of one muscle. The board's loop calls it in its own thread; what
+/// other threads may call says so.
 class Channel {
  public:
   /// index: from 0. Devices outlive the channel. Allocates; ticks do not.
@@ -42,14 +44,19 @@ class Channel {
   Axis& axis() { return axis_; }
 
   // The stages of a tick, in this order.
+  /// Takes the newest readings, and forgets the reset command of the last tick.
   void sample(hal::Time now);
+  /// Obeys or refuses a command. The supervisor counts those that the channel's state refuses.
   Reply answer(const Command& command, const BoardTick& board);
+  /// Runs every detector, once for each period that passed. A fault of the channel or of the board
+  /// makes the channel safe here, before any new power is set.
   void supervise(const BoardTick& board);
   void estimate() { axis_.estimate(); }
   void control();
   /// In a joint or bundle, Joint::limit() or Bundle::limit() does this.
   void limit() { axis_.limit(axis_.demanded_W()); }
   void drive() { axis_.drive(); }
+  /// The tick's snapshot. board_verdict: for the margins of the board's own detectors.
   const Snapshot& publish(const BoardTick& board, const Verdict& board_verdict);
 
   /// The only way to make the channel safe, with all others of its joint or bundle: duty 0 and

@@ -17,6 +17,8 @@
 
 namespace supercoil {
 
+/// What a command asks of a channel. Numbers up to that of store are opcodes on CAN and must not
+/// change.
 enum class Verb : std::uint8_t {
   none = 0,
   arm = 1,               ///< probes the heater, then armed if the probe succeeded
@@ -88,6 +90,7 @@ enum class Source : std::uint8_t { local, can };
 /// CAN carries a value as float, so that a limit may arrive as slightly more than it is.
 inline constexpr double float_rounding = 1.0 + std::numeric_limits<float>::epsilon();
 
+/// A command, from whichever source, on its way to the loop.
 struct Command {
   std::uint8_t channel = 0;  ///< from 0
   Verb verb = Verb::none;

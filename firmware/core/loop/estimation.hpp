@@ -12,12 +12,14 @@
 
 namespace supercoil {
 
+/// All estimators of a muscle's configuration; the chosen one is fed and gives the estimate.
 class Estimation {
  public:
   /// At least one estimator. Allocates; later calls do not.
   Estimation(const std::vector<control::EstimatorSettings>& estimators, double step_s);
 
   std::size_t estimators() const { return estimators_.size(); }
+  /// By its place in the configuration, which must exist; it starts afresh.
   void choose(std::size_t place);
   /// Swaps the estimator at this place with another; if it is the chosen one, it restarts.
   void exchange(std::size_t place, control::Estimator& estimator);

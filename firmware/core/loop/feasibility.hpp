@@ -48,6 +48,7 @@ inline double load_m(const ChannelSettings& channel) {
   return channel.simulated.load_N / channel.muscle.stiffness_N_per_m;
 }
 
+/// channel: of this board. Allocates: not for a tick.
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
 /// The peak of power at the beginning of a step by 1 m through the reference model.

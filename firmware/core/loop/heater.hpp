@@ -24,6 +24,7 @@ namespace supercoil {
 /// Gains and remaining error of the senses, from the loop to other threads.
 class PublishedSenses {
  public:
+  /// In the loop's thread.
   void set(const board::SenseComparison& senses) {
     supply_.store(senses.supply_gain, std::memory_order_relaxed);
     current_.store(senses.current_gain, std::memory_order_relaxed);
@@ -40,6 +41,7 @@ class PublishedSenses {
   std::atomic<double> error_{0.0};
 };
 
+/// Measures a heater, bounds the temperature that its power causes, and limits and sets that power.
 class Heater {
  public:
   /// Devices outlive the heater.
@@ -47,6 +49,7 @@ class Heater {
          const board::ChannelDevices& devices);
 
   // In a tick, in this order.
+  /// Takes the newest current, corrected by the comparison with a meter.
   void sample(hal::Time now);
   /// Updates the muscle's temperature by the power that acted since the last tick, as set and as
   /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
@@ -74,10 +77,13 @@ class Heater {
   void apply_comparison(const board::SenseComparison& senses, double resistance_scale);
   /// Applies what was learned of the muscle's heat.
   void set_thermal_facts(const board::ThermalFacts& facts);
+  /// The resistance that calibrate found. Temperatures by resistance and the power's bounds use it.
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
   /// Takes the muscle's thermal pole from a trusted estimate.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
+  /// As Heat::set_muscle().
   void set_muscle(const control::PhysicalParameters& muscle) { heat_.set_muscle(muscle); }
+  /// Of the limiter; between ticks only.
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
   /// From any thread. Limits the power to max_W and the configured maximum.
   void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }

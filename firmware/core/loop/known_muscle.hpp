@@ -63,6 +63,7 @@ enum KnownPlace : std::uint8_t {
   known_configured_limits,                                ///< the first of two
   known_configured_bounds = known_configured_limits + 2,  ///< the first of five
 };
+/// A value for each of known_quantities, in their order; NaN: not known.
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
 /// From the board's file; the set points also account for its joint.
@@ -90,6 +91,7 @@ inline ConfiguredMuscle configured_muscle(const ChannelSettings& c, double min_s
           c.thermal.bounds};
 }
 
+/// Writes the joint's lever, or NaN for a muscle that turns no joint.
 inline void set_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   const control::Lever& lever = joint.lever;
   std::fill(known.begin() + known_lever_first, known.begin() + known_bundle_leader_node_offset,
@@ -122,6 +124,7 @@ inline PlaceInJoint joint_from(const KnownMuscle& known) {
   return joint;
 }
 
+/// m and c: in use now. Deviations, an unexplained_ratio or a date of 0 are not known: NaN.
 inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const board::Calibration& c,
                                 double response_ratio, double unexplained_ratio,
                                 const board::Identification& identification,
@@ -171,6 +174,7 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
 /// two different moments.
 class PublishedMuscle {
  public:
+  /// In the loop's thread.
   void set(const KnownMuscle& known) {
     for (std::size_t i = 0; i < values_.size(); ++i)
       values_[i].store(known[i], std::memory_order_relaxed);

@@ -57,6 +57,8 @@ struct LoopTiming {
 /// A stalled disk or a busy CPU may delay the recorder by this much before a row is lost.
 inline constexpr double row_ring_s = 1.0;
 
+/// A board's channels, joints and bundles, and their supervision. tick() runs in the real-time
+/// thread; commands, answers and rows pass through lock-free rings.
 class Loop {
  public:
   /// settings must pass check(); devices outlive the loop, and have as many channels. Allocates;
@@ -71,6 +73,7 @@ class Loop {
   bool send(const Command& command) {
     return is_tuning(command.verb) ? send_tuning(command) : commands_.push(command);
   }
+  /// The next answer, in the thread that sends. False: there is none.
   bool answer(Answer& answer) {
     if (!answers_.pop(answer)) return false;
     if (is_tuning(answer.command.verb)) conclude_tuning(answer);
@@ -78,13 +81,16 @@ class Loop {
   }
   /// A frame for this channel was damaged; from one other thread, like take().
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
+  /// The next row, one per channel and tick; from one other thread. False: there is none.
   bool take(Row& row) { return rows_.pop(row); }
   Health& health() { return health_; }
   LoopTiming& timing() { return timing_; }
 
   /// In the loop's thread, or while the loop is stopped.
   std::size_t channels() const { return channels_.size(); }
+  /// i: from 0. As channels(), unless the member of Channel that is called says otherwise.
   Channel& channel(std::size_t i) { return *channels_[i]; }
+  /// Likewise.
   const Channel& channel(std::size_t i) const { return *channels_[i]; }
   Fault board_fault() const { return board_fault_; }
   const BoardSupervisor& supervisor() const { return supervisor_; }

@@ -7,6 +7,7 @@
 
 namespace supercoil {
 
+/// When to wake next.
 struct NextTick {
   hal::Time wake;            ///< absolute; always after `now`, and on the grid of periods
   std::int64_t skipped = 0;  ///< whole periods that are left out; 0 when the tick was in time

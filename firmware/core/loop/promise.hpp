@@ -14,6 +14,7 @@ struct FirstMotion {
   double amplitude_m = 0.0;
   double period_s = 0.0;
 
+  /// The reference in m, time_s after the start; it begins at the lowest point.
   double at(double time_s) const;
   /// When the muscle is up and its controller knows the motion; one period is judged from here.
   double settled_s() const { return 2.0 * period_s; }

@@ -59,6 +59,7 @@ struct Row {
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 
+/// In the layout of recordings.
 Row row_of(const Snapshot& snapshot);
 
 }  // namespace supercoil

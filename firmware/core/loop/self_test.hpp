@@ -13,11 +13,13 @@ class SelfTest {
     double settle_s = 0.05;  ///< at least five time constants of the current sense
     double pulse_s = 0.03;   ///< at least four of them
   };
+  /// How the board's lines and duties must be set in this tick.
   struct Lines {
     bool heartbeat = false;
     bool enable = false;
     bool pulse = false;  ///< the probe's duty is on
   };
+  /// The last two name the cut that failed to stop the current.
   enum class Outcome { waiting, running, passed, pump_does_not_open, enable_does_not_cut };
 
   SelfTest(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}

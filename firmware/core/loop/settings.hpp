@@ -69,12 +69,14 @@ struct PlaceInJoint {
 
   /// The joint's angle. position_m: contraction of this muscle.
   double angle_rad(double position_m) const { return lever.angle_rad(direction * position_m); }
+  /// Inverts angle_rad().
   double position_m(double angle_rad) const { return direction * lever.arc_m(angle_rad); }
   /// reading_m: from a sensor of the angle: the angle times the lever at 0, with the muscle's sign.
   double position_of_reading_m(double reading_m) const {
     const bool as_read = direction == 0 || lever.is_constant();
     return as_read ? reading_m : position_m(direction * reading_m / lever.zero_radius_m());
   }
+  /// Inverts position_of_reading_m().
   double reading_of_position_m(double position_m) const {
     const bool as_read = direction == 0 || lever.is_constant();
     return as_read ? position_m : direction * angle_rad(position_m) * lever.zero_radius_m();
@@ -96,6 +98,7 @@ struct SimulatedTruth {
   bool linear = false;  ///< the linear model explains everything
 };
 
+/// Everything that a channel needs to know of its muscle, heater, limits and control.
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   std::optional<control::PhysicalParameters> configured_muscle;  ///< empty: same as muscle
@@ -176,6 +179,7 @@ struct BundleSettings {
   std::size_t leader() const { return channels.front(); }
 };
 
+/// What Loop runs; must pass check().
 struct BoardSettings {
   double rate_Hz = 1000.0;
   InputSettings supply;
@@ -222,6 +226,7 @@ std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& 
 /// Settings of the channel's proof of response.
 ProofSettings proof_settings(const ChannelSettings& channel, const BoardSettings& board);
 
+/// Why settings cannot be used.
 struct SettingsProblem {
   std::string key;  ///< of [board] or of the controller; empty: of the board as a whole
   std::string message;

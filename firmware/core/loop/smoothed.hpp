@@ -8,6 +8,7 @@ class Smoothed {
  public:
   Smoothed(double time_constant_s, double step_s) : gain_(step_s / (time_constant_s + step_s)) {}
 
+  /// One tick.
   void step(double value) {
     once_ += gain_ * (value - once_);
     twice_ += gain_ * (once_ - twice_);

@@ -12,6 +12,7 @@
 
 namespace supercoil {
 
+/// All controllers of a muscle's configuration; the chosen one follows the reference.
 class Tracking {
  public:
   /// At least one controller. Allocates; later calls do not.

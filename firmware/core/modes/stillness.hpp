@@ -15,6 +15,7 @@ class Stillness {
   /// mean_s: > 0. count_m: the sensor's resolution, below which no motion is seen.
   Stillness(double mean_s, double count_m) : mean_s_(mean_s), count_m_(count_m) {}
 
+  /// One tick without power. hottest_K: the hottest that the muscle may be above the air, > 0.
   void step(double hottest_K, double position_m, double step_s) {
     if (count_ == 0) shift_m_ = position_m;
     const double shifted_m = position_m - shift_m_;

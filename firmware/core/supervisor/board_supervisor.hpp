@@ -29,6 +29,7 @@ struct BoardInputs {
   int self_test_cut = 1;  ///< the cut that failed: 1 the charge pump, 2 an enable line
 };
 
+/// All detectors that concern the whole board.
 class BoardSupervisor {
  public:
   BoardSupervisor(const BoardSupervisor&) = delete;

@@ -13,6 +13,7 @@
 
 namespace supercoil {
 
+/// All detectors of one channel.
 class ChannelSupervisor {
  public:
   ChannelSupervisor(const ChannelSupervisor&) = delete;

@@ -59,6 +59,7 @@ struct Dither {
   double sign(int place) const {
     return (place + half_steps / 2) / half_steps % 2 == 0 ? 1.0 : -1.0;
   }
+  /// Power to add at this place; see sign().
   double step_W(int place) const { return sign(place) * amplitude_W; }
 };
 

@@ -59,6 +59,7 @@ enum class Scope : std::uint8_t {
   board,    ///< every channel likewise, and the heartbeat stops: the charge pump opens the supply
 };
 
+/// What a fault's number stands for.
 struct FaultInfo {
   Fault fault;
   std::string_view name;  ///< as in configurations, logs and the file's name under docs/faults

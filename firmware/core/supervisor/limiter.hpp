@@ -26,6 +26,7 @@ constexpr std::string_view name(LimitedBy limit) {
   return limit_names[static_cast<std::size_t>(limit)];
 }
 
+/// Limits of a channel's power; derate_from_C < derate_to_C.
 struct LimiterSettings {
   double max_W = 4.5;
   double min_W = 0.0;            ///< while active; more than 0 is for experiments only
@@ -34,8 +35,10 @@ struct LimiterSettings {
   double derate_to_C = 160.0;    ///< none from here on (the trip temperature); nylon softens above
 };
 
+/// Keeps the demanded power within its range, its slew rate, and what the temperature allows.
 class Limiter {
  public:
+  /// The power to give, and what made it differ from the demand.
   struct Result {
     double power_W = 0.0;
     LimitedBy by = LimitedBy::nothing;
@@ -46,6 +49,7 @@ class Limiter {
 
   /// temperature_C: the hottest that the muscle may be; NaN gives no power.
   Result step(double demanded_W, double temperature_C);
+  /// Instead of the configured range; set_cap() and set_unproven() hold as well.
   void set_range(double min_W, double max_W) {
     settings_.min_W = min_W;
     settings_.max_W = max_W;

@@ -25,7 +25,7 @@ struct ProofSettings {
   double response_ratio = 1.0;
 };
 
-/// What a proof can do for one muscle; also used by --check.
+/// What a proof can do for one muscle; also used by `--check`.
 struct ProofPlan {
   Dither dither;
   double safe_W = 0.0;  ///< held indefinitely at a quarter of min cooling, stays below derating
@@ -35,6 +35,8 @@ struct ProofPlan {
   /// Computes both powers for air warmer_K above the warmest configured, with the same dither.
   void adjust_for_air(const ProofSettings& settings, double warmer_K);
 };
+/// Chooses a dither that, if possible, is decided before the muscle could overheat. rate_Hz: of
+/// ticks.
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
 
@@ -66,6 +68,7 @@ class Proof {
   Proof(const ProofSettings& settings, const control::PhysicalParameters& muscle, bool known,
         double rate_Hz);
 
+  /// One tick.
   void step(const Input& in);
   /// The muscle is a different one from now on. response_ratio: as in ProofSettings.
   void learn(const control::PhysicalParameters& muscle, double response_ratio);

@@ -60,6 +60,7 @@ struct ChannelSupervision {
   double saturated_s = 120.0;  ///< limited without a gap for this long: the controller is lost
 };
 
+/// Thresholds of the detectors that concern the whole board.
 struct BoardSupervision {
   double min_supply_V = 10.8;
   double max_supply_V = 13.2;

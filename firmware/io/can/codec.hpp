@@ -27,6 +27,7 @@ class Encoder {
     frame_.id = id_of(message, node);
     frame_.length = message.length;
   }
+  /// In the signal's unit; see put().
   Encoder& set(SignalOf<message> signal, double value) {
     put(frame_, signal.info(), value);
     return *this;
@@ -49,6 +50,7 @@ template <const MessageInfo& message>
 class Reader {
  public:
   explicit Reader(const hal::CanFrame& frame) : frame_(&frame) {}
+  /// In the signal's unit; NaN: not available. Number: an integer only if it is always available.
   template <class Number = double>
   Number get(SignalOf<message> signal) const {
     return static_cast<Number>(can::get(*frame_, signal.info()));
@@ -61,6 +63,7 @@ class Reader {
 /// More than any message has; decode() checks it.
 inline constexpr std::size_t max_signals = 20;
 
+/// A frame whose message was not known beforehand.
 struct Decoded {
   const MessageInfo* message;
   Node node;

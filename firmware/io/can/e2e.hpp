@@ -21,6 +21,7 @@ inline auto unfinished_crc(const hal::CanFrame& frame) {
   crc.process_byte(static_cast<std::uint8_t>(frame.id));
   return crc;
 }
+/// For a frame that carries its session, or needs none.
 inline std::uint8_t crc(const hal::CanFrame& frame) {
   return unfinished_crc(frame).checksum();
 }

@@ -9,6 +9,7 @@
 
 namespace supercoil::can {
 
+/// The name of one raw value of a signal.
 struct ValueName {
   std::int64_t raw;
   std::string_view name;
@@ -41,6 +42,7 @@ constexpr int significant_digits(const SignalInfo& signal) {
   return signal.raw == Raw::floating ? 9 : 15;
 }
 
+/// A message as the DBC has it, for every node that sends or receives it.
 struct MessageInfo {
   std::string_view name;
   std::uint16_t base;   ///< identifier less node

@@ -15,6 +15,7 @@ namespace supercoil::can {
 using Node = std::uint8_t;
 inline constexpr int max_nodes = 63;
 
+/// The identifier of this message from or to this node.
 constexpr std::uint16_t id_of(const MessageInfo& message, Node node) {
   return static_cast<std::uint16_t>(message.base + node);
 }

@@ -15,6 +15,7 @@ namespace supercoil::can_client {
 
 /// Identifiers of the frames with which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
+/// The node's answer to a read or write of a setting.
 std::uint16_t setting_id(std::uint8_t node);
 /// Sent by a node after an answer that refuses a value.
 std::uint16_t refused_value_id(std::uint8_t node);
@@ -32,6 +33,7 @@ hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
 
 /// Asks for one quantity of a node's muscle, a place in known_quantities; needs no lease.
 hal::CanFrame muscle_read(std::uint8_t node, std::uint8_t quantity);
+/// The node's answer to muscle_read().
 std::uint16_t muscle_id(std::uint8_t node);
 /// NaN: not known. Empty: the frame does not answer this read.
 std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
@@ -44,6 +46,7 @@ struct TunedPlace {
   std::uint8_t tunable;  ///< place in control::tunables()
   TuningSet set;
 };
+/// A node's answer about one value of a controller or estimator.
 struct TunedValue {
   Refusal refusal;
   double value;          ///< that holds now; NaN: none
@@ -51,6 +54,7 @@ struct TunedValue {
 };
 /// Asks for one value; needs no lease.
 hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place);
+/// The node's answer to tuning_read() and tuning_write().
 std::uint16_t tuning_id(std::uint8_t node);
 /// Empty: the frame is not an intact answer about this value.
 std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& place,
@@ -73,6 +77,7 @@ struct Played {
   std::uint8_t room;  ///< number of further knots that fit
   double buffered_s;
 };
+/// The node's answers to knots and starts, and its reports when the state of playback changes.
 std::uint16_t trajectory_id(std::uint8_t node);
 /// For all nodes of the bus; needs no lease.
 hal::CanFrame sync(std::uint8_t number, double master_time_s);
@@ -112,6 +117,7 @@ class Master {
   /// Empty: no intact answer to this master's last frame.
   std::optional<Played> receive_played(const hal::CanFrame& frame);
 
+  /// A node's answer about one of its settings.
   struct Setting {
     std::uint8_t setting;
     Refusal refusal;
@@ -120,6 +126,7 @@ class Master {
   /// Empty: no intact answer to this master's last write, or to anybody's read.
   std::optional<Setting> receive_setting(const hal::CanFrame& frame, bool of_write);
 
+  /// A node's answer to a command, claim or release.
   struct Acknowledged {
     std::uint8_t opcode;  ///< of the answered frame
     Refusal refusal;

@@ -14,6 +14,7 @@ namespace supercoil::can_client {
 /// than any of the protocol's.
 class ElementReader {
  public:
+  /// The next bytes of the stream, split anywhere.
   void put(std::string_view bytes);
   /// The text between < and >, trimmed of spaces; empty: the next element is not complete yet.
   std::optional<std::string> take();
@@ -26,10 +27,12 @@ class ElementReader {
 /// "< send 123 2 AA 0 >", and back from an element of ElementReader. Empty: another element, or not
 /// a classical frame with an 11-bit identifier.
 std::string send_text(const hal::CanFrame& frame);
+/// Inverts send_text(). Empty: another element, or not a classical frame with an 11-bit identifier.
 std::optional<hal::CanFrame> parse_send(std::string_view element);
 
 /// "< frame 123 23.424242 AA00 >". at: since 1970, or since the server's own start of time.
 std::string frame_text(const hal::CanFrame& frame, hal::Time at);
+/// Inverts frame_text(), with `at` as the frame's `received`. Empty: as for parse_send().
 std::optional<hal::CanFrame> parse_frame(std::string_view element);
 
 }  // namespace supercoil::can_client

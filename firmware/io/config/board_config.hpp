@@ -14,6 +14,7 @@
 
 namespace supercoil::config {
 
+/// Default temperature limits of a channel: for nylon, or for a muscle worn on the skin.
 enum class Preset { nylon, skin };
 
 /// Describes a channel; the loop does not need it.
@@ -27,12 +28,14 @@ struct ChannelLabel {
   std::optional<Bundle> bundle;  ///< empty: one muscle
 };
 
+/// Describes a joint; the loop does not need it.
 struct JointLabel {
   std::string name;
   std::optional<double> max_pull_N{};  ///< that one muscle bears; empty: not configured
   double pretension_N = 0.0;           ///< each muscle's pull when both are cold, at the angle 0
 };
 
+/// A board.toml that was read without a mistake.
 struct BoardConfig {
   std::string name;
   std::uint32_t crc32 = 0;  ///< of the file's content, as for a scenario

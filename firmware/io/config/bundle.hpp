@@ -5,6 +5,7 @@
 
 namespace supercoil::config {
 
+/// How a bundle's muscles are connected to their one heater output.
 enum class Wiring { series, parallel };
 
 /// To the loop, a bundle is one muscle.

@@ -78,6 +78,7 @@ struct Memory {
   std::size_t loop = 0;      ///< the loop with its channels, controllers and estimators
   std::size_t total() const { return ring + recorder + loop; }
 };
+/// By the sizes of the types and the number of channels; nothing is allocated.
 Memory memory_of(const BoardSettings& settings);
 
 /// "GPIO17 of pinctrl-bcm2711".

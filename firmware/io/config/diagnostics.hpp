@@ -13,6 +13,8 @@ class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
 
+  /// line: 0 when the mistake has none. key: with its table. value: as written. of_default: the key
+  /// is absent, and its default does not fit.
   void add(int line, std::string key, std::string message, std::string value = {},
            bool of_default = false) {
     problems_.push_back(

@@ -11,15 +11,19 @@
 
 namespace supercoil::config {
 
+/// One line for each finding, however many channels share it.
 class Findings {
  public:
   /// Findings that are added from now on concern this channel, from 1.
   void enter(std::size_t channel) { channel_ = channel; }
 
+  /// About the channel of enter(): "FAULT: reason".
   void add(Fault fault, const std::string& reason) { add(name(fault), reason); }
+  /// Likewise: "what: reason".
   void add(std::string_view what, const std::string& reason) {
     add(std::string(what) + ": " + reason);
   }
+  /// Likewise; the same text of another channel joins its line.
   void add(const std::string& text) {
     const auto found = std::ranges::find(findings_, text, &Finding::text);
     if (found == findings_.end()) {

@@ -16,6 +16,7 @@ void read_supply(Section section, WiringReader& reader, BoardConfig& config);
 /// [ambient] with [ambient.sensor]: bounds of the air around the muscles, and its sensor.
 board::AirSettings read_ambient(Section section, WiringReader& reader, BoardConfig& config);
 
+/// When commands to a channel expire, and how many may be damaged or refused in a row.
 struct CommandRules {
   double timeout_s;
   int damaged_in_a_row;

@@ -22,6 +22,7 @@ struct BoardContext {
   bool bundle_is_wrong;  ///< position
 };
 
+/// A channel as its table describes it.
 struct ReadChannel {
   ChannelSettings settings;
   ChannelWiring wiring;

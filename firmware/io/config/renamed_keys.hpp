@@ -7,6 +7,7 @@
 
 namespace supercoil::config {
 
+/// A key that was renamed within its table.
 struct RenamedKey {
   std::string_view table;  ///< the last tables of its path; empty at the top of a file
   std::string_view old_key;

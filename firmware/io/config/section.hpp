@@ -37,10 +37,14 @@ class Section {
   /// table by table. Lists are not merged.
   Section over(const toml::table* under, std::string under_path) const;
 
+  /// A float or an integer.
   double number(std::string_view key, double fallback, Range range);
+  /// min and max: inclusive.
   std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t min,
                        std::int64_t max);
+  /// true or false; a number is refused.
   bool flag(std::string_view key, bool fallback);
+  /// Any string, also an empty one.
   std::string text(std::string_view key, std::string_view fallback);
   /// Between least and most numbers, each in range.
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range range,
@@ -66,9 +70,12 @@ class Section {
   /// Like those above, for keys without a default. NaN, min or empty if the key is absent or
   /// wrong.
   double required_number(std::string_view key, Range range);
+  /// As numbers().
   std::vector<double> required_numbers(std::string_view key, Range range, std::size_t min_count,
                                        std::size_t max_count);
+  /// As integer().
   std::int64_t required_integer(std::string_view key, std::int64_t min, std::int64_t max);
+  /// As text(), but an empty string is a mistake.
   std::string required_text(std::string_view key);
 
   /// Keys that are read elsewhere.
@@ -77,6 +84,7 @@ class Section {
       add_known(key);
   }
 
+  /// In this table or in the one laid under it. Does not count as reading the key.
   bool has(std::string_view key) const { return lookup(key).node != nullptr; }
   /// Whether the table exists, or one is laid under it.
   bool given() const { return table_ != nullptr || under_ != nullptr; }

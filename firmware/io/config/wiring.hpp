@@ -52,6 +52,7 @@ struct ConverterAddress {
   std::optional<Capture> capture;  ///< the same for all inputs of a device; then it is direct
 };
 
+/// Decides how many bits a byte takes on the bus.
 enum class BusKind { i2c, spi };
 
 /// A bus has a thread of its own that serves every device on it once a tick.
@@ -62,11 +63,13 @@ struct BusAddress {
   double overhead_s = 20e-6;  ///< of a transaction, besides its bits: the kernel's and the driver's
 };
 
+/// The watchdog that resets the board if it is not fed for timeout_s.
 struct WatchdogAddress {
   std::string device;
   double timeout_s = 5.0;
 };
 
+/// What one channel is wired to.
 struct ChannelWiring {
   LineAddress enable;
   PwmAddress pwm;
@@ -76,6 +79,7 @@ struct ChannelWiring {
   std::optional<std::size_t> position_of;
 };
 
+/// What a board is wired to; a part that is empty is not fitted.
 struct BoardWiring {
   LineAddress heartbeat;
   LineAddress stop_circuit;

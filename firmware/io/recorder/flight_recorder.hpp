@@ -15,6 +15,7 @@
 
 namespace supercoil::recorder {
 
+/// How long recordings are, and how many are kept.
 struct RecorderSettings {
   double before_s = 10.0;           ///< how much of a recording lies before the fault,
   double after_s = 1.0;             ///< and how much after it

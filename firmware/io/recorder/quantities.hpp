@@ -11,6 +11,7 @@
 
 namespace supercoil::recorder {
 
+/// A quantity of a row, as a number.
 struct Quantity {
   std::string_view name;     ///< with its unit
   double (*of)(const Row&);  ///< NaN: not available
@@ -18,14 +19,17 @@ struct Quantity {
   std::string (*word)(std::uint8_t number) = nullptr;
 };
 
+/// member: a pointer to a number in Row.
 template <auto member>
 constexpr double value_of(const Row& row) {
   return row.*member;
 }
+/// i: from 0 to 3.
 template <std::size_t i>
 constexpr double theta_of(const Row& row) {
   return row.theta[i];
 }
+/// 1 if the flag is set, else 0.
 template <RowFlag flag>
 constexpr double flag_of(const Row& row) {
   return (row.flags & flag) != 0 ? 1.0 : 0.0;

@@ -36,6 +36,7 @@ struct Header {
   bool operator==(const Header&) const = default;
 };
 
+/// A file's rows, in the order in which they were recorded.
 struct Recording {
   Header header;
   std::vector<Row> rows;
@@ -55,6 +56,7 @@ struct Recording {
 /// program letters, digits, '.' and '+', at most 40.
 std::string encode(const Header& header);
 
+/// What decode() does with a damaged file.
 enum class Damaged { refuse, read };
 
 /// The error says what is wrong: empty, not a recording, another format, another row size, cut off,

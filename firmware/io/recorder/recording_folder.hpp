@@ -22,12 +22,14 @@ Result<std::vector<std::string>> list_folder(const std::string& folder);
 /// The number of "flight-12.scfr"; 0 for any other name.
 std::uint64_t number_of(std::string_view name);
 
+/// Where recordings are kept, as flight-1.scfr and so on.
 class RecordingFolder {
  public:
   /// max_files: recordings that may exist after one was written, 1 or more.
   RecordingFolder(std::string folder, std::size_t max_files, ListFolder list, storage::Files& files)
       : folder_(std::move(folder)), max_files_(max_files), list_(std::move(list)), files_(&files) {}
 
+  /// A recording that is on the disk.
   struct Written {
     std::string path;
     /// What went wrong nevertheless, such as an old file that could not be removed.

@@ -20,6 +20,7 @@ inline constexpr unsigned file_format = 2;
 /// "# supercoil learned, format 2, 512 bytes, CRC-32 0123abcd".
 std::string seal(std::string_view body, unsigned format = file_format);
 
+/// The content of a stored file that is whole.
 struct Unsealed {
   std::string_view body;
   unsigned format;

@@ -9,6 +9,7 @@
 
 namespace supercoil::storage {
 
+/// A stored set, or why there is none.
 struct Examined {
   bool exists = false;
   std::optional<board::Learned> learned;  ///< empty: absent or damaged

@@ -8,6 +8,7 @@
 
 namespace supercoil::storage {
 
+/// A number of a stored set, its table and its key.
 struct Field {
   std::string_view table;
   std::string_view key;

@@ -36,6 +36,7 @@ class Files {
   virtual Result<void> rename(const std::string& from, const std::string& to) = 0;
   /// A second name for the same file; EEXIST when that name is taken.
   virtual Result<void> link(const std::string& from, const std::string& to) = 0;
+  /// Removes a name; the content goes with the file's last one.
   virtual Result<void> unlink(const std::string& path) = 0;
   /// Puts the folder's names on the disk; until then a power cut may undo any change of them.
   virtual Result<void> sync_folder(const std::string& path) = 0;

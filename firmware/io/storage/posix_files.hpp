@@ -5,6 +5,7 @@
 
 namespace supercoil::storage {
 
+/// Files of a POSIX system. A signal interrupts no call.
 class PosixFiles final : public Files {
  public:
   Result<std::string> read(const std::string& path, std::size_t limit_bytes) override;

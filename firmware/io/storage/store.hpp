@@ -14,12 +14,14 @@
 
 namespace supercoil::storage {
 
+/// Which file a set was loaded from.
 enum class Source {
   nothing,   ///< nothing has been stored yet
   current,   ///< what was saved last
   previous,  ///< what was saved before that, because the current file is damaged or gone
 };
 
+/// What load() found.
 struct Loaded {
   Source source = Source::nothing;
   std::optional<board::Learned> learned;  ///< empty when nothing has been stored yet

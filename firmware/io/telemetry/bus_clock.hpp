@@ -13,12 +13,14 @@ namespace supercoil::telemetry {
 /// by the master's.
 class BusClock {
  public:
+  /// A Sync message, with both clocks' times of it.
   struct Sync {
     std::uint8_t number;
     double master_s;
     hal::Time received;
   };
 
+  /// Replaces the Sync whose number is 8 less.
   void add(const Sync& sync) { known_[sync.number % known_.size()] = sync; }
   /// The Sync of this number among the latest 8, if it came at `earliest` or later. An older one of
   /// the same number is another program's: numbers wrap around, and each program begins anywhere.

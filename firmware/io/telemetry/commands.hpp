@@ -27,6 +27,7 @@ class Commands {
     std::optional<Command> command;       ///< for the loop; its answer goes to answered()
     std::optional<hal::CanFrame> answer;
   };
+  /// Any frame of the bus, in the order received.
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
   /// The frame that answers a command that was passed to the loop; empty: the command came from

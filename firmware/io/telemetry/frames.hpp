@@ -31,6 +31,7 @@ enum class Message : std::uint8_t {
 };
 inline constexpr std::size_t messages = 12;
 
+/// A message that has a rate.
 struct PeriodicMessage {
   std::string_view name;  ///< as in configurations
   const can::MessageInfo* info;
@@ -63,6 +64,8 @@ hal::CanFrame temperature(can::Node node, const Row& row);
 class MultiplexedValues {
  public:
   MultiplexedValues() { newest_.fill(NAN); }
+  /// The next row of the channel. A row without a value, from an estimator that gives none, clears
+  /// all.
   void take(const Row& row);
   /// place: in multiplexed_names, from 1. NaN: no value yet.
   float of(std::size_t place) const { return newest_.at(place - 1); }
@@ -73,6 +76,8 @@ class MultiplexedValues {
  private:
   std::array<float, multiplexed_names.size() - 1> newest_{};
 };
+/// parameter: from 0, as in the DBC. known: what theta leaves open in the physical parameters. Not
+/// available: theta is not physical, or no row has carried the value yet.
 hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
                        const control::KnownParameters& known,
                        const MultiplexedValues& multiplexed = {});
@@ -80,6 +85,7 @@ hal::CanFrame margin(can::Node node, const Row& row);
 hal::CanFrame limit(can::Node node, const Row& row);
 hal::CanFrame gain(can::Node node, const Row& row);
 hal::CanFrame timing(can::Node node, const BoardTiming& timing);
+/// The heartbeat. leased: a master holds the channel's lease. counter: of the heartbeats, 0 to 255.
 hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t counter);
 /// version: as from program_version(). A part of it that is not a number becomes 0.
 hal::CanFrame boot(can::Node node, std::string_view version);

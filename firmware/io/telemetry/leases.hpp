@@ -25,17 +25,20 @@ class Leases {
   Leases(double lease_s, std::size_t channels, Random random);
 
   std::size_t channels() const { return leases_.size(); }
+  /// Whether a master holds the lease at this time.
   bool held(std::uint8_t channel, hal::Time now) const { return live(leases_[channel], now); }
 
   /// claimed_as: the session field of the claim; nonce: what the claim repeats, 0: none yet. When
   /// granted, session() is the session; after claim_again, nonce() is the nonce.
   Refusal claim(std::uint8_t channel, std::uint16_t claimed_as, double nonce, std::uint8_t counter,
                 hal::Time now);
+  /// After claim_again: what the next claim must repeat.
   std::uint16_t nonce(std::uint8_t channel) const { return leases_[channel].nonce; }
   /// The session of the last granted claim; 0: nobody has the lease.
   std::uint16_t session(std::uint8_t channel) const { return leases_[channel].session; }
   /// The session of the master that commanded under the previous lease; 0: none.
   std::uint16_t replaced(std::uint8_t channel) const { return leases_[channel].replaced; }
+  /// Ends the lease at once; any master may claim it.
   void release(std::uint8_t channel) { leases_[channel].session = 0; }
 
   /// Whether a frame with this session and counter is the lease holder's next one. wrong_counter:

@@ -36,6 +36,7 @@ struct EncodedCommand {
   std::uint8_t opcode;
   double value;
 };
+/// A value that the opcode cannot carry becomes NaN, which the board refuses.
 constexpr EncodedCommand encode_command(Verb verb, double value) {
   // A meter's value with the wrong sign must not be taken for the other sense's.
   constexpr double invalid = std::numeric_limits<double>::quiet_NaN();
@@ -61,6 +62,7 @@ constexpr Command decode_command(std::uint8_t opcode, double value) {
                      : Command{0, Verb::compare_supply, value};
 }
 
+/// By opcode, as in the DBC.
 constexpr std::array<std::string_view, opcodes> opcode_names() {
   std::array<std::string_view, opcodes> names{};
   for (std::size_t i = 0; i < claim_of_version_3; ++i)

@@ -40,6 +40,7 @@ class RunSettings {
   RunSettings(CanSettings can, const BoardSettings& board, Leases& leases, Publisher& publisher,
               Loop& loop);
 
+  /// Any frame of the bus, in the order received.
   TakenWrite take(const hal::CanFrame& frame, hal::Time now);
 
  private:

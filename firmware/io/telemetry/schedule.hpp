@@ -29,6 +29,7 @@ double bus_load(const CanSettings& can, const std::vector<ChannelSettings>& chan
 /// do not come in bursts. Missed messages are not made up for.
 class Schedule {
  public:
+  /// When one message of one channel is due.
   struct Slot {
     std::uint8_t channel;
     Message message;

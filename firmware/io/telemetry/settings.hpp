@@ -13,6 +13,7 @@ namespace supercoil::telemetry {
 
 /// The rate of each message in Hz, for each channel, in the order of Message; 0: never.
 using Rates = std::array<double, messages>;
+/// By the period that each message has in the DBC.
 Rates default_rates();
 
 /// A slower heartbeat would be none; a lower rate of another message is meant as never.
@@ -31,6 +32,7 @@ inline bool is_of(std::size_t channel, Message message) {
   return channel == 0 || !periodic_messages()[static_cast<std::size_t>(message)].of_board;
 }
 
+/// [can] of a board's configuration.
 struct CanSettings {
   std::string interface = "can0";
   double bit_rate = 500e3;   ///< bit/s

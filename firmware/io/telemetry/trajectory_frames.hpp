@@ -19,8 +19,10 @@ inline constexpr std::uint16_t sync_id = can::id_of(can::message::sync, 1);
 
 /// Values of Trajectory.answers, and of Play.when.
 enum Answers : std::uint8_t { nothing, answers_knot, answers_play };
+/// When a trajectory starts: on receipt, at a Sync, or not; the last only asks for its state.
 enum When : std::uint8_t { at_once, at_sync, never };
 
+/// Whether TrajectoryFrames, not Commands, answers it.
 constexpr bool is_of_trajectory(Verb verb) {
   return verb == Verb::knot || verb == Verb::start;
 }
@@ -37,6 +39,7 @@ class TrajectoryFrames {
     std::optional<std::uint8_t> damaged;  ///< the channel whose frame was damaged
     std::optional<hal::CanFrame> answer;
   };
+  /// Any frame of the bus, in the order received.
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
   /// The frame that answers a trajectory command; empty: the command did not come over CAN.

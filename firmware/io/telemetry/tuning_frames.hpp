@@ -21,6 +21,7 @@ class TuningFrames {
   TuningFrames(can::Node first_node, Leases& leases, Loop& loop)
       : first_node_(first_node), leases_(&leases), loop_(&loop) {}
 
+  /// Any frame of the bus, in the order received.
   TakenWrite take(const hal::CanFrame& frame, hal::Time now);
 
  private:

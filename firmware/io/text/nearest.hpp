@@ -7,6 +7,7 @@
 
 namespace supercoil {
 
+/// A suggestion for a name that is not known.
 struct Nearest {
   std::string name;         ///< empty when nothing is near
   bool lacks_unit = false;  ///< what was written is the name without its unit

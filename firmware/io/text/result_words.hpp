@@ -21,6 +21,7 @@ extern const std::array<std::string_view, identify_note_names.size()> note_words
 /// the result's own name is left out. cause: of an interruption, "by Ctrl-C"; empty: not known.
 std::string result_text(std::string_view result, std::string_view notes,
                         std::string_view cause = "");
+/// The same for a result and notes as the board's rows carry them.
 std::string result_text(ModeResult result, std::uint8_t notes);
 
 }  // namespace supercoil

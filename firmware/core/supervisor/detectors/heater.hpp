@@ -90,6 +90,7 @@ struct Recalibration {
   double after_m = 0.0;   ///< the same place after it
   double ratio = 1.0;     ///< of distances, after over before
 
+  /// Where a position from before is measured now.
   double after(double position_m) const { return after_m + ratio * (position_m - before_m); }
   /// Both in sequence, this one first.
   Recalibration then(const Recalibration& next) const {

@@ -14,6 +14,7 @@ class HighPass {
   HighPass(double corner_rad_per_s, double step_s)
       : gain_(-std::expm1(-corner_rad_per_s * step_s)) {}
 
+  /// One step; returns the value without its slow part.
   double step(double value) {
     first_ += gain_ * (value - first_);
     const double filtered_once = value - first_;
@@ -47,6 +48,7 @@ class Response {
   /// A smaller ratio of measured to expected motion is no response.
   static constexpr double silent_ratio = missed_deviations / needed_deviations;
 
+  /// Of a block: not decided yet, the muscle followed its power, or it did not.
   enum class Result { open, answered, silent };
 
   /// noise_m: standard deviation of one measured value, > 0.

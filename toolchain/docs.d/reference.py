@@ -4,7 +4,7 @@ import pathlib
 import re
 import xml.etree.ElementTree as ET
 
-ROOTS = (pathlib.Path("control/include"), pathlib.Path("hal/include"))
+ROOTS = tuple(map(pathlib.Path, ("control/include", "hal/include", "firmware/core", "firmware/io")))
 WIDTH = 76  # of a code line in the site's text column
 SPECIAL = re.compile(r"([\\`*_\[\]<>{}$#|~])")
 
@@ -12,7 +12,7 @@ SPECIAL = re.compile(r"([\\`*_\[\]<>{}$#|~])")
 def headers(root, part):
     """Each header of a part of the libraries (the name of a folder), as it is included."""
     for folder in ROOTS:
-        for header in sorted((root / folder / "supercoil").glob(f"**/{part}/*.hpp")):
+        for header in sorted((root / folder).glob(f"**/{part}/*.hpp")):
             yield header.relative_to(root / folder).as_posix()
 
 

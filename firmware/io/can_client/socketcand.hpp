@@ -27,7 +27,7 @@ class ElementReader {
 /// "< send 123 2 AA 0 >", and back from an element of ElementReader. Empty: another element, or not
 /// a classical frame with an 11-bit identifier.
 std::string send_text(const hal::CanFrame& frame);
-/// Inverts send_text(). Empty: another element, or not a classical frame with an 11-bit identifier.
+/// element: as ElementReader gives it. Empty: as said of send_text().
 std::optional<hal::CanFrame> parse_send(std::string_view element);
 
 /// "< frame 123 23.424242 AA00 >". at: since 1970, or since the server's own start of time.

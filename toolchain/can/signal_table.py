@@ -16,6 +16,7 @@ namespace supercoil::can {
 """
 
 NOT_AVAILABLE = "not_available"
+MASTER = "Master"
 
 
 def names_of(signal):
@@ -69,7 +70,8 @@ def describe(database):
     yield "\nnamespace message {"
     for message in database.messages:
         yield (f'inline constexpr MessageInfo {constant(message)}{{"{message.name}", {message.frame_id - 1:#05x}, '
-               f"{message.length}, {message.cycle_time or 0}, signals_of_{message.name}}};")
+               f"{message.length}, {message.cycle_time or 0}, signals_of_{message.name}, "
+               f"{'true' if message.senders == [MASTER] else 'false'}}};")
     yield "}  // namespace message\n"
     yield "/// In the order of the DBC."
     yield f"inline constexpr std::array<MessageInfo, {len(database.messages)}> all_messages{{{{"

@@ -49,6 +49,7 @@ struct MessageInfo {
   std::uint8_t length;  ///< bytes
   unsigned period_ms;   ///< usual period; 0: sent when there is a reason
   std::span<const SignalInfo> signals;
+  bool to_node;  ///< sent by a master: it does not prove that its node exists
 };
 
 /// A signal of a message, looked up at compile time: an unknown name does not build.

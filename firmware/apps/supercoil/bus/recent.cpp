@@ -30,7 +30,7 @@ void FrameHistory::add(const std::vector<hal::CanFrame>& frames) {
     const auto decoded = can::decode(frame);
     // A command does not prove that its node exists.
     if (!decoded) continue;
-    if (decoded->message->name != "Command") nodes_ |= std::uint64_t{1} << decoded->node;
+    if (!decoded->message->to_node) nodes_ |= std::uint64_t{1} << decoded->node;
     if (decoded->message->name == "Emergency") first_causes_.erase(decoded->node);
     if (decoded->message->name == "FirstCause") first_causes_[decoded->node] = frame;
   }

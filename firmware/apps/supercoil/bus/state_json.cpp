@@ -26,7 +26,7 @@ Json state_json(const FrameHistory& frame_history) {
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     const auto decoded = can::decode(frame);
-    if (!decoded) continue;
+    if (!decoded || decoded->message->to_node) continue;
     Json& message = nodes[decoded->node][std::string(decoded->message->name)];
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i) {
       const can::SignalInfo& signal = decoded->message->signals[i];

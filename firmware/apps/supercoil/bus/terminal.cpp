@@ -75,8 +75,9 @@ std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
   // At its default rate every message is sent within this time; at a lower one it may be missing.
   for (const hal::CanFrame& frame :
        frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
-    if (const auto decoded = can::decode(frame))
-      nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+    const auto decoded = can::decode(frame);
+    if (!decoded || decoded->message->to_node) continue;
+    nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
   }
   return nodes;
 }

@@ -246,7 +246,7 @@ void Api::history(const Request& request, Response& response) const {
   const auto from = time_of(request, "from_s", hal::Time::zero());
   const auto to = time_of(request, "to_s", hal::Time::max());
   if (!from || !to) return refuse(response, 400, "from_s and to_s must be seconds");
-  answer_json(response, to_batch(frame_history_->between(*from, *to), frame_history_->figures()));
+  answer_json(response, to_batch(frame_history_->between(*from, *to), *frame_history_));
 }
 
 std::uint64_t Api::first_frame(const Request& request) const {
@@ -282,8 +282,7 @@ bool Api::stream_piece(httplib::DataSink& sink, Reader& reader) {
     FrameHistory::Part part = frame_history_->since(reader.next);
     reader.next = part.next;
     if (!part.frames.empty()) {
-      return send(event_id(reader) + "data: " + to_batch(part.frames, frame_history_->figures()) +
-                  "\n\n");
+      return send(event_id(reader) + "data: " + to_batch(part.frames, *frame_history_) + "\n\n");
     }
   }
   if (ending_) return false;

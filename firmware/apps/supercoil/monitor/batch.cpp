@@ -1,5 +1,6 @@
 #include "apps/supercoil/monitor/batch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -78,11 +79,12 @@ int digits_on_page(const can::SignalInfo& signal) {
 
 }  // namespace
 
-std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures& bus) {
+std::string to_batch(const std::vector<hal::CanFrame>& frames, const FrameHistory& history) {
   std::map<Key, Columns> all;
+  const std::vector<std::uint8_t> nodes = history.nodes();
   for (const hal::CanFrame& frame : frames) {
     const auto decoded = can::decode(frame);
-    if (!decoded) continue;
+    if (!decoded || !std::ranges::binary_search(nodes, decoded->node)) continue;
     Columns& columns = all[{decoded->node, decoded->message}];
     add_time(columns.time_s, frame.received);
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i) {
@@ -111,7 +113,7 @@ std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures&
   }
   if (node != 0) close(text);
   close(text);
-  return text + "\"bus\":" + figures_json(bus) + "}";
+  return text + "\"bus\":" + figures_json(history.figures()) + "}";
 }
 
 std::string protocol_json() {

@@ -12,8 +12,8 @@ namespace supercoil::operating {
 
 /// One JSON object: {"newest_s":…,"nodes":{"1":{"Measurement":{"time_s":[…],"position_m":[…],…}}},
 /// "bus":{"load":…,…}}. Arrays of a message are of one length; null: not available, or not in this
-/// frame.
-std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures& bus);
+/// frame. Frames to a node that has sent nothing itself are left out.
+std::string to_batch(const std::vector<hal::CanFrame>& frames, const FrameHistory& history);
 
 /// The protocol's units and names of values: {"Status":{"state":{"unit":"","values":{"0":…}}}}.
 std::string protocol_json();

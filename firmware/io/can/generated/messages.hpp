@@ -558,36 +558,36 @@ inline constexpr std::array<SignalInfo, 6> signals_of_TuningWrite{{
 }};
 
 namespace message {
-inline constexpr MessageInfo sync{"Sync", 0x040, 8, 0, signals_of_Sync};
-inline constexpr MessageInfo emergency{"Emergency", 0x080, 8, 0, signals_of_Emergency};
-inline constexpr MessageInfo first_cause{"FirstCause", 0x0c0, 8, 0, signals_of_FirstCause};
-inline constexpr MessageInfo knot{"Knot", 0x100, 8, 0, signals_of_Knot};
-inline constexpr MessageInfo play{"Play", 0x140, 8, 0, signals_of_Play};
-inline constexpr MessageInfo trajectory{"Trajectory", 0x180, 8, 0, signals_of_Trajectory};
-inline constexpr MessageInfo tuning_read{"TuningRead", 0x1c0, 2, 0, signals_of_TuningRead};
-inline constexpr MessageInfo command{"Command", 0x200, 8, 0, signals_of_Command};
-inline constexpr MessageInfo acknowledge{"Acknowledge", 0x240, 7, 0, signals_of_Acknowledge};
-inline constexpr MessageInfo measurement{"Measurement", 0x280, 8, 10, signals_of_Measurement};
-inline constexpr MessageInfo tracking{"Tracking", 0x2c0, 8, 10, signals_of_Tracking};
-inline constexpr MessageInfo power{"Power", 0x300, 7, 20, signals_of_Power};
-inline constexpr MessageInfo heater{"Heater", 0x340, 7, 50, signals_of_Heater};
-inline constexpr MessageInfo temperature{"Temperature", 0x380, 4, 100, signals_of_Temperature};
-inline constexpr MessageInfo estimate{"Estimate", 0x3c0, 8, 100, signals_of_Estimate};
-inline constexpr MessageInfo margin{"Margin", 0x400, 7, 50, signals_of_Margin};
-inline constexpr MessageInfo limit{"Limit", 0x440, 5, 100, signals_of_Limit};
-inline constexpr MessageInfo timing{"Timing", 0x480, 8, 100, signals_of_Timing};
-inline constexpr MessageInfo gain{"Gain", 0x4c0, 5, 200, signals_of_Gain};
-inline constexpr MessageInfo refused_value{"RefusedValue", 0x500, 8, 0, signals_of_RefusedValue};
-inline constexpr MessageInfo muscle{"Muscle", 0x540, 5, 0, signals_of_Muscle};
-inline constexpr MessageInfo setting{"Setting", 0x580, 8, 0, signals_of_Setting};
-inline constexpr MessageInfo setting_write{"SettingWrite", 0x5c0, 8, 0, signals_of_SettingWrite};
-inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of_SettingRead};
-inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_MuscleRead};
-inline constexpr MessageInfo tuning{"Tuning", 0x640, 8, 0, signals_of_Tuning};
-inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
-inline constexpr MessageInfo boot{"Boot", 0x740, 8, 1000, signals_of_Boot};
-inline constexpr MessageInfo joint{"Joint", 0x780, 8, 20, signals_of_Joint};
-inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite};
+inline constexpr MessageInfo sync{"Sync", 0x040, 8, 0, signals_of_Sync, true};
+inline constexpr MessageInfo emergency{"Emergency", 0x080, 8, 0, signals_of_Emergency, false};
+inline constexpr MessageInfo first_cause{"FirstCause", 0x0c0, 8, 0, signals_of_FirstCause, false};
+inline constexpr MessageInfo knot{"Knot", 0x100, 8, 0, signals_of_Knot, true};
+inline constexpr MessageInfo play{"Play", 0x140, 8, 0, signals_of_Play, true};
+inline constexpr MessageInfo trajectory{"Trajectory", 0x180, 8, 0, signals_of_Trajectory, false};
+inline constexpr MessageInfo tuning_read{"TuningRead", 0x1c0, 2, 0, signals_of_TuningRead, true};
+inline constexpr MessageInfo command{"Command", 0x200, 8, 0, signals_of_Command, true};
+inline constexpr MessageInfo acknowledge{"Acknowledge", 0x240, 7, 0, signals_of_Acknowledge, false};
+inline constexpr MessageInfo measurement{"Measurement", 0x280, 8, 10, signals_of_Measurement, false};
+inline constexpr MessageInfo tracking{"Tracking", 0x2c0, 8, 10, signals_of_Tracking, false};
+inline constexpr MessageInfo power{"Power", 0x300, 7, 20, signals_of_Power, false};
+inline constexpr MessageInfo heater{"Heater", 0x340, 7, 50, signals_of_Heater, false};
+inline constexpr MessageInfo temperature{"Temperature", 0x380, 4, 100, signals_of_Temperature, false};
+inline constexpr MessageInfo estimate{"Estimate", 0x3c0, 8, 100, signals_of_Estimate, false};
+inline constexpr MessageInfo margin{"Margin", 0x400, 7, 50, signals_of_Margin, false};
+inline constexpr MessageInfo limit{"Limit", 0x440, 5, 100, signals_of_Limit, false};
+inline constexpr MessageInfo timing{"Timing", 0x480, 8, 100, signals_of_Timing, false};
+inline constexpr MessageInfo gain{"Gain", 0x4c0, 5, 200, signals_of_Gain, false};
+inline constexpr MessageInfo refused_value{"RefusedValue", 0x500, 8, 0, signals_of_RefusedValue, false};
+inline constexpr MessageInfo muscle{"Muscle", 0x540, 5, 0, signals_of_Muscle, false};
+inline constexpr MessageInfo setting{"Setting", 0x580, 8, 0, signals_of_Setting, false};
+inline constexpr MessageInfo setting_write{"SettingWrite", 0x5c0, 8, 0, signals_of_SettingWrite, true};
+inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of_SettingRead, true};
+inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_MuscleRead, true};
+inline constexpr MessageInfo tuning{"Tuning", 0x640, 8, 0, signals_of_Tuning, false};
+inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status, false};
+inline constexpr MessageInfo boot{"Boot", 0x740, 8, 1000, signals_of_Boot, false};
+inline constexpr MessageInfo joint{"Joint", 0x780, 8, 20, signals_of_Joint, false};
+inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite, true};
 }  // namespace message
 
 /// In the order of the DBC.

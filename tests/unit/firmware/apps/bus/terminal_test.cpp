@@ -30,6 +30,21 @@ TEST(Terminal, WithoutAStatusNoControllerIsShown) {
   STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", shown().c_str());
 }
 
+TEST(Terminal, AQuestionToANodeDoesNotProveThatItExists) {
+  for (const can::MessageInfo& message : can::all_messages) {
+    FrameHistory asked{10.0, 500e3};
+    hal::CanFrame frame;
+    frame.id = can::id_of(message, can::Node{63});
+    frame.length = message.length;
+    asked.add({frame});
+    LONGS_EQUAL(message.to_node ? 0 : 1, asked.nodes().size());
+    LONGS_EQUAL(message.to_node ? 0 : 1, state_json(asked)["nodes"].size());
+    CHECK_EQUAL(message.to_node, state_text(asked).find("node 63") == std::string::npos);
+  }
+  CHECK_TRUE(can::message::tuning_read.to_node);
+  CHECK_FALSE(can::message::tuning.to_node);
+}
+
 /// It does not matter which part of Joint came last.
 TEST(Terminal, TheNodeOfAJointHasItsAngle) {
   Row agonist{};

@@ -117,7 +117,7 @@ class Page(Browser):
 
     def stop_is_confirmed(self):
         """Whether STOP is confirmed, by its own port or by the other way when this machine is busy for half a second."""
-        return self.text("#stop-notice").startswith(("stopped node", "disarmed each node"))
+        return self.text("#stop-notice").startswith(("stopped node", "disarmed each node by a command"))
 
     def stop_port(self):
         return self.run("return fetch('/api/about').then((answer) => answer.json())")["stop_port"]

@@ -8,6 +8,7 @@ import http.server
 import os
 import pathlib
 import resource
+import signal
 import socket
 import threading
 import time
@@ -95,6 +96,24 @@ class StopPort(OnSimulatedBoard):
         stop_port = served.stop_port()
         self.addCleanup(trickle(served.port, 400).stop)
         self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
+
+    def test_stop_fails_for_a_node_that_does_not_confirm_it(self):
+        board = simulated_board()
+        self.addCleanup(board.stop)
+        served = self.serve(board)
+        stop_port = served.stop_port()
+        os.kill(board.process.pid, signal.SIGSTOP)
+        try:
+            self.assertEqual(served.post("/stop", "", stop_port), (502, {"error": "node 1 did not confirm it"}))
+        finally:
+            os.kill(board.process.pid, signal.SIGCONT)
+        until(lambda: served.post("/stop", "", stop_port) == (200, {"nodes": [1]}))
+
+    def test_stop_does_not_wait_for_a_node_that_was_only_asked(self):
+        served = self.serve()
+        self.assertEqual(served.get("/api/tuning/63")[0], 504)
+        self.assertEqual(list(served.get("/api/history")[1]["nodes"]), ["1"])
+        self.assertEqual(served.post("/stop", "", served.stop_port()), (200, {"nodes": [1]}))
 
     def test_stop_works_after_a_bus_reconnection(self):
         board = simulated_board()

@@ -108,11 +108,11 @@ int serve_page(const MonitorOptions& options, Source& source) {
   }
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {
-    auto started = StopServer::start(access, open_for({can_client::acknowledge_id(1)}),
-                                     *source.frame_history, [&] {
-                                       controls.release_hold("stopped");
-                                       if (setup) setup->end("STOP");
-                                     });
+    auto started =
+        StopServer::start(access, open_for(StopServer::received_ids()), *source.frame_history, [&] {
+          controls.release_hold("stopped");
+          if (setup) setup->end("STOP");
+        });
     if (!started) return fail(exit_failed, started.error().text());
     stop = std::move(*started);
   }

@@ -4,23 +4,54 @@
 
 #include <nlohmann/json.hpp>
 
-#include "can_client/master.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
+#include "loop/snapshot.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// If the bus loses a frame, the next one makes up for it.
 constexpr int repetitions = 3;
 constexpr auto repetition_pause = std::chrono::milliseconds(10);
-constexpr auto max_busy_time = std::chrono::milliseconds(500);
+/// From the first frame. A board that is present takes a few milliseconds; the page waits for 500.
+constexpr auto confirm_within = std::chrono::milliseconds(300);
+constexpr auto poll_pause = std::chrono::milliseconds(1);
 /// Between stops: received frames are read, and a lost bus is reopened.
 constexpr auto read_period = std::chrono::milliseconds(50);
 constexpr auto retry_period = std::chrono::seconds(1);
 
+/// Sent by the node: disarmed, or cold because of a fault.
+bool reports_off(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != can_client::status_id(node) || frame.length != can::message::status.length)
+    return false;
+  const auto state = can::Reader<can::message::status>(frame).get<State>("state");
+  return state == State::disarmed || state == State::fault;
+}
+
+bool acknowledges(can_client::Master& master, const hal::CanFrame& frame) {
+  const auto answer = master.receive_acknowledge(frame);
+  return answer && answer->opcode == static_cast<std::uint8_t>(Verb::disarm) &&
+         answer->refusal == Refusal::none;
+}
+
+/// "node 2 did not confirm it"
+std::string unconfirmed_text(const std::vector<can_client::Master>& unconfirmed) {
+  std::string text = unconfirmed.size() == 1 ? "node " : "nodes ";
+  for (const can_client::Master& master : unconfirmed)
+    text += (&master == &unconfirmed.front() ? "" : ", ") + std::to_string(master.node());
+  return text + " did not confirm it";
+}
+
 }  // namespace
+
+std::vector<std::uint16_t> StopServer::received_ids() {
+  std::vector<std::uint16_t> ids;
+  for (std::uint8_t node = 1; node <= can::max_nodes; ++node)
+    ids.insert(ids.end(), {can_client::acknowledge_id(node), can_client::status_id(node)});
+  return ids;
+}
 
 StopServer::StopServer(Access access, ManualControl::OpenBus open_bus,
                        const FrameHistory& frame_history, std::function<void()> release_hold)
@@ -90,9 +121,10 @@ void StopServer::run() {
 
 /// The next stop answers all requests that came during a stop together.
 void StopServer::stop(const std::vector<PendingStop>& pending) {
-  const std::string failed = disarm_all();
-  nlohmann::json result{{"nodes", frame_history_->nodes()}};
-  if (!failed.empty()) result["error"] = failed;
+  const std::vector<std::uint8_t> nodes = frame_history_->nodes();
+  const std::string failed = disarm(nodes);
+  const nlohmann::json result =
+      failed.empty() ? nlohmann::json{{"nodes", nodes}} : nlohmann::json{{"error", failed}};
   for (const auto& [answer, origin] : pending)
     answer({failed.empty() ? 200 : 502, origin, result.dump()});
 }
@@ -117,29 +149,57 @@ void StopServer::maintain_bus() {
   }
 }
 
-std::string StopServer::disarm_all() {
-  const std::string failed = send_disarm();
-  if (failed.empty()) return {};
-  bus_.reset();
-  return send_disarm();
+std::string StopServer::disarm(const std::vector<std::uint8_t>& nodes) {
+  Masters unconfirmed;
+  for (const std::uint8_t node : nodes)
+    unconfirmed.emplace_back(node, 0);
+  if (const std::string failed = send_disarm(unconfirmed); !failed.empty()) {
+    bus_.reset();
+    if (std::string again = send_disarm(unconfirmed); !again.empty()) return again;
+  }
+  return unconfirmed.empty() ? std::string() : unconfirmed_text(unconfirmed);
 }
 
-std::string StopServer::send_disarm() {
+std::string StopServer::send_disarm(Masters& unconfirmed) {
   if (std::string failed = open_bus(); !failed.empty()) return failed;
-  const auto deadline = Clock::now() + max_busy_time;
+  maintain_bus();
+  std::vector<hal::CanFrame> frames;
+  for (can_client::Master& master : unconfirmed)
+    frames.push_back(master.command(Verb::disarm, 0.0));
+  const auto deadline = Clock::now() + confirm_within;
   for (int i = 0; i < repetitions; ++i) {
-    for (const std::uint8_t node : frame_history_->nodes()) {
-      const hal::CanFrame frame = can_client::Master(node, 0).command(Verb::disarm, 0.0);
-      hal::Status sent = bus_->send(frame);
-      while (sent == hal::Status::busy && Clock::now() < deadline) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        sent = bus_->send(frame);
-      }
-      if (sent != hal::Status::ok) return std::string("cannot send on the bus: ") + text(sent);
+    for (const hal::CanFrame& frame : frames) {
+      if (std::string failed = send_until(frame, deadline); !failed.empty()) return failed;
     }
-    std::this_thread::sleep_for(repetition_pause);
+    receive_until(unconfirmed, Clock::now() + repetition_pause, false);
+  }
+  while (!unconfirmed.empty() && Clock::now() < deadline) {
+    if (bus_->state() == hal::CanState::down) return "the bus was lost";
+    receive_until(unconfirmed, Clock::now() + poll_pause, true);
   }
   return {};
+}
+
+std::string StopServer::send_until(const hal::CanFrame& frame, Clock::time_point deadline) {
+  hal::Status sent = bus_->send(frame);
+  while (sent == hal::Status::busy && Clock::now() < deadline) {
+    std::this_thread::sleep_for(poll_pause);
+    sent = bus_->send(frame);
+  }
+  return sent == hal::Status::ok ? "" : std::string("cannot send on the bus: ") + text(sent);
+}
+
+/// also_by_status: not at first, when a Status may still be from before the disarm.
+void StopServer::receive_until(Masters& unconfirmed, Clock::time_point end, bool also_by_status) {
+  while (Clock::now() < end) {
+    for (hal::CanFrame frame;
+         bus_->state() != hal::CanState::down && bus_->receive(frame) == hal::Status::ok;) {
+      std::erase_if(unconfirmed, [&](can_client::Master& master) {
+        return acknowledges(master, frame) || (also_by_status && reports_off(master.node(), frame));
+      });
+    }
+    std::this_thread::sleep_for(poll_pause);
+  }
 }
 
 }  // namespace supercoil::operating

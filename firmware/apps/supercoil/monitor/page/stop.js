@@ -60,7 +60,7 @@ export class Stop {
     const answers = await Promise.allSettled(this.nodes().map((node) => disarm_within(DISARM_WITHIN_MS, node)));
     const obeyed = answers.length > 0 && answers.every(({ value }) => value === "none");
     if (obeyed) {
-      this.#show_message(`disarmed each node; the stop's own port did not answer: ${problem.message}`, "done");
+      this.#show_message(`disarmed each node by a command; STOP itself failed: ${problem.message}`, "done");
     } else {
       this.#show_message(`STOP FAILED: ${problem.message}. Use the stop button of the board.`, "failed");
     }

@@ -140,6 +140,35 @@ class Log(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("standard output", done.stderr)
 
+    def test_the_log_itself_is_not_replaced(self):
+        text = (self.path / "can.log").read_text()
+        (self.path / "soft.log").symlink_to("can.log")
+        os.link(self.path / "can.log", self.path / "x.csv.part")
+        for name, out in (("can.log", "can.log"), ("soft.log", "can.log"), ("can.log", "soft.log"), ("x.csv.part", "x.csv")):
+            done = self.log(name, "--out", out)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(f"{out}: would replace {name} itself", done.stderr)
+        self.assertEqual((self.path / "x.csv.part").read_text(), text)
+
+    def test_a_pipe_is_refused_instead_of_losing_its_beginning(self):
+        with open(self.path / "can.log") as log:
+            text = log.read()
+        done = subprocess.run([os.environ["SUPERCOIL"], "log", "/dev/stdin"], input=text, capture_output=True, text=True, timeout=120)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("/dev/stdin: is not a file", done.stderr)
+
+    def test_a_damaged_first_line_is_skipped_like_any_other(self):
+        text = (self.path / "can.log").read_text()
+        rest = text[text.index("\n") + 1:]
+        (self.path / "rest.log").write_text(rest)
+        rows = self.rows("rest.log")
+        for first in (text[8:text.index("\n")], "# recorded on the bench", ""):
+            (self.path / "cut.log").write_text(f"{first}\n{rest}")
+            done = self.log("cut.log")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(list(csv.DictReader(done.stdout.splitlines())), rows)
+            self.assertEqual("1 such lines are skipped" in done.stderr, first != "")
+
     def test_errors_are_reported(self):
         (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])
         for arguments, status, why in (

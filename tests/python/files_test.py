@@ -63,6 +63,17 @@ class Files(unittest.TestCase):
         (self.path / "board.log").write_text(text.replace("(10", "(17"))
         self.assertGreater(supercoil.load(self.path / "board.log").index[0], 1.7e9)
 
+    def test_a_damaged_first_line_is_left_out_like_any_other(self):
+        text = (self.path / "can.log").read_text()
+        rest = text[text.index("\n") + 1:]
+        (self.path / "rest.log").write_text(rest)
+        whole = supercoil.load(self.path / "rest.log")
+        for first in (text[8:text.index("\n")], "# recorded on the bench", ""):
+            (self.path / "cut.log").write_text(f"{first}\n{rest}")
+            table = supercoil.load(self.path / "cut.log")
+            pandas.testing.assert_frame_equal(table, whole)
+            self.assertEqual(table.attrs["damaged_lines"], 0 if first == "" else 1)
+
     def test_a_log_of_two_nodes_requires_a_node(self):
         text = (self.path / "can.log").read_text()
         (self.path / "two.log").write_text(text + "nonsense\n" + text.replace("701#", "702#"))

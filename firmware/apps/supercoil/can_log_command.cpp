@@ -1,6 +1,5 @@
 // supercoil log, for a candump log.
 #include <cstdio>
-#include <fstream>
 
 #include "apps/supercoil/bus/log_file.hpp"
 #include "apps/supercoil/can_csv.hpp"
@@ -22,12 +21,14 @@ std::string known_messages() {
 
 }  // namespace
 
-bool is_can_log(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return in.get() == '(';
-}
-
 int can_log_command(const LogOptions& options) {
+  const auto log = read_can_log(options.file);
+  if (!log) {
+    return refuse(options.json, exit_wrong_input,
+                  log.error().code != std::errc{}
+                      ? log.error().text()
+                      : options.file + ": is neither a flight recording nor a log of candump -L");
+  }
   if (options.summary || options.damaged || options.channel != 0) {
     return refuse(options.json, exit_wrong_input,
                   options.file +
@@ -40,8 +41,6 @@ int can_log_command(const LogOptions& options) {
   }
   if (!(options.from_s <= options.to_s))
     return fail(exit_wrong_input, "--from must not be later than --to");
-  const auto log = read_can_log(options.file);
-  if (!log) return fail(exit_wrong_input, log.error().text());
   if (log->damaged_lines > 0) {
     std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
                  log->damaged_lines);

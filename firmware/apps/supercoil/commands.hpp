@@ -40,13 +40,13 @@ struct LogOptions {
 };
 /// Reads a flight recording or a CAN log, whichever the file is.
 int log_command(const LogOptions& options);
-bool is_can_log(const std::string& path);
+/// The file has no beginning of a flight recording.
 int can_log_command(const LogOptions& options);
 /// Writes everything to the sink, and returns the number of items that it counts.
 using Produce = std::function<Result<std::size_t>(const recorder::Sink&)>;
-/// Writes to a file, or with an empty path to standard output. If there is nothing to write, it
-/// leaves no file and says so.
-int write_output(const std::string& path, const std::string& nothing, const Produce& produce);
+/// Writes to options.out, or if that is empty to standard output. If there is nothing to write, or
+/// the input would be replaced, it leaves no file and says so.
+int write_output(const LogOptions& options, const std::string& nothing, const Produce& produce);
 
 struct CommandOptions {
   std::string can;  ///< a bus; empty: the board on which this runs

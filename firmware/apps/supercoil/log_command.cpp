@@ -1,6 +1,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include "apps/supercoil/mcap/export.hpp"
 #include "apps/supercoil/summary.hpp"
 #include "apps/supercoil/user_file.hpp"
+#include "recorder/header.hpp"
 #include "recorder/recording.hpp"
 #include "storage/posix_files.hpp"
 
@@ -18,14 +20,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<std::string> read(const std::string& path, storage::Files& files) {
+/// Why it cannot be read; empty: it is a file. A pipe cannot be read twice, nor its size be known.
+std::string file_problem(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
-    return failure(path + ": " +
-                   (error && error.value() != ENOENT ? error.message() : "there is no such file"));
+    return path + ": " +
+           (error && error.value() != ENOENT ? error.message() : "there is no such file");
   }
-  if (!fs::is_regular_file(status)) return failure(path + ": is not a file");
+  return fs::is_regular_file(status) ? "" : path + ": is not a file";
+}
+
+/// Whether it begins as flight recordings do; also one that is empty or cannot be read.
+bool is_recording(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string begin(recorder::magic.size(), '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  return recorder::magic.starts_with(begin);
+}
+
+Result<std::string> read(const std::string& path, storage::Files& files) {
+  std::error_code error;
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error) return failed_call(path + ": cannot be read", error.value());
   auto content = files.read(path, bytes);
@@ -51,7 +67,7 @@ int write_to_stdout(const std::string& nothing, const Produce& produce) {
 
 /// The rows, as CSV or MCAP.
 int write_rows(const recorder::Recording& recording, const LogOptions& options) {
-  return write_output(options.out, options.file + ": has no rows for that channel and time",
+  return write_output(options, options.file + ": has no rows for that channel and time",
                       [&](const recorder::Sink& sink) -> Result<std::size_t> {
                         const std::size_t rows = recording.rows.size();
                         if (rows == 0) return 0;
@@ -69,16 +85,16 @@ std::string wrong_choice(const LogOptions& o, const recorder::Recording& recordi
     return "--channel " + std::to_string(o.channel) + ": the recording has channels 1 to " +
            std::to_string(recording.header.channels);
   }
-  std::error_code ignored;
-  if (!o.out.empty() && fs::equivalent(o.file, o.out, ignored))
-    return o.out + ": is the recording itself";
   return {};
 }
 
 }  // namespace
 
-int write_output(const std::string& path, const std::string& nothing, const Produce& produce) {
+int write_output(const LogOptions& options, const std::string& nothing, const Produce& produce) {
+  const std::string& path = options.out;
   if (path.empty()) return write_to_stdout(nothing, produce);
+  if (would_replace(path, options.file))
+    return fail(exit_wrong_input, path + ": would replace " + options.file + " itself");
   storage::PosixFiles files;
   auto file = OutputFile::open(path, files);
   if (!file) return fail(exit_wrong_input, file.error().text());
@@ -94,7 +110,9 @@ int log_command(const LogOptions& options) {
     return fail(exit_wrong_input,
                 "--mcap: MCAP is not written to a terminal; use --out FILE or a pipe");
   }
-  if (is_can_log(options.file)) return can_log_command(options);
+  if (const std::string problem = file_problem(options.file); !problem.empty())
+    return refuse(options.json, exit_wrong_input, problem);
+  if (!is_recording(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
     return refuse(options.json, exit_wrong_input,
                   options.file + ": is not a CAN log; --node and --message apply only to CAN logs");

@@ -9,12 +9,26 @@
 
 namespace supercoil::operating {
 
+namespace {
+
+std::string temporary_name(const std::string& path) {
+  return path + ".part";
+}
+
+}  // namespace
+
+bool would_replace(const std::string& path, const std::string& input) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(path, input, ignored) ||
+         std::filesystem::equivalent(temporary_name(path), input, ignored);
+}
+
 Result<OutputFile> OutputFile::open(const std::string& path, storage::Files& files) {
   // A device or a folder must not be replaced by a file.
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     return failure(path + ": is not a file");
-  const std::string temporary = path + ".part";
+  const std::string temporary = temporary_name(path);
   static_cast<void>(files.unlink(temporary));  // left over from a killed run
   auto file = files.create(temporary);
   if (!file) return tl::unexpected(file.error());

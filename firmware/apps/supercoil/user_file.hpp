@@ -37,6 +37,10 @@ class OutputFile {
   bool kept_ = false;
 };
 
+/// Whether writing a file of this name would replace or remove the input, also by a link or as the
+/// file that is not complete yet.
+bool would_replace(const std::string& path, const std::string& input);
+
 /// Reads at most 1 GiB. The error names the file and the reason.
 Result<std::string> read_file(const std::string& path);
 

@@ -13,7 +13,6 @@ namespace supercoil::recorder {
 
 namespace {
 
-constexpr std::string_view magic = "supercoil flight recording, format ";
 constexpr std::uint64_t max_rows = std::uint64_t{1} << 32;
 
 std::string hexadecimal(std::uint32_t value) {

@@ -7,6 +7,9 @@
 
 namespace supercoil::recorder {
 
+/// The first bytes of every format.
+inline constexpr std::string_view magic = "supercoil flight recording, format ";
+
 /// Why the file cannot be a recording of this format; empty when it may be one.
 std::string format_problem(std::string_view file);
 

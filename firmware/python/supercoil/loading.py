@@ -33,15 +33,17 @@ def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
         return load_flight(file)
     if start.startswith(_NPY):
         return _load_npy(file)
-    return _load_candump(file, node) if start.startswith(b"(") else _load_csv(file)
+    if start.startswith(b"time_s"):
+        return _load_csv(file)
+    lines = [_CANDUMP.fullmatch(line.strip()) for line in file.read_bytes().splitlines() if line.strip()]
+    # The first line may be damaged as any other.
+    return _load_candump(file, lines, node) if start.startswith(b"(") or any(lines) else _load_csv(file)
 
 
-def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
+def _load_candump(file: Path, lines: list[re.Match[bytes] | None], node: int | None) -> pandas.DataFrame:
     frames: dict[int, list[tuple[float, int, bytes]]] = {}
-    damaged = 0
-    for line in file.read_bytes().splitlines():
-        if (found := _CANDUMP.fullmatch(line.strip())) is None:
-            damaged += 1
+    for found in lines:
+        if found is None:
             continue
         identifier = int(found[2], 16)
         base = identifier & codec.BASE_MASK
@@ -55,7 +57,7 @@ def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
     chosen = next(iter(frames), 0) if node is None else node
     table = table_of(frames.get(chosen, []))
     table.attrs["node"] = chosen
-    table.attrs["damaged_lines"] = damaged
+    table.attrs["damaged_lines"] = lines.count(None)
     return table
 
 

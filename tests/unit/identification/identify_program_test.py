@@ -188,7 +188,7 @@ class Identify(unittest.TestCase):
     def test_the_recording_is_never_overwritten(self):
         name = self.write("r.csv", "time_s,position_m,power_W", self.samples())
         for option in ("--muscle", "--plot"):
-            self.assertIn("is the recording itself", self.identify(name, option, name, status=2).stderr)
+            self.assertIn(f"{name}: would replace {name} itself", self.identify(name, option, name, status=2).stderr)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ Result<CanLogFile> read_can_log(const std::string& path) {
       ++log.foreign_lines;
     }
   }
-  if (in.bad()) return failure(path + ": cannot be read to its end");
+  if (in.bad()) return failed_call(path + ": cannot be read to its end", errno);
   if (log.frames.empty() && log.foreign_lines == 0) {
     return failure(log.damage.empty() ? path + ": is empty"
                                       : log.damage + ": not a candump -L log");

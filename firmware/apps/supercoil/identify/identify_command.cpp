@@ -93,18 +93,14 @@ Findings find(const IdentifyOptions& o, std::size_t rows, Samples samples, const
   return f;
 }
 
-/// Whether the file that already has this name is the recording itself.
-bool is_input(const IdentifyOptions& o, const std::string& path) {
-  std::error_code ignored;
-  return !path.empty() && std::filesystem::equivalent(o.file, path, ignored);
-}
-
 }  // namespace
 
 int identify_command(const IdentifyOptions& options) {
   for (const std::string& path : {options.muscle, options.plot}) {
-    if (is_input(options, path))
-      return refuse(options.json, exit_wrong_input, path + ": is the recording itself");
+    if (!path.empty() && would_replace(path, options.file)) {
+      return refuse(options.json, exit_wrong_input,
+                    path + ": would replace " + options.file + " itself");
+    }
   }
   const auto recording = read_input(options);
   if (!recording) return refuse(options.json, exit_wrong_input, recording.error().text());

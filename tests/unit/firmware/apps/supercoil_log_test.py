@@ -236,8 +236,8 @@ class Log(unittest.TestCase):
         whole = self.recording
         for content, message in [
                 (b"", "d.scfr: is empty"),
-                (b"time_s,channel\n", "d.scfr: is not a flight recording"),
-                (b"\0" * 9999, "d.scfr: is not a flight recording"),
+                (b"time_s,channel\n", "d.scfr: is neither a flight recording nor a log of candump -L"),
+                (b"\0" * 9999, "d.scfr: is neither a flight recording nor a log of candump -L"),
                 (whole[:20], "d.scfr: is cut off in its first line"),
                 (whole[:200], "d.scfr: is cut off in its header: 200 of 512 bytes are there"),
                 (whole[:-1], "d.scfr: is cut off: 2101 of 2102 rows are there"),
@@ -264,7 +264,7 @@ class Log(unittest.TestCase):
         (self.path / "d.scfr").write_bytes(self.recording[:HEADER + 7])
         self.refused("d.scfr: has no whole row", "d.scfr", "--damaged")
         (self.path / "d.scfr").write_bytes(b"something else")
-        self.refused("d.scfr: is not a flight recording", "d.scfr", "--damaged")
+        self.refused("d.scfr: is neither a flight recording nor a log of candump -L", "d.scfr", "--damaged")
 
     def test_wrong_input_ends_with_status_2(self):
         self.refused("none.scfr: there is no such file", "none.scfr")
@@ -284,7 +284,7 @@ class Log(unittest.TestCase):
     def test_the_recording_itself_and_non_files_are_not_overwritten(self):
         os.link(self.path / "r.scfr", self.path / "again.scfr")
         for name in ["r.scfr", "./r.scfr", "again.scfr"]:
-            self.refused(f"{name}: is the recording itself", "r.scfr", "--out", name)
+            self.refused(f"{name}: would replace r.scfr itself", "r.scfr", "--out", name)
         self.assertEqual((self.path / "r.scfr").read_bytes(), self.recording)
         (self.path / "folder").mkdir()
         self.refused("folder: is not a file", "r.scfr", "--out", "folder")
@@ -306,6 +306,9 @@ class Log(unittest.TestCase):
         for option in [[], ["--summary"]]:
             with open("/dev/full", "w") as full:
                 done = subprocess.run([PROGRAM, "log", "r.scfr", *option], cwd=self.path, stdout=full,
+        os.link(self.path / "r.scfr", self.path / "y.csv.part")
+        self.refused("y.csv: would replace y.csv.part itself", "y.csv.part", "--out", "y.csv")
+        self.assertEqual((self.path / "y.csv.part").read_bytes(), self.recording)
                                       stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 1)
             self.assertIn("standard output: cannot be written: No space left on device", done.stderr)

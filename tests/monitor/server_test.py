@@ -22,6 +22,8 @@ from served import OnServedBoard, Served
 
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
 PAGE_TIMEOUT_S = 1.5
+NEED_A_VALUE = ("position", "power", "scale", "controller", "estimator", "store", "compare_supply", "compare_current",
+                "compare_rise", "tune")
 
 
 class Live(OnServedBoard):
@@ -85,11 +87,14 @@ class Live(OnServedBoard):
         for wrong in ("", "{", "[]", "7", "null", '{"node":0}', '{"node":64,"opcode":"arm"}', '{"node":1}',
                       '{"node":1,"opcode":"claim"}', '{"node":1,"opcode":"none"}', '{"node":1.5,"opcode":"arm"}',
                       '{"node":"1","opcode":"arm"}', '{"node":1,"opcode":"power","value":"x"}',
+                      *(f'{{"node":1,"opcode":"{opcode}"}}' for opcode in NEED_A_VALUE),
                       '{"node":1,"opcode":"power","value":1e999}', '{"node":1,"opcode":7}', "\xff\x00", "[" * 4000):
             status, answer = served.post("/api/command", wrong)
             self.assertEqual((status, list(answer)), (400, ["error"]), wrong)
             if not wrong.startswith('{"'):
                 self.assertIn("must be a JSON object", answer["error"])
+        said = served.post("/api/command", '{"node":1,"opcode":"store"}')[1]["error"]
+        self.assertEqual(said, "store needs a value: 1 stores the muscle, 0 clears it, 2 stores the tuning, 3 clears it")
         for path in ("/api/history?from_s=x", "/api/history?to_s=1e300", "/api/history?from_s=nan"):
             self.assertEqual(served.get(path)[0], 400, path)
         self.assertEqual(served.get("/api/fault/no_such")[0], 404)

@@ -18,29 +18,6 @@ namespace {
 
 constexpr std::string_view refused = "refused: ";
 
-/// Describes the number after a verb; empty: the verb takes none.
-std::string_view value_of(Verb verb) {
-  switch (verb) {
-    case Verb::position:
-    case Verb::scale:
-      return "a number, in m";
-    case Verb::power:
-      return "a number, in W";
-    case Verb::compare_supply:
-      return "a number, in V";
-    case Verb::compare_current:
-      return "a number, in A";
-    case Verb::compare_rise:
-      return "a number, in K";
-    case Verb::controller:
-    case Verb::estimator:
-    case Verb::tune:
-      return "a number, its place in the configuration from 0";
-    default:
-      return "";
-  }
-}
-
 template <class Number>
 std::optional<Number> number(std::string_view word) {
   Number value{};
@@ -81,17 +58,40 @@ Result<double> finite_number(std::string_view word, Verb verb, std::string_view 
   return failure(word.empty() ? what : what + "; '" + std::string(word) + "' is not one");
 }
 
-std::string unexpected_word(Verb verb, std::string_view rest) {
-  return std::string(name(verb)) +
-         (value_of(verb).empty() ? " takes no value: leave out '"
-                                 : " takes one value: leave out '") +
+/// typed: the verb's word.
+std::string unexpected_word(std::string_view typed, Verb verb, std::string_view rest) {
+  return std::string(typed) +
+         (needed_value(verb).empty() ? " takes no value: leave out '"
+                                     : " takes one value: leave out '") +
          std::string(rest) + "'";
 }
 
 }  // namespace
 
-Result<Command> parse_command(std::string_view text, std::size_t channels) {
+std::string_view needed_value(Verb verb) {
+  switch (verb) {
+    case Verb::position:
+    case Verb::scale:
+      return "a number, in m";
+    case Verb::power:
+      return "a number, in W";
+    case Verb::compare_supply:
+      return "a number, in V";
+    case Verb::compare_current:
+      return "a number, in A";
+    case Verb::compare_rise:
+      return "a number, in K";
+    case Verb::controller:
+    case Verb::estimator:
+    case Verb::tune:
+      return "a number, its place in the configuration from 0";
+    default:
+      return "";
+  }
+}
+
   const auto channel = channel_in(next_word(text), channels);
+Result<Command> parse_command(std::string_view text, std::size_t channels) {
   if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
   // `clear` is the word for storing nothing.
@@ -109,14 +109,14 @@ Result<Command> parse_command(std::string_view text, std::size_t channels) {
     command.value = stores ? store_tuning : clear_tuning;
     value_word = next_word(text);
   }
-  const std::string_view needs = value_of(verb);
+  const std::string_view needs = needed_value(verb);
   if (!needs.empty()) {
     const auto value = finite_number(value_word, verb, needs);
     if (!value) return tl::unexpected(value.error());
     command.value = *value;
   }
   const std::string_view rest = needs.empty() ? value_word : next_word(text);
-  if (!rest.empty()) return failure(unexpected_word(verb, rest));
+  if (!rest.empty()) return failure(unexpected_word(verb_word, verb, rest));
   return command;
 }
 

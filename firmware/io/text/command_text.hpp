@@ -20,6 +20,9 @@ Result<Command> parse_command(std::string_view text, std::size_t channels);
 std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
                                                         std::size_t channels);
 
+/// Describes the number after a verb: "a number, in m". Empty: the verb takes none.
+std::string_view needed_value(Verb verb);
+
 /// "ok", "refused: wrong_state", or "refused: out_of_range; 0.025 would be obeyed". nearest: as in
 /// Answer.
 std::string answer_text(Refusal refusal, double nearest);

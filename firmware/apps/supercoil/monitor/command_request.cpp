@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "telemetry/frames.hpp"
+#include "text/command_text.hpp"
 
 namespace supercoil::operating {
 
@@ -20,6 +21,15 @@ Result<std::uint8_t> node_of(const json& read) {
     return failure("node must be 1 to " + std::to_string(can::max_nodes));
   }
   return node->get<std::uint8_t>();
+}
+
+/// Why a command without a value is not obeyed; empty: it has none.
+std::string missing_value(Verb verb) {
+  const std::string_view needed =
+      verb == Verb::store ? "1 stores the muscle, 0 clears it, 2 stores the tuning, 3 clears it"
+                          : needed_value(verb);
+  if (needed.empty()) return {};
+  return std::string(name(verb)) + " needs a value: " + std::string(needed);
 }
 
 json read_json(const std::string& text) {
@@ -39,16 +49,18 @@ Result<CommandRequest> parse_command_request(const std::string& text) {
   const std::string opcode = read.contains("opcode") && read["opcode"].is_string()
                                  ? read["opcode"].get<std::string>()
                                  : std::string();
-  const auto verb = std::find(plain_verb_names.begin() + 1, plain_verb_names.end(), opcode);
-  if (verb == plain_verb_names.end()) return failure("'" + opcode + "' is not an opcode");
+  const auto found = std::find(plain_verb_names.begin() + 1, plain_verb_names.end(), opcode);
+  if (found == plain_verb_names.end()) return failure("'" + opcode + "' is not an opcode");
+  const auto verb = static_cast<Verb>(std::distance(plain_verb_names.begin(), found));
   double value = 0.0;
   if (const auto given = read.find("value"); given != read.end()) {
     if (!given->is_number() || !std::isfinite(given->get<double>()))
       return failure("value must be a number");
     value = given->get<double>();
+  } else if (std::string missing = missing_value(verb); !missing.empty()) {
+    return failure(std::move(missing));
   }
-  return CommandRequest{*node, static_cast<Verb>(std::distance(plain_verb_names.begin(), verb)),
-                        value};
+  return CommandRequest{*node, verb, value};
 }
 
 }  // namespace supercoil::operating

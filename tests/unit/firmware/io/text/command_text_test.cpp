@@ -72,6 +72,7 @@ TEST(CommandText, ErrorsNameTheProblem) {
   check_wrong("1 store 1", "store takes no value: leave out '1'");
 }
 
+  check_wrong("1 clear 5", "clear takes no value: leave out '5'");
 TEST(CommandText, KnotsAndStartsOfATrajectoryAreOnlyForTheSocket) {
   const auto knot = parse_trajectory_command("2 knot 0.02 0.0051 -0.001", channels);
   CHECK(knot && *knot);

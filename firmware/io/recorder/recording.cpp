@@ -13,21 +13,33 @@ namespace supercoil::recorder {
 
 namespace {
 
+/// The row in which the first fault latches. If none does, the first row with a fault, which was
+/// there before the recording began; null: no row has one.
+const Row* row_of_fault(const std::vector<Row>& rows) {
+  std::array<const Row*, 256> last{};
+  const Row* older = nullptr;
+  for (const Row& row : rows) {
+    const Row* before = std::exchange(last[row.channel], &row);
+    if (row.fault == 0) continue;
+    if (before != nullptr && before->fault == 0) return &row;
+    if (older == nullptr) older = &row;
+  }
+  return older;
+}
+
 /// Rebuilds the header from the rows when the stored one is damaged.
 Header header_from(const std::vector<Row>& rows) {
   Header header;
   header.rows = rows.size();
-  std::array<std::uint8_t, 256> last{};
-  for (const Row& row : rows) {
+  for (const Row& row : rows)
     header.channels = std::max(header.channels, std::min(row.channel + 1, 16));
-    const bool latches = row.fault != 0 && std::exchange(last[row.channel], row.fault) == 0;
-    if (latches && header.fault == 0) {
-      header.fault = row.fault;
-      header.fault_channel = row.channel;
-      header.fault_time_ns = row.time_ns;
-    }
+  if (const Row* fault = row_of_fault(rows)) {
+    header.fault = fault->fault;
+    header.fault_channel = fault->channel;
+    header.fault_time_ns = fault->time_ns;
+  } else if (!rows.empty()) {
+    header.fault_time_ns = rows.back().time_ns;
   }
-  if (header.fault == 0 && !rows.empty()) header.fault_time_ns = rows.back().time_ns;
   return header;
 }
 

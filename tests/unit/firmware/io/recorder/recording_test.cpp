@@ -137,6 +137,34 @@ TEST(Recording, TheCrcOfTwoPartsIsThatOfTheWhole) {
   LONGS_EQUAL(storage::crc32(text), storage::crc32("1234", "56789"));
 }
 
+/// As if the header had been overwritten.
+static recorder::Header header_of_rows(const std::vector<Row>& rows) {
+  std::string file = file_of(rows);
+  file[header_bytes - 10] ^= 1;
+  return decode(file, Damaged::read)->header;
+}
+
+TEST(Recording, WithoutAHeaderTheFirstFaultThatLatchesIsTheRecordedOne) {
+  for (Row& r : rows) {
+    if (r.channel == 0) r.fault = static_cast<std::uint8_t>(Fault::sensor_stale);
+  }
+  const recorder::Header header = header_of_rows(rows);
+  LONGS_EQUAL(30, header.fault);
+  LONGS_EQUAL(1, header.fault_channel);
+  CHECK(header.fault_time_ns == 5 * second_ns);
+  rows.pop_back();
+  const recorder::Header older = header_of_rows(rows);
+  LONGS_EQUAL(11, older.fault);
+  LONGS_EQUAL(0, older.fault_channel);
+  CHECK(older.fault_time_ns == 4 * second_ns);
+}
+
+TEST(Recording, WithoutAHeaderAFaultAfterAResetLatches) {
+  rows = {row(1 * second_ns, 0, Fault::sensor_stale), row(2 * second_ns, 0),
+          row(3 * second_ns, 0, Fault::heater_open)};
+  CHECK(header_of_rows(rows).fault_time_ns == 3 * second_ns);
+}
+
 TEST(Recording, EveryFlippedBitIsDetected) {
   for (std::size_t i = 0; i < file.size(); ++i) {
     for (int bit = 0; bit < 8; ++bit) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace supercoil::operating {
 
@@ -46,15 +47,16 @@ Gaps gaps_of(const recorder::Recording& recording) {
 }
 
 std::vector<OtherFault> other_faults_of(const recorder::Recording& recording) {
-  std::array<std::uint8_t, 256> last{};
+  std::array<const Row*, 256> last{};
   std::vector<OtherFault> others;
   for (const Row& row : recording.rows) {
-    const bool changed = row.fault != last[row.channel];
-    last[row.channel] = row.fault;
+    const Row* before = std::exchange(last[row.channel], &row);
+    const bool changed = row.fault != (before == nullptr ? 0 : before->fault);
     const bool is_recorded_fault = row.channel == recording.header.fault_channel &&
                                    row.time_ns == recording.header.fault_time_ns;
-    if (changed && !is_recorded_fault)
-      others.push_back({recording.time_s(row), row.channel, row.fault});
+    if (!changed || is_recorded_fault) continue;
+    const auto at_s = before == nullptr ? std::nullopt : std::optional(recording.time_s(row));
+    others.push_back({at_s, row.channel, row.fault});
   }
   return others;
 }

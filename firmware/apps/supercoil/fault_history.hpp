@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "recorder/recording.hpp"
@@ -18,9 +19,9 @@ struct Gaps {
 
 /// A fault besides the one for which the recording was made.
 struct OtherFault {
-  double at_s;
-  int channel;         ///< from 0
-  std::uint8_t fault;  ///< 0: it was reset
+  std::optional<double> at_s;  ///< empty: it was there before the channel's first row
+  int channel;                 ///< from 0
+  std::uint8_t fault;          ///< 0: it was reset
 };
 
 /// What a channel did up to the fault, and its maxima over the whole recording.

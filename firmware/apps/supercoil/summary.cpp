@@ -70,8 +70,12 @@ void print_other_faults(Lines& lines, const recorder::Recording& recording) {
   const std::size_t shown = std::min(max_shown, other_faults.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [at_s, channel, fault] = other_faults[i];
-    lines.add("  %+.3f s: channel %d: %s", at_s, channel + 1,
-              fault == 0 ? "fault reset" : recorder::fault_name(fault).c_str());
+    const std::string what = fault == 0 ? "fault reset" : recorder::fault_name(fault);
+    if (at_s) {
+      lines.add("  %+.3f s: channel %d: %s", *at_s, channel + 1, what.c_str());
+    } else {
+      lines.add("  channel %d: already in fault at the start: %s", channel + 1, what.c_str());
+    }
   }
   if (shown < other_faults.size())
     lines.add("  and %zu more faults and resets", other_faults.size() - shown);

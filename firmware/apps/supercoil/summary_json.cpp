@@ -48,7 +48,7 @@ Json gaps_json(const Gaps& gaps) {
 Json others_of(const recorder::Recording& recording) {
   Json others = Json::array();
   for (const auto& [at_s, channel, fault] : other_faults_of(recording)) {
-    others.push_back({{"at_s", at_s},
+    others.push_back({{"at_s", at_s ? Json(*at_s) : Json(nullptr)},
                       {"channel", channel + 1},
                       {"name", fault == 0 ? Json(nullptr) : Json(recorder::fault_name(fault))}});
   }

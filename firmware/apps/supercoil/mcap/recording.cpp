@@ -83,6 +83,8 @@ Written from_recording(const recorder::Recording& recording, const recorder::Sin
     if (!channels.contains(number)) {
       channels[number] =
           writer.add_channel("/channel_" + std::to_string(number), "supercoil.Row", properties());
+      // When a fault of the first row latched is not known.
+      fault_of.at(row.channel) = row.fault;
     }
     if (row.fault != fault_of.at(row.channel)) {
       fault_of.at(row.channel) = row.fault;

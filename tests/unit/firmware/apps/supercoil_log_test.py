@@ -252,6 +252,23 @@ class Log(unittest.TestCase):
     def test_with_damaged_the_readable_rows_are_read(self):
         for content, count, message in [
                 (self.recording[:HEADER + 10 * ROW + 5], 10, "is cut off: 10 of 2102 rows are there; 10 rows"),
+    def test_a_fault_from_before_the_recording_has_no_time(self):
+        rows = bytearray(self.recording[HEADER:])
+        for at in range(0, len(rows), ROW):
+            if rows[at + 8] == 0:
+                rows[at + 11] = 11  # channel 1 was in fault all the time
+        (self.path / "d.scfr").write_bytes(self.recording[:HEADER] + rows)
+        text = self.log("d.scfr", "--damaged", "--summary").stdout
+        self.assertIn("over_temperature (fault 30) on channel 2\n", text)
+        self.assertIn("  channel 1: already in fault at the start: sensor_stale\n", text)
+        self.assertEqual(json.loads(self.log("d.scfr", "--damaged", "--summary", "--json").stdout)["other_faults"],
+                         [{"at_s": None, "channel": 1, "name": "sensor_stale"}])
+        self.assertEqual(self.log("d.scfr", "--damaged", "--mcap", "--from", "-1", "--out", "d.mcap").returncode, 0)
+        with open(self.path / "d.mcap", "rb") as file:
+            faults = [json.loads(message.data) for _, _, message in
+                      mcap.reader.NonSeekingReader(file).iter_messages(topics=["/faults"])]
+        self.assertEqual(faults, [{"channel": 2, "fault": "over_temperature"}])
+
                 (self.recording[:99] + b"\0" + self.recording[100:], 2102, "its header is not as it was"),
                 (self.recording[:-5] + b"12345", 2102, "its rows have the CRC-32")]:
             with self.subTest(message):

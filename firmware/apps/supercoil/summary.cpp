@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "apps/supercoil/fault_history.hpp"
@@ -106,6 +107,12 @@ void print_last(Lines& lines, const Row& r) {
   lines.add("  just before: supply %s V, current %s A, resistance %s Ohm, %s s old",
             number(r.supply_V).c_str(), number(r.current_A).c_str(),
             number(r.resistance_Ohm).c_str(), number(r.resistance_age_s).c_str());
+  for (const auto& [flag, what] :
+       {std::pair{row_proof_off, "no proof of response"},
+        std::pair{row_oscillated, "the loop had oscillated: its feedback was slower"},
+        std::pair{row_slack, "slack at that joint angle, by its model"}}) {
+    if ((r.flags & flag) != 0) lines.add("  just before: %s", what);
+  }
 }
 
 void print_channel(Lines& lines, const recorder::Recording& recording, int number_,

@@ -67,7 +67,10 @@ Json last_of(const Row* row) {
           {"supply_V", json_of(row->supply_V)},
           {"current_A", json_of(row->current_A)},
           {"resistance_Ohm", json_of(row->resistance_Ohm)},
-          {"resistance_age_s", json_of(row->resistance_age_s)}};
+          {"resistance_age_s", json_of(row->resistance_age_s)},
+          {"proof_off", (row->flags & row_proof_off) != 0},
+          {"oscillated", (row->flags & row_oscillated) != 0},
+          {"slack", (row->flags & row_slack) != 0}};
 }
 
 Json margins_of(const ChannelHistory& c, const recorder::Recording& recording) {

@@ -73,9 +73,6 @@ inline constexpr std::array quantities{
     Quantity{"multiplexed_selector", value_of<&Row::multiplexed_selector>, multiplexed_name},
     Quantity{"multiplexed_value", value_of<&Row::multiplexed_value>},
     Quantity{"identify_notes", value_of<&Row::identify_notes>},
-};
-/// Quantities with a signal but no column: the CSV format is older.
-inline constexpr std::array signals_only{
     Quantity{"proof_off", flag_of<row_proof_off>},
     Quantity{"oscillated", flag_of<row_oscillated>},
     Quantity{"slack", flag_of<row_slack>},
@@ -84,9 +81,6 @@ inline constexpr std::array signals_only{
 /// Null: a row has no quantity of this name.
 constexpr const Quantity* find_quantity(std::string_view name) {
   for (const Quantity& quantity : quantities) {
-    if (quantity.name == name) return &quantity;
-  }
-  for (const Quantity& quantity : signals_only) {
     if (quantity.name == name) return &quantity;
   }
   return nullptr;

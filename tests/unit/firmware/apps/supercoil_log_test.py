@@ -21,7 +21,8 @@ HEADER, ROW = 512, 112
 COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
            "position_m,demanded_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
            "hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,margin_selector,margin_used,margin_measured,"
-           "margin_limit,gain_selector,gain,result,multiplexed_selector,multiplexed_value,identify_notes").split(",")
+           "margin_limit,gain_selector,gain,result,multiplexed_selector,multiplexed_value,identify_notes,"
+           "proof_off,oscillated,slack").split(",")
 
 
 class Log(unittest.TestCase):
@@ -188,6 +189,7 @@ class Log(unittest.TestCase):
                 "+0.500 s: channel 1: emergency_stop\n",
                 "just before: active, position, limited by nothing; position 0.001999 m, reference 0.011 m\n",
                 "supply 12 V",
+                "just before: no proof of response\n",
                 "power: 4 W on average before the fault, 4 W at most\n",
                 "hottest: at most 165.0 C, at 1.000 s\n"]:
             self.assertIn(text, done.stdout)
@@ -211,7 +213,8 @@ class Log(unittest.TestCase):
         faulty = summary["channels"][1]
         self.assertEqual(faulty["just_before"], {
             "state": "active", "mode": "position", "limited_by": "nothing", "position_m": 0.001999, "reference_m": 0.011,
-            "supply_V": 12.0, "current_A": 0.0, "resistance_Ohm": 10.0, "resistance_age_s": 0.0})
+            "supply_V": 12.0, "current_A": 0.0, "resistance_Ohm": 10.0, "resistance_age_s": 0.0,
+            "proof_off": True, "oscillated": False, "slack": False})
         self.assertEqual([faulty[key] for key in ("mean_W", "max_W", "hottest_C", "hottest_at_s")], [4.0, 4.0, 165.0, 1.0])
         self.assertEqual([margin["detector"] for margin in faulty["margins"]],
                          ["over_temperature", "under_voltage", "over_travel"])
@@ -249,9 +252,6 @@ class Log(unittest.TestCase):
                 (self.path / "d.scfr").write_bytes(content)
                 self.refused(message, "d.scfr", "--out", "out.csv")
 
-    def test_with_damaged_the_readable_rows_are_read(self):
-        for content, count, message in [
-                (self.recording[:HEADER + 10 * ROW + 5], 10, "is cut off: 10 of 2102 rows are there; 10 rows"),
     def test_a_fault_from_before_the_recording_has_no_time(self):
         rows = bytearray(self.recording[HEADER:])
         for at in range(0, len(rows), ROW):
@@ -269,6 +269,9 @@ class Log(unittest.TestCase):
                       mcap.reader.NonSeekingReader(file).iter_messages(topics=["/faults"])]
         self.assertEqual(faults, [{"channel": 2, "fault": "over_temperature"}])
 
+    def test_with_damaged_the_readable_rows_are_read(self):
+        for content, count, message in [
+                (self.recording[:HEADER + 10 * ROW + 5], 10, "is cut off: 10 of 2102 rows are there; 10 rows"),
                 (self.recording[:99] + b"\0" + self.recording[100:], 2102, "its header is not as it was"),
                 (self.recording[:-5] + b"12345", 2102, "its rows have the CRC-32")]:
             with self.subTest(message):
@@ -303,6 +306,9 @@ class Log(unittest.TestCase):
         for name in ["r.scfr", "./r.scfr", "again.scfr"]:
             self.refused(f"{name}: would replace r.scfr itself", "r.scfr", "--out", name)
         self.assertEqual((self.path / "r.scfr").read_bytes(), self.recording)
+        os.link(self.path / "r.scfr", self.path / "y.csv.part")
+        self.refused("y.csv: would replace y.csv.part itself", "y.csv.part", "--out", "y.csv")
+        self.assertEqual((self.path / "y.csv.part").read_bytes(), self.recording)
         (self.path / "folder").mkdir()
         self.refused("folder: is not a file", "r.scfr", "--out", "folder")
         self.refused("/dev/full: is not a file", "r.scfr", "--out", "/dev/full")
@@ -323,9 +329,6 @@ class Log(unittest.TestCase):
         for option in [[], ["--summary"]]:
             with open("/dev/full", "w") as full:
                 done = subprocess.run([PROGRAM, "log", "r.scfr", *option], cwd=self.path, stdout=full,
-        os.link(self.path / "r.scfr", self.path / "y.csv.part")
-        self.refused("y.csv: would replace y.csv.part itself", "y.csv.part", "--out", "y.csv")
-        self.assertEqual((self.path / "y.csv.part").read_bytes(), self.recording)
                                       stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 1)
             self.assertIn("standard output: cannot be written: No space left on device", done.stderr)

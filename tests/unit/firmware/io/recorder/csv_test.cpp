@@ -56,7 +56,7 @@ TEST(Csv, HasEveryFieldUnderItsName) {
   r.fault = 30;
   r.limited_by = 4;
   r.controller = 3;
-  r.flags = 5;
+  r.flags = 1 + 4 + 8 + 32;
   r.margin_selector = 41;
   r.gain_selector = 2;
   r.result = 6;
@@ -87,12 +87,12 @@ TEST(Csv, HasEveryFieldUnderItsName) {
       "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
       "margin_selector,margin_used,margin_measured,margin_limit,gain_selector,gain,result,"
       "multiplexed_selector,multiplexed_value,"
-      "identify_notes",
+      "identify_notes,proof_off,oscillated,slack",
       all[0].c_str());
   STRCMP_EQUAL(
       "-0.001,2,active,position,over_temperature,temperature,3,1,0,1,0.5,1.5,2.5,3.5,4.5,5.5,6.5,"
       "7.5,8.5,9.5,10.5,11.5,12.5,13.5,14.5,15.5,16.5,17.5,over_voltage,18.5,19.5,20.5,integral,21."
-      "5,poor_fit,theta1_deviation,22.5,18",
+      "5,poor_fit,theta1_deviation,22.5,18,1,0,1",
       all[1].c_str());
 }
 
@@ -103,7 +103,7 @@ TEST(Csv, NaNIsEmptyAndInfinityIsInf) {
   r.margin_used = INFINITY;
   recording.rows = {r};
   const auto fields = split(lines()[1], ',');
-  LONGS_EQUAL(38, fields.size());
+  LONGS_EQUAL(41, fields.size());
   STRCMP_EQUAL("", fields[10].c_str());
   STRCMP_EQUAL("inf", fields[29].c_str());
   STRCMP_EQUAL("", fields[31].c_str());

@@ -19,7 +19,7 @@ Row sample(std::int64_t tick, int channel) {
   const Fault cause = hot ? Fault::over_temperature : Fault::emergency_stop;
   Row row = test::row(tick * test::tick_ns, channel, faulty ? cause : Fault::none);
   row.mode = static_cast<std::uint8_t>(faulty ? Mode::rest : Mode::position);
-  row.flags = 2;
+  row.flags = row_trusted | row_proof_off;
   row.reference = 0.011F;
   row.applied_W = faulty ? 0.0F : hot ? 4.0F : 1.0F;
   row.demanded_W = row.applied_W;

@@ -85,6 +85,7 @@ class Refused(unittest.TestCase):
     def setUp(self):
         self.folder = self.enterContext(tempfile.TemporaryDirectory())
         self.answers = dict(self.ANSWERS)  # of several, each but the last is given once
+        self.received = []
         self.socket = f"{self.folder}/commands"
         self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.addCleanup(self.listener.close)
@@ -100,6 +101,7 @@ class Refused(unittest.TestCase):
                 return
             with client:
                 while line := client.recv(200).decode().removeprefix("1 "):
+                    self.received.append(line)
                     known = self.answers.get(line, self.answers.get(line.split()[0], "ok"))
                     if isinstance(known, list):
                         known = known.pop(0) if len(known) > 1 else known[0]
@@ -122,6 +124,28 @@ class Refused(unittest.TestCase):
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
         answer = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
         self.assertEqual(answer["range"], "-0.01 to 0.025 are in range")
+
+    def test_a_sine_that_leaves_the_range_is_not_begun(self):
+        sine = ("command", "1", "position", "0.001", "--amplitude", "0.05", "--period", "1", "--for", "4")
+        self.assertEqual(self.error_of(*sine), "supercoil: 1 position 0.001 --amplitude 0.05: leaves the range; "
+                         "-0.01 to 0.025 are in range\n")
+        self.assertEqual(self.received, ["muscle"])
+
+    def test_a_muscle_rests_after_a_refusal_of_a_held_set_point(self):
+        self.answers |= {"position": ["ok", "ok", "refused: queue_full"]}
+        self.assertIn("refused: queue_full", self.error_of("command", "1 position 0.02", "--for", "60"))
+        self.assertEqual([line.split()[0] for line in self.received], ["position"] * 3 + ["rest"])
+        self.received.clear()
+        self.answers |= {"position": "refused: queue_full"}
+        self.error_of("command", "1", "position", "0.02", "--for", "60")
+        self.assertEqual([line.split()[0] for line in self.received], ["position"])
+
+    def test_a_question_of_a_program_is_not_a_command(self):
+        for question in ("status", "muscle", "playback"):
+            done = subprocess.run([SUPERCOIL, "command", question, "--socket", self.socket], capture_output=True, text=True, timeout=DEADLINE_S)
+            self.assertEqual((done.returncode, done.stdout, done.stderr),
+                             (2, "", f"supercoil: '{question}': must be state, or a channel, as in '1 arm'\n"))
+        self.assertEqual(self.received, [])
 
     def test_a_held_set_point_names_the_fault_that_ended_it(self):
         held = ("command", "1", "position", "0.02", "--for", "60")

@@ -42,6 +42,10 @@ class Scripts(OnSimulatedBoard):
     def test_errors_are_reported_in_json_too(self):
         for words, status, expected in ((("command", "64", "arm", "--can", self.source), 2, "must be 1 to 63"),
                                     (("command",), 2, "COMMAND is required"),
+                                    (("command", "", "--can", self.source), 2, "no command: it must be state, or a channel and a command"),
+                                    (("command", "status", "--can", self.source), 2, "'status': must be state, or a channel, as in '1 arm'"),
+                                    (("command", "1 amr", "--can", self.source), 2, "did you mean arm?"),
+                                    (("command", "1", "identify", "--for", "0", "--can", self.source), 2, "--for: 0: must be more than 0"),
                                     (("tune", "99"), 2, "not in range"),
                                     (("tuen", "1"), 2, "did you mean tune?"),
                                     (("command", "state", "1", "--can", self.source), 2, "state 1: state covers all channels: leave out '1'"),

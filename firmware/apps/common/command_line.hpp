@@ -21,6 +21,15 @@ inline const CLI::Validator is_finite(
     },
     "");
 
+/// After is_finite.
+inline const CLI::Validator is_positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool ok = CLI::detail::lexical_cast(text, value) && value > 0.0;
+      return ok ? std::string() : text + ": must be more than 0";
+    },
+    "");
+
 /// What is wrong with the first word; empty if it is a command, an option or absent. CLI11 would
 /// only say that a command is missing.
 inline std::string wrong_command(const CLI::App& app, int count, char** arguments) {

@@ -1,11 +1,8 @@
 // supercoil command: sends one command to a board, once or repeatedly.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
-#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -16,10 +13,9 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/tuned_place.hpp"
+#include "apps/supercoil/typed_command.hpp"
 #include "apps/supercoil/value_range.hpp"
-#include "telemetry/frames.hpp"
 #include "text/command_text.hpp"
-#include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
 #include "text/result_words.hpp"
 
@@ -28,9 +24,6 @@ namespace supercoil::operating {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int digits = 9;  // of a position in metres: nanometres
-constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
 /// Otherwise the line was wrong and reached no channel.
 bool is_answer(std::string_view answer) {
@@ -44,29 +37,13 @@ int exit_status_of(const std::string& line, const std::string& answer) {
               line + ": " + answer_with_reason(line, answer));
 }
 
-std::optional<double> number_of(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-/// The nearest position that would be obeyed, for a request in degrees: rounded towards 0, so that
-/// it is obeyed.
-std::string degrees_text(const CommandOptions& options, double position_m) {
-  constexpr double per_deg = 1e4;
-  const double angle_deg = deg_per_rad * options.joint.angle_rad(position_m);
-  return number_text(std::trunc(per_deg * angle_deg) / per_deg, 7) + "deg";
-}
-
 std::string with_degrees(const CommandOptions& options, const std::string& answer) {
   const auto reply = parse_answer(answer);
   if (options.joint.direction == 0 || !reply || std::isnan(reply->nearest)) return answer;
   return answer + " (" + degrees_text(options, reply->nearest) + ")";
 }
 
-/// The range, after an out-of-range value: "; -0.025 to 0.025 are in range". Empty: the board does
-/// not tell.
+/// The range, after an out-of-range value. Empty: the board does not tell.
 std::string range_of_refused(BoardLink& board, const CommandOptions& options,
                              const std::string& answer) {
   if (options.words.size() != 3 || !refuses(answer, Refusal::out_of_range)) return "";
@@ -75,18 +52,7 @@ std::string range_of_refused(BoardLink& board, const CommandOptions& options,
   }
   if (options.words[1] != name(Verb::position)) return "";
   const auto known = board.muscle(options.words[0]);
-  if (!known) return "";
-  const double min_m = (*known)[known_min_set_point];
-  const double max_m = (*known)[known_max_set_point];
-  if (!(min_m < max_m)) return "";
-  const auto shown = [&](double position_m) {
-    return options.joint.direction == 0 ? number_text(position_m, digits)
-                                        : degrees_text(options, position_m);
-  };
-  // An antagonist's positions grow as the angle falls.
-  const bool turned = options.joint.direction < 0;
-  return "; " + shown(turned ? max_m : min_m) + " to " + shown(turned ? min_m : max_m) +
-         " are in range";
+  return known ? position_range(options, *known) : "";
 }
 
 /// Reports a command's result, as text or as JSON on standard output.
@@ -126,60 +92,10 @@ int send_line(BoardLink& board, const CommandOptions& options, const std::string
   return report_answer(options, line, answer, range);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words)
-    line += (line.empty() ? "" : " ") + word;
-  return line;
-}
-
-struct Value {
-  double number = 0.0;
-  bool in_degrees = false;  ///< else in the unit of its command
-};
-
-/// Parses "0.02", "20deg" or "20°".
-std::optional<Value> value_of(std::string_view text) {
-  bool in_degrees = false;
-  for (const std::string_view unit : {"deg", "°"}) {
-    if (!text.ends_with(unit)) continue;
-    in_degrees = true;
-    text.remove_suffix(unit.size());
-    break;
-  }
-  const auto number = number_of(text);
-  return number ? std::optional(Value{*number, in_degrees}) : std::nullopt;
-}
-
-/// The value of a command; only a position may be in degrees.
-std::optional<Value> value_of(const std::vector<std::string>& words) {
-  if (words.size() != 3) return std::nullopt;
-  const auto value = value_of(words[2]);
-  return value && value->in_degrees && words[1] != name(Verb::position) ? std::nullopt : value;
-}
-
-bool is_angle(const CommandOptions& options) {
-  return value_of(options.words).value_or(Value{}).in_degrees;
-}
-
-/// The line for the board: channel and verb unchanged; the value on the sine, if there is one, and
-/// in metres.
-std::string line_at(const CommandOptions& options, double time_s) {
-  const bool has_sine = options.sine_period_s > 0.0;
-  if (!has_sine && !is_angle(options)) return joined(options.words);
-  double value = value_of(options.words).value_or(Value{}).number;
-  if (has_sine) {
-    const double amplitude = value_of(options.sine_amplitude).value_or(Value{}).number;
-    value += amplitude * std::sin(2.0 * std::numbers::pi * time_s / options.sine_period_s);
-  }
-  if (is_angle(options)) value = options.joint.position_m(value / deg_per_rad);
-  return joined({options.words[0], options.words[1], number_text(value, digits)});
-}
-
 /// Reports a wrong request, or one without an answer; as JSON too if wanted.
 int refused(const CommandOptions& options, int status, const std::string& why) {
   if (options.json) {
-    const nlohmann::ordered_json report{{"command", joined(options.words)}, {"error", why}};
+    const nlohmann::ordered_json report{{"command", line_of(options.words)}, {"error", why}};
     std::printf("%s\n", report.dump().c_str());
   }
   return fail(status, why);
@@ -240,7 +156,7 @@ double progress_ratio(BoardLink& board, const CommandOptions& options, double ti
 int hold(BoardLink& board, const CommandOptions& options) {
   watch_for_interrupts();
   const bool resends_value = options.words.size() == 3;
-  Progress progress(joined(options.words), false);
+  Progress progress(line_of(options.words), false);
   // The first call takes a moment, in which a command to heat would expire.
   if (progress.shows()) progress_ratio(board, options, 0.0);
   const auto begin = Clock::now();
@@ -254,6 +170,8 @@ int hold(BoardLink& board, const CommandOptions& options) {
     const bool is_over = answer && refuses(*answer, Refusal::wrong_state);
     const bool goes_on = answer && *answer == "ok";
     if (!goes_on) progress.end();
+    // What was obeyed before must not end in the fault command_timeout.
+    if (!goes_on && !is_over && !first) static_cast<void>(board.ask(options.words[0] + " rest"));
     if (is_over && !first && !resends_value) return report_endings(board, options);
     if (is_over) return report_stopped(board, options, line, *answer);
     if (!goes_on) return report_answer(options, line, answer);
@@ -287,27 +205,28 @@ int read_joint(BoardLink& board, CommandOptions& options) {
   options.joint = joint_from(*muscle);
   if (options.joint.direction == 0) {
     return refused(options, exit_wrong_input,
-                   joined(options.words) + ": channel " + options.words[0] +
+                   line_of(options.words) + ": channel " + options.words[0] +
                        " is in no joint: its position is in metres");
   }
   return exit_done;
 }
 
-/// What is wrong with a sine; empty: nothing.
-std::string sine_problem(const CommandOptions& options) {
-  const auto middle = value_of(options.words);
-  if (!middle) return joined(options.words) + ": a sine needs a number as its middle";
-  const auto amplitude = value_of(options.sine_amplitude);
-  if (!amplitude) {
-    return "--amplitude " + options.sine_amplitude + ": must be a number" +
-           (middle->in_degrees ? " of degrees, such as 3deg" : "");
-  }
-  if (amplitude->in_degrees != middle->in_degrees) {
-    return joined(options.words) + " --amplitude " + options.sine_amplitude +
-           ": both must have the same unit; for an angle both are in degrees, such as 5deg and "
-           "3deg";
-  }
-  return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
+/// A sine of positions that leaves the board's range would be refused on its way. Returns an exit
+/// status.
+int check_sine_range(BoardLink& board, const CommandOptions& options) {
+  if (options.sine_period_s == 0.0 || options.words[1] != name(Verb::position)) return exit_done;
+  // Whoever parses the line reports a wrong channel.
+  if (!is_channel(options.words[0])) return exit_done;
+  const auto known = board.muscle(options.words[0]);
+  if (!known) return exit_done;
+  const double min_m = (*known)[known_min_set_point];
+  const double max_m = (*known)[known_max_set_point];
+  if (!(min_m < max_m)) return exit_done;
+  const auto [lowest_m, highest_m] = std::minmax(value_at(options, -1.0), value_at(options, 1.0));
+  if (lowest_m >= float_rounding * min_m && highest_m <= float_rounding * max_m) return exit_done;
+  return refused(options, exit_failed,
+                 line_of(options.words) + " --amplitude " + options.sine_amplitude +
+                     ": leaves the range" + position_range(options, *known));
 }
 
 /// Replaces the kind of a controller or an estimator by its place. The board refuses wrong numbers
@@ -319,16 +238,15 @@ int resolve_place(BoardLink& board, CommandOptions& options) {
   const bool tunes = words[1] == name(Verb::tune);
   const bool chooses_controller = words[1] == name(Verb::controller);
   const bool chooses = chooses_controller || words[1] == name(Verb::estimator);
-  const auto channel = number_of(words[0]);
   // Whoever parses the line reports a wrong channel.
-  if (!channel || !(*channel >= 1.0 && *channel <= can::max_nodes)) return exit_done;
-  if (!tunes && (!chooses || number_of(words[2]))) return exit_done;
+  if (!is_channel(words[0])) return exit_done;
+  if (!tunes && (!chooses || typed_number(words[2]))) return exit_done;
   const ReadTunable read_value = tunable_reader(board, words[0]);
   const Tuned what = chooses_controller ? Tuned::controller : Tuned::estimator;
   const auto place =
       tunes ? find_any_place(words[2], read_value) : find_place(what, words[2], read_value);
   if (!place) {
-    return refused(options, exit_for(place.error()), joined(words) + ": " + place.error().text());
+    return refused(options, exit_for(place.error()), line_of(words) + ": " + place.error().text());
   }
   words[2] = std::to_string(*place);
   return exit_done;
@@ -337,9 +255,12 @@ int resolve_place(BoardLink& board, CommandOptions& options) {
 }  // namespace
 
 int command_command(CommandOptions options) {
+  options.words = split_words(options.words);
+  if (const std::string problem = first_word_problem(options); !problem.empty())
+    return refused(options, exit_wrong_input, problem);
   if (options.words[0] == "state" && options.words.size() > 1) {
     return refused(options, exit_wrong_input,
-                   joined(options.words) + ": state covers all channels: leave out '" +
+                   line_of(options.words) + ": state covers all channels: leave out '" +
                        options.words[1] + "'");
   }
   if (options.sine_period_s > 0.0) {
@@ -350,6 +271,7 @@ int command_command(CommandOptions options) {
   if (!board) return refused(options, exit_failed, board.error().text());
   if (const int status = read_joint(**board, options); status != exit_done) return status;
   if (const int status = resolve_place(**board, options); status != exit_done) return status;
+  if (const int status = check_sine_range(**board, options); status != exit_done) return status;
   options.hold_s = held_s(options);
   const std::string line = line_at(options, 0.0);
   if (line == "state") return print_state(**board, options);

@@ -73,7 +73,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
       "--for", options.hold_s,
       "Renew the command for this many seconds or until Ctrl-C; then the muscle rests [sent once, "
       "then it expires; identify and calibrate are renewed until they end]");
-  hold->check(is_finite)->check(CLI::PositiveNumber);
+  hold->check(is_finite)->check(is_positive);
   command
       ->add_flag_callback(
           "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },

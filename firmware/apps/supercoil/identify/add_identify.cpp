@@ -41,7 +41,7 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
       ->add_option("--power-scale", o.columns.power.scale,
                    "Factor on the power: for a column that is 1 while heated, the power itself")
       ->check(is_finite)
-      ->check(CLI::PositiveNumber)
+      ->check(is_positive)
       ->capture_default_str();
   identify
       ->add_option("--channel", o.columns.channel,

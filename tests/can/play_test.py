@@ -179,12 +179,15 @@ class Files(PlayCase):
                 ("time_s,position_m\n0,0\n1,nan\n", '3: "nan" is not a number'),
                 ("time_s,position_m\n0,0\n1,1 mm\n", '3: "1 mm" is not a number'),
                 ("time_s,position_m\n0,0\n\n5,0.001\n",
-                 "4: time_s is 5.000000 s after the row before; it must be 0.001 to 4.094 s"),
-                ("time_s,position_m\n1,0\n1,0.001\n", "3: time_s is 0.000000 s after the row before"),
+                 "4: time_s is 5 s after the row before; it must be 0.001 to 4.094 s"),
+                ("time_s,position_m\n1,0\n1,0.001\n", "3: time_s is 0 s after the row before"),
+                ("time_s,position_m\n0,0\n0.0005,0\n0.001,0.001\n", "3: time_s is 0.0005 s after the row before"),
                 ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.001,0.1\n",
-                 "node 1: velocity_m_per_s of the last row must be 0"),
+                 "wrong.csv:3: node 1: velocity_m_per_s of the last row must be 0"),
+                ("time_s,position_m,velocity_m_per_s\n# begins\n0,0,0.1\n1,0.001,0\n",
+                 "wrong.csv:3: node 1: velocity_m_per_s of the first row must be 0"),
                 ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.1,0.4\n2,0.1,0\n",
-                 "node 1: at 1 s it moves by 0.400000 m/s; at most 0.32767 can be sent")):
+                 "wrong.csv:3: node 1: at 1 s it moves by 0.4 m/s; at most 0.32767 can be sent")):
             path.write_text(text)
             done = self.supercoil("play", path)
             self.assertEqual((done.returncode, done.stdout), (2, ""), text)

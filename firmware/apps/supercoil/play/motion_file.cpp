@@ -119,16 +119,20 @@ class MotionReader {
     }
     double& time_s = row[*time_];
     if (rows_.empty()) begins_s_ = time_s;
+    const double written_step_s = rows_.empty() ? min_row_step_s : time_s - written_s_;
+    written_s_ = time_s;
     // Round to the bus's milliseconds.
     time_s = std::round((time_s - begins_s_) * 1e3) / 1e3;
     const double step_s = rows_.empty() ? min_row_step_s : time_s - rows_.back()[*time_];
     const double max_row_step_s = max_value("after_s");
-    if (!(step_s > 0.5 * min_row_step_s && step_s < max_row_step_s + 0.5 * min_row_step_s)) {
-      return at_line("time_s is " + std::to_string(step_s) +
+    if (!(std::min(step_s, written_step_s) > 0.5 * min_row_step_s &&
+          step_s < max_row_step_s + 0.5 * min_row_step_s)) {
+      return at_line("time_s is " + number_text(written_step_s, 7) +
                      " s after the row before; it must be " + shortest_text(min_row_step_s) +
                      " to " + shortest_text(max_row_step_s) + " s");
     }
     rows_.push_back(std::move(row));
+    row_lines_.push_back(lines_.number());
     return std::nullopt;
   }
 
@@ -150,20 +154,24 @@ class MotionReader {
   }
 
   std::optional<std::string> check(const Motion& motion) const {
-    const std::string prefix = name_ + ": node " + std::to_string(motion.node) + ": ";
-    for (const auto& [which, knot] :
-         {std::pair{"first", motion.knots.front()}, std::pair{"last", motion.knots.back()}}) {
-      if (knot.velocity_m_per_s != 0.0)
-        return prefix + "velocity_m_per_s of the " + which + " row must be 0";
+    const auto at_row = [&](std::size_t row, const std::string& what) {
+      return name_ + ":" + std::to_string(row_lines_[row]) + ": node " +
+             std::to_string(motion.node) + ": " + what;
+    };
+    for (const auto& [which, row] :
+         {std::pair{"first", std::size_t{0}}, std::pair{"last", motion.knots.size() - 1}}) {
+      if (motion.knots[row].velocity_m_per_s != 0.0)
+        return at_row(row, std::string("velocity_m_per_s of the ") + which + " row must be 0");
     }
     const double max_velocity = max_value("velocity_m_per_s");
     const auto fast = std::ranges::find_if(motion.knots, [&](const control::Knot& knot) {
       return std::abs(knot.velocity_m_per_s) > max_velocity;
     });
     if (fast == motion.knots.end()) return std::nullopt;
-    return prefix + "at " + shortest_text(fast->time_s) + " s it moves by " +
-           std::to_string(fast->velocity_m_per_s) + " m/s; at most " + shortest_text(max_velocity) +
-           " can be sent";
+    return at_row(static_cast<std::size_t>(fast - motion.knots.begin()),
+                  "at " + shortest_text(fast->time_s) + " s it moves by " +
+                      number_text(fast->velocity_m_per_s, 7) + " m/s; at most " +
+                      shortest_text(max_velocity) + " can be sent");
   }
 
   identification::CsvLines lines_;
@@ -173,7 +181,9 @@ class MotionReader {
   std::map<std::uint8_t, Columns> columns_;
   std::size_t columns_of_file_ = 0;
   std::vector<MotionRow> rows_;
+  std::vector<std::size_t> row_lines_;
   double begins_s_ = 0.0;
+  double written_s_ = 0.0;  ///< time of the last row, not rounded
 };
 
 }  // namespace

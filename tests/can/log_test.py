@@ -176,12 +176,14 @@ class Log(unittest.TestCase):
                 (("can.log", "--from", "2", "--to", "1"), 2, "--from must not be later"),
                 (("can.log", "--summary"), 2, "is a CAN log"),
                 (("can.log", "--node", "64"), 2, "--node"),
-                (("can.log", "--from", "1e6"), 2, "no such frames"),
+                (("can.log", "--from", "1e6"), 2, "can.log: has no frame of that node, message and time"),
+                (("can.log", "--message", "Knot", "--mcap"), 2, "can.log: has no frame of that node, message and time"),
                 (("flight-1.scfr", "--message", "Power"), 2, "is not a CAN log"),
                 (("half.log",), 0, "half.log:"), (("none.log",), 2, "there is no such file")):
             done = self.log(*arguments)
             self.assertEqual(done.returncode, status, arguments)
             self.assertIn(why, done.stderr)
+            self.assertEqual(done.stdout == "", status == 2, arguments)
 
 
 if __name__ == "__main__":

@@ -83,6 +83,7 @@ Result<std::size_t> can_to_csv(const std::vector<hal::CanFrame>& frames,
     if (auto written = write(csv); !written) return tl::unexpected(written.error());
     csv.clear();
   }
+  if (rows == 0) return rows;
   if (auto written = write(csv); !written) return tl::unexpected(written.error());
   return rows;
 }

@@ -48,7 +48,7 @@ int can_log_command(const LogOptions& options) {
   const CanSelection selection{options.from_s, options.to_s, options.node, options.message};
   const auto write_all = options.mcap ? mcap::from_can_log : can_to_csv;
   return write_output(
-      options.out, options.file + ": has no such frames for that node and time",
+      options, options.file + ": has no frame of that node, message and time",
       [&](const recorder::Sink& sink) { return write_all(log->frames, selection, sink); });
 }
 

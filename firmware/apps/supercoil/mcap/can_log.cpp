@@ -55,6 +55,7 @@ Result<std::size_t> from_can_log(const std::vector<hal::CanFrame>& frames,
       return tl::unexpected(done.error());
     ++messages;
   }
+  if (messages == 0) return messages;
   if (auto done = writer.finish(); !done) return tl::unexpected(done.error());
   return messages;
 }

@@ -178,6 +178,16 @@ class Scripts(OnSimulatedBoard):
         self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
         self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
 
+    def test_a_refused_setting_without_a_value_prints_none(self):
+        self.arm_by_script()
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "0.001", "--hold", "--can", self.source])
+        self.addCleanup(held.wait, SLACK_S)
+        self.addCleanup(held.terminate)
+        until(lambda: "node 1: active" in self.command("state").stdout)
+        refused = subprocess.run([SUPERCOIL, "setting", "1", "max_power_W", "2", "--can", self.source], capture_output=True, text=True, timeout=SLACK_S)
+        self.assertEqual((refused.returncode, refused.stdout, refused.stderr),
+                         (1, "", "supercoil: max_power_W: refused: not_lease_holder: another program commands this muscle\n"))
+
 
 class BrokenMuscle(unittest.TestCase):
     def test_the_fault_that_interrupted_identify_is_named(self):

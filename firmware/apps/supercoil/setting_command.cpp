@@ -39,7 +39,7 @@ void print_setting(const can_client::Master::Setting& answer, bool json) {
     const nlohmann::ordered_json report{
         {"setting", name}, {"value", answer.value}, {"refusal", supercoil::name(answer.refusal)}};
     std::printf("%s\n", report.dump().c_str());
-  } else {
+  } else if (!std::isnan(answer.value)) {
     std::printf("%s = %.7g\n", name.c_str(), answer.value);
   }
 }

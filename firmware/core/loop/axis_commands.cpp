@@ -13,7 +13,7 @@ Reply no_such_place(double place, std::size_t places) {
 }
 
 bool is_place(double place, std::size_t places) {
-  return place >= 0.0 && place < static_cast<double>(places);
+  return place >= 0.0 && place < static_cast<double>(places) && place == std::floor(place);
 }
 
 }  // namespace

@@ -53,7 +53,8 @@ Result<std::uint8_t> channel_in(std::string_view word, std::size_t channels) {
 
 Result<double> finite_number(std::string_view word, Verb verb, std::string_view needs) {
   const auto value = number<double>(word);
-  if (value && std::isfinite(*value)) return *value;
+  const bool is_place = verb == Verb::controller || verb == Verb::estimator || verb == Verb::tune;
+  if (value && std::isfinite(*value) && (!is_place || *value == std::floor(*value))) return *value;
   const std::string what = std::string(name(verb)) + " needs " + std::string(needs);
   return failure(word.empty() ? what : what + "; '" + std::string(word) + "' is not one");
 }
@@ -90,8 +91,8 @@ std::string_view needed_value(Verb verb) {
   }
 }
 
-  const auto channel = channel_in(next_word(text), channels);
 Result<Command> parse_command(std::string_view text, std::size_t channels) {
+  const auto channel = channel_in(next_word(text), channels);
   if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
   // `clear` is the word for storing nothing.

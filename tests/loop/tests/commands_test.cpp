@@ -96,6 +96,7 @@ TEST(Commands, WithAnInvalidOrOutOfRangeValueAreRefused) {
   CHECK(answer_to(Verb::power, std::nan("")) == Refusal::out_of_range);
   CHECK(answer_to(Verb::controller, 3) == Refusal::out_of_range);
   CHECK(answer_to(Verb::controller, std::nan("")) == Refusal::out_of_range);
+  CHECK(answer_to(Verb::controller, 0.5) == Refusal::out_of_range);
   CHECK(answer_to(Verb::scale, -1.0) == Refusal::out_of_range);
   // For a muscle at rest this would be a scale of a thousand.
   CHECK(answer_to(Verb::scale, 0.5) == Refusal::out_of_range);

@@ -63,6 +63,8 @@ TEST(CommandText, ErrorsNameTheProblem) {
   check_wrong("1 power", "power needs a number, in W");
   check_wrong("1 tune pi",
               "tune needs a number, its place in the configuration from 0; 'pi' is not one");
+  check_wrong("1 controller 1.5",
+              "controller needs a number, its place in the configuration from 0; '1.5' is not one");
   check_wrong("1 position 0.01 5", "position takes one value: leave out '5'");
   check_wrong("1 arm now", "arm takes no value: leave out 'now'");
   check_wrong("1 heat",
@@ -70,9 +72,9 @@ TEST(CommandText, ErrorsNameTheProblem) {
               "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
               "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
   check_wrong("1 store 1", "store takes no value: leave out '1'");
+  check_wrong("1 clear 5", "clear takes no value: leave out '5'");
 }
 
-  check_wrong("1 clear 5", "clear takes no value: leave out '5'");
 TEST(CommandText, KnotsAndStartsOfATrajectoryAreOnlyForTheSocket) {
   const auto knot = parse_trajectory_command("2 knot 0.02 0.0051 -0.001", channels);
   CHECK(knot && *knot);

@@ -229,6 +229,22 @@ class Sources(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""), source)
             self.assertIn(why, done.stderr)
 
+    def test_an_ipv6_address_is_refused(self):
+        log = self.path / "can.log"
+        log.write_text("(0000000001.000000) can0 281#0A000000000000FF\n")
+        for address in ("::1", "::", "[::1]"):
+            done = self.run_monitor(log, "--listen", address)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (
+                2, "", f"supercoil: --listen {address}: must be an IPv4 address or a name, such as 0.0.0.0\n"))
+
+    def test_a_log_whose_time_goes_back_is_reported(self):
+        log = self.path / "two.log"
+        log.write_text("(0000000009.500000) can0 281#0A000000000000FF\n(0000000009.499000) can0 281#0A000000000000FF\n"
+                       "(0000000001.000000) can0 281#0A000000000000FF\n(0000000000.100000) can0 281#0A000000000000FF\n")
+        done = self.run_monitor(log, "--text")
+        self.assertEqual((done.returncode, done.stderr), (0, f"supercoil: {log}:3: is 8.499 s before the line before it; what "
+                                                             "follows is shown at one time: split the log there\n"))
+
     def test_a_peer_that_is_not_socketcand_is_reported(self):
         def greet(client):
             client.send(b"< hi >")

@@ -44,6 +44,11 @@ Result<Source> open_source(const MonitorOptions& options) {
       std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
                    log->damaged_lines);
     }
+    if (!log->goes_back.empty()) {
+      std::fprintf(stderr,
+                   "supercoil: %s; what follows is shown at one time: split the log there\n",
+                   log->goes_back.c_str());
+    }
     source.frame_history->add(log->frames);
     return source;
   }
@@ -135,6 +140,10 @@ int serve_page(const MonitorOptions& options, Source& source) {
 }  // namespace
 
 int monitor_command(const MonitorOptions& options) {
+  if (options.listen.find(':') != std::string::npos) {
+    return fail(exit_wrong_input, "--listen " + options.listen +
+                                      ": must be an IPv4 address or a name, such as 0.0.0.0");
+  }
   const std::string missing =
       options.setup.empty() ? "" : missing_channel(options.setup, options.channel);
   if (!missing.empty()) return fail(exit_wrong_input, missing);

@@ -5,7 +5,9 @@
 #include <fstream>
 #include <system_error>
 
+#include "apps/supercoil/bus/recent.hpp"
 #include "can_client/candump.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 
@@ -25,8 +27,15 @@ Result<CanLogFile> read_can_log(const std::string& path) {
       if (log.damaged_lines++ == 0)
         log.damage = path + ":" + std::to_string(number) + ": " + read.error().text();
     } else if (read->is_standard) {
-      log.frames.push_back(read->frame);
-      log.frames.back().received = can_client::time_of_run(read->frame.received);
+      hal::CanFrame frame = read->frame;
+      frame.received = can_client::time_of_run(frame.received);
+      if (log.goes_back.empty() && !log.frames.empty() &&
+          is_restart(log.frames.back().received, frame.received)) {
+        log.goes_back = path + ":" + std::to_string(number) + ": is " +
+                        number_text(hal::seconds(log.frames.back().received - frame.received), 6) +
+                        " s before the line before it";
+      }
+      log.frames.push_back(frame);
     } else {
       ++log.foreign_lines;
     }

@@ -14,6 +14,7 @@ struct CanLogFile {
   std::size_t foreign_lines = 0;      ///< frames that supercoil never sends
   std::string damage;                 ///< what is wrong with the first line that cannot be read
   std::size_t damaged_lines = 0;
+  std::string goes_back;  ///< the first line that is much earlier than the one before; empty: none
 };
 
 /// Skips lines that cannot be read: a log with a truncated last line is still useful. The error

@@ -21,14 +21,18 @@ bool earlier(const hal::CanFrame& frame, hal::Time time) {
 void FrameHistory::add(const std::vector<hal::CanFrame>& frames) {
   const std::lock_guard lock(mutex_);
   for (const hal::CanFrame& frame : frames) {
+    if (keep_.count() > 0 && !frames_.empty() &&
+        is_restart(frames_.back().received, frame.received)) {
+      dropped_ += frames_.size();
+      frames_.clear();
+    }
     frames_.push_back(frame);
-    // Times never decrease: a clock that was set back does not make a frame earlier than the last.
+    // Times never decrease: a frame that comes out of order is not earlier than the last.
     if (frames_.size() > 1) {
       hal::CanFrame& newest = frames_.back();
       newest.received = std::max(newest.received, frames_[frames_.size() - 2].received);
     }
     const auto decoded = can::decode(frame);
-    // A command does not prove that its node exists.
     if (!decoded) continue;
     if (!decoded->message->to_node) nodes_ |= std::uint64_t{1} << decoded->node;
     if (decoded->message->name == "Emergency") first_causes_.erase(decoded->node);

@@ -13,6 +13,12 @@
 
 namespace supercoil::operating {
 
+/// Whether a frame is so much earlier than the one received before that its clock must have been
+/// set back, or the source restarted. Frames of one source differ by less.
+constexpr bool is_restart(hal::Time before, hal::Time next) {
+  return next + std::chrono::seconds(1) < before;
+}
+
 /// How busy the bus is.
 struct BusFigures {
   double load = 0.0;  ///< fraction of the bus's time, at worst stuffing, over the last second
@@ -23,7 +29,8 @@ struct BusFigures {
 /// Safe from any thread.
 class FrameHistory {
  public:
-  /// keep_s: older frames are dropped; 0: none are. bit_rate: of the bus, to compute its load.
+  /// keep_s: older frames are dropped, and all of them when the source restarts; 0: none are.
+  /// bit_rate: of the bus, to compute its load.
   FrameHistory(double keep_s, double bit_rate)
       : keep_(hal::duration_from(keep_s)), bit_rate_(bit_rate) {}
 

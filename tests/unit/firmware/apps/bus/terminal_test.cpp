@@ -80,6 +80,24 @@ TEST(Terminal, JsonOmitsValuesThatAreNoLongerAvailable) {
   CHECK(reference_after(telemetry::JointPart::motion).is_null());
 }
 
+TEST(Terminal, AfterARestartOfTheSourceOnlyItsNewFramesAreShown) {
+  can::Encoder<can::message::measurement> frame(can::Node{1});
+  const auto add = [&](double time_s) {
+    frame.frame().received = hal::duration_from(time_s);
+    history.add({frame.frame()});
+  };
+  for (const double time_s : {1000.0, 1000.5, 1000.49, 1000.6})
+    add(time_s);
+  LONGS_EQUAL(4, history.end());
+  LONGS_EQUAL(4, history.since(0).frames.size());
+  add(3.0);
+  add(5.0);
+  const FrameHistory::Part part = history.since(0);
+  LONGS_EQUAL(2, part.frames.size());
+  LONGS_EQUAL(6, part.next);
+  DOUBLES_EQUAL(1.0, history.figures().frames_per_s, 1e-9);
+}
+
 TEST(Terminal, AModeWithoutProgressShowsNoPercentage) {
   can::Encoder<can::message::status> frame(can::Node{1});
   frame.set("mode", static_cast<double>(Mode::identify)).set("progress", NAN);

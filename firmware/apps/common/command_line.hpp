@@ -28,7 +28,7 @@ inline const CLI::Validator is_positive(
       const bool ok = CLI::detail::lexical_cast(text, value) && value > 0.0;
       return ok ? std::string() : text + ": must be more than 0";
     },
-    "");
+    "POSITIVE");
 
 /// What is wrong with the first word; empty if it is a command, an option or absent. CLI11 would
 /// only say that a command is missing.

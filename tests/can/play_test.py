@@ -130,6 +130,11 @@ class Refused(unittest.TestCase):
         self.assertEqual(self.error_of(*sine), "supercoil: 1 position 0.001 --amplitude 0.05: leaves the range; "
                          "-0.01 to 0.025 are in range\n")
         self.assertEqual(self.received, ["muscle"])
+        self.answers |= {"position": "refused: wrong_state"}
+        for middle, amplitude in (("0.0075", "0.0175"), ("0.0075", "-0.0175"), ("0.001", "0.002")):
+            self.received.clear()
+            self.error_of("command", "1", "position", middle, "--amplitude", amplitude, "--period", "1", "--for", "4")
+            self.assertEqual([line.split()[0] for line in self.received[:2]], ["muscle", "position"])
 
     def test_a_muscle_rests_after_a_refusal_of_a_held_set_point(self):
         self.answers |= {"position": ["ok", "ok", "refused: queue_full"]}

@@ -222,7 +222,7 @@ int check_sine_range(BoardLink& board, const CommandOptions& options) {
   const double min_m = (*known)[known_min_set_point];
   const double max_m = (*known)[known_max_set_point];
   if (!(min_m < max_m)) return exit_done;
-  const auto [lowest_m, highest_m] = std::minmax(value_at(options, -1.0), value_at(options, 1.0));
+  const auto [lowest_m, highest_m] = std::minmax({value_at(options, -1.0), value_at(options, 1.0)});
   if (lowest_m >= float_rounding * min_m && highest_m <= float_rounding * max_m) return exit_done;
   return refused(options, exit_failed,
                  line_of(options.words) + " --amplitude " + options.sine_amplitude +

@@ -90,7 +90,7 @@ std::string change_text(const Comparison& c, const Samples& samples) {
 std::string why_rejected(const Comparison& c, const Samples& samples) {
   if (std::string text = transformation_text(c); !text.empty()) return text;
   const EvaluatedModel& best = c.best();
-  const std::string limit = limit_text(best.fit);
+  std::string limit = limit_text(best.fit);
   if (limit.empty() && best.unseen_rms_m <= max_error_ratio * c.sizes.stroke_m) return {};
   if (counts_backwards(c, samples))
     return "the position falls when the muscle is heated: give --position-scale -1";

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "can/nodes.hpp"
+#include "loop/command.hpp"
 #include "text/number_text.hpp"
 #include "text/words.hpp"
 

@@ -58,19 +58,20 @@ TEST(Gradient, KeepsWhatItLearnedWhenAWarmMuscleIsHeatedAgain) {
   settings.initial = settings.scale.nominal;
   GradientEstimator<double> estimator(settings, step_s);
   Muscle muscle(PhysicalParameters{}, step_s);
-  const auto run = [&](double from_s, double to_s, bool heats) {
-    for (double time_s = from_s; time_s < to_s; time_s += step_s) {
-      const double power_W = heats ? paper_power_W(time_s) : 0.0;
+  long tick = 0;
+  const auto run_until = [&](double time_s, bool heats) {
+    for (; tick < std::lround(time_s / step_s); ++tick) {
+      const double power_W = heats ? paper_power_W(static_cast<double>(tick) * step_s) : 0.0;
       muscle.step(power_W);
       if (heats) estimator.step(muscle.position_m() / settings.scale.dc_gain_m_per_W, power_W);
     }
   };
-  run(0.0, 60.0, true);
-  run(60.0, 60.3, false);
+  run_until(60.0, true);
+  run_until(60.3, false);
   estimator.restart();
   const Theta nominal = settings.scale.nominal;
-  for (double time_s = 60.3; time_s < 90.0; time_s += 0.1) {
-    run(time_s, time_s + 0.1, true);
+  for (int tenth = 604; tenth < 900; ++tenth) {
+    run_until(0.1 * tenth, true);
     CHECK_COMPARE((estimator.theta() - nominal).cwiseQuotient(nominal).norm(), <, 0.1);
   }
 }

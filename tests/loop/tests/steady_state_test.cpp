@@ -4,46 +4,32 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "loop/support/rig.hpp"
+#include "loop/support/axis_case.hpp"
 
 using namespace supercoil;
 
-TEST_GROUP(SteadyHeatRead) {
-  static test::RigSettings compared_board() {
-    test::RigSettings s = test::rough_board();
-    s.firmware.channels[0].senses.error_ratio = 0.02;
-    return s;
-  }
-  test::RigSettings settings = compared_board();
-  std::optional<test::Rig> rig_;
-
-  test::Rig& rig() {
-    if (!rig_) {
-      rig_.emplace(settings);
-      rig_->boot();
-      rig_->arm();
-      rig_->run(0.2);
-    }
-    return *rig_;
-  }
-  Refusal read(double rise_K) {
-    return rig().answer_to(Verb::compare_rise, rise_K);
-  }
-  void check(Refusal expected, Refusal refusal) {
-    STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
-  }
-  double true_rise_K() {
-    return rig().muscle().plant().temperature_rise_K();
-  }
-  double width_K() {
-    return rig().snapshot().hottest_C - rig().snapshot().coldest_C;
-  }
-  std::optional<board::Learned> update() {
-    board::LearnedUpdate update;
-    rig().loop.channel(0).take_learned_update(update);
-    return update;
-  }
-};
+TEST_GROUP_BASE(SteadyHeatRead, test::AxisCase){
+    TEST_SETUP(){settings.firmware.channels[0].senses.error_ratio = 0.02;
+}
+Refusal read(double rise_K) {
+  return rig().answer_to(Verb::compare_rise, rise_K);
+}
+void check(Refusal expected, Refusal refusal) {
+  STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
+}
+double true_rise_K() {
+  return rig().muscle().plant().temperature_rise_K();
+}
+double width_K() {
+  return rig().snapshot().hottest_C - rig().snapshot().coldest_C;
+}
+std::optional<board::Learned> update() {
+  board::LearnedUpdate update;
+  rig().loop.channel(0).take_learned_update(update);
+  return update;
+}
+}
+;
 
 TEST(SteadyHeatRead, NarrowsTheIntervalAndIsStored) {
   rig().hold_power(1.5, 24.0);

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, above_hot_end = 0;
   std::printf(
       "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um standing_um ratio "
-      "calibrated_s identified_s took_s rise_K untold_K\n");
+      "calibrated_s identified_s took_s rise_K hidden_K\n");
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
       const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error, slower);
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   std::printf(
       "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time, "
       "%d both\n"
-      "%d were hotter at times than their board told that they may be\n",
+      "%d were hotter at times than their board reported as possible\n",
       followed, muscles, kept, near, in_time, both, above_hot_end);
   return 0;
 }

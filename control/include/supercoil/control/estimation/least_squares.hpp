@@ -13,6 +13,7 @@
 #include "supercoil/control/estimation/estimator_definition.hpp"
 #include "supercoil/control/estimation/filtered_regression.hpp"
 #include "supercoil/control/estimation/projection.hpp"
+#include "supercoil/control/estimation/residual_watch.hpp"
 #include "supercoil/control/estimation/simplest_change.hpp"
 #include "supercoil/control/estimation/ud_covariance.hpp"
 
@@ -97,7 +98,7 @@ class LeastSquaresEstimator {
   /// True when the deviations say how far θ is off: long enough after a start, a change, and any
   /// residual that they do not explain, and θ within its bounds.
   bool consistent() const {
-    return settled() && since_surprise_s_ > resettled_s && bounds_.contains(estimated());
+    return settled() && residual_.usual_s() > resettled_s && bounds_.contains(estimated());
   }
   /// True when θ predicts the muscle, at least in the direction of its motion.
   bool settled() const {
@@ -118,9 +119,6 @@ class LeastSquaresEstimator {
   static constexpr double resettled_s = 6.0;
   /// Λ's slowest poles decay with 0.755/s: by then 3·10⁻⁷ is left of a free response.
   static constexpr double free_s = 20.0;
-  /// A residual this many times its usual mean square, on average over this time, is a surprise.
-  static constexpr double surprise_ratio = 25.0;
-  static constexpr double surprise_s = 0.3;
   /// How far from rest the muscle may be when it changes, over max_W.
   static constexpr double change_span = 2.2;
   /// Standard deviations of a change: of a load over max_W, and of each θ over its nominal in
@@ -157,6 +155,7 @@ class LeastSquaresEstimator {
              .lag_s = s.forgetting_s * std::max(1.0, slowness(s.scale.nominal)),
              .memory_s = drift_memory * s.forgetting_s * std::max(1.0, slowness(s.scale.nominal)),
              .unexcited = unexcited_}),
+        residual_(period_s_),
         forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
         updates_per_error_(error_lasts_s * slowness(s.scale.nominal) / period_s_),
         explains_change_s_(free_s * std::max(1.0, slowness(s.scale.nominal))),
@@ -222,7 +221,7 @@ class LeastSquaresEstimator {
     theta_ += gain.template cast<Wide>() * Wide(error_);
     const EstimateAccuracy::Observation seen = observation();
     accuracy_.step(seen);
-    watch_residual(seen.residual_W);
+    residual_.step(seen.residual_W, accuracy_.mean_square());
     scale_ = std::min(1.0, covariance_scale());
     if (running_s() > settled_s) return_unexcited();
     if (updates_ % updates_per_accuracy == 0) update_accuracy();
@@ -233,12 +232,6 @@ class LeastSquaresEstimator {
     publish_estimate();
   }
 
-  /// The accuracy's mean square grows too slowly to tell that the muscle changes.
-  void watch_residual(double residual_W) {
-    recent_W2_ += (residual_W * residual_W - recent_W2_) * std::min(1.0, period_s_ / surprise_s);
-    since_surprise_s_ += period_s_;
-    if (recent_W2_ > surprise_ratio * accuracy_.mean_square()) since_surprise_s_ = 0.0;
-  }
   Parameters estimated() const { return theta_.template tail<5>().template cast<double>(); }
 
   /// Learns from how θ has moved what the model's error adds.
@@ -331,6 +324,7 @@ class LeastSquaresEstimator {
   Parameters unexcited_;  ///< variances of what nothing excites
   EstimateAccuracy accuracy_;
   EstimateDrift drift_;
+  ResidualWatch residual_;
   Scalar forgetting_;
   double updates_per_error_;  ///< a model error counts once per this many
   double explains_change_s_;  ///< for this time after a change
@@ -352,8 +346,6 @@ class LeastSquaresEstimator {
   std::int64_t updates_ = 0;
   std::int64_t since_start_ = 0;  ///< of the filters, in updates
   std::int64_t since_change_ = 0;
-  double since_surprise_s_ = INFINITY;
-  double recent_W2_ = 0.0;  ///< mean square of the residual
   std::int64_t changes_ = 0;
   int selector_ = 0;    ///< of the parameters in return_unexcited()
   double scale_ = 1.0;  ///< assumed covariance over the true one, for what is added to it

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "supercoil/identification/recording.hpp"
+#include "supercoil/identification/units.hpp"
 
 namespace supercoil::identification {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "supercoil/identification/comparison.hpp"
+#include "supercoil/identification/units.hpp"
 
 namespace supercoil::identification {
 

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "supercoil/identification/recording.hpp"
@@ -94,15 +92,6 @@ double position_at_m(const std::vector<MeanPosition>& means, std::size_t k, doub
 }
 
 }  // namespace
-
-std::string time_text(double time_s) {
-  std::array<char, 340> digits{};
-  std::string text(digits.data(), static_cast<std::size_t>(
-                                      std::snprintf(digits.data(), digits.size(), "%.6f", time_s)));
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
 
 Samples resample(const Recording& r) {
   const double duration_s = r.time_s.back() - r.time_s.front();

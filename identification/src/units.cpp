@@ -34,6 +34,13 @@ std::optional<double> unit_size(Quantity quantity, std::string_view unit) {
   return found->size;
 }
 
+std::string time_text(double time_s) {
+  std::string text = std::to_string(time_s);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::string units_of(Quantity quantity) {
   std::string result;
   for (const Unit& unit : units) {

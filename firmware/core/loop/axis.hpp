@@ -239,9 +239,6 @@ class Axis {
   }
 
   board::Learned known() const;
-  const control::PhysicalParameters& file_muscle() const {
-    return settings_.configured_muscle ? *settings_.configured_muscle : settings_.muscle;
-  }
   void forget_muscle(board::Learned& learned) const;
   void publish_muscle();
   static Refusal refusal_of(ModeResult kept);

@@ -172,7 +172,7 @@ Reply Axis::scale(double true_m) {
   if (!(true_m > 0.0)) return Refusal::out_of_range;
   // A muscle that was identified moves by so much more or less; the configured one is as it is.
   control::PhysicalParameters muscle = muscle_;
-  if (!(muscle == file_muscle())) muscle.force_per_kelvin_N_per_K *= true_m / measured_m;
+  if (!(muscle == settings_.file_muscle())) muscle.force_per_kelvin_N_per_K *= true_m / measured_m;
   const Refusal refusal = refusal_of(keep(muscle, found));
   estimation_.restart();
   // This tick must be judged by the new scale, or it would look like motion in the next one.

@@ -42,7 +42,7 @@ void Axis::calibrate(const board::Calibration& calibration) {
 
 /// What was cleared is used until the next start, but must not be stored again with a calibration.
 void Axis::forget_muscle(board::Learned& learned) const {
-  learned.muscle = file_muscle();
+  learned.muscle = settings_.file_muscle();
   learned.response_ratio = learned.unexplained_ratio = 0.0;
   learned.identification = {};
 }

@@ -80,14 +80,8 @@ struct ConfiguredMuscle {
 };
 /// min_set_point_m: in a joint it follows from the antagonist's limits.
 inline ConfiguredMuscle configured_muscle(const ChannelSettings& c, double min_set_point_m) {
-  return {c.configured_muscle.value_or(c.muscle),
-          c.heater.cold_resistance_Ohm,
-          c.joint,
-          c.bundle,
-          min_set_point_m,
-          c.supervision.max_travel_m,
-          c.limiter.max_W,
-          c.supervision.trip_C,
+  return {c.file_muscle(), c.heater.cold_resistance_Ohm, c.joint,         c.bundle,
+          min_set_point_m, c.supervision.max_travel_m,   c.limiter.max_W, c.supervision.trip_C,
           c.thermal.bounds};
 }
 

@@ -125,6 +125,11 @@ struct ChannelSettings {
   /// The same without the stored tuning; empty: no difference.
   std::vector<control::ControllerSettings> configured_controllers;
   std::vector<control::EstimatorSettings> configured_estimators;
+
+  /// As configured, also after another one was learned.
+  const control::PhysicalParameters& file_muscle() const {
+    return configured_muscle ? *configured_muscle : muscle;
+  }
 };
 
 /// Two channels whose muscles turn one joint against each other. Each position is that muscle's

@@ -80,7 +80,7 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
   constexpr double max_ratio = 1.3;
   const auto configured = [&board](std::size_t place) {
     const ChannelSettings& c = board.channels[place];
-    return c.configured_muscle.value_or(c.muscle);
+    return c.file_muscle();
   };
   const control::PhysicalParameters first = configured(joint.agonist);
   const control::PhysicalParameters second = configured(joint.antagonist);

@@ -7,6 +7,8 @@
 
 #include <unistd.h>
 
+#include "supercoil/identification/units.hpp"
+
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/findings.hpp"
 #include "apps/supercoil/identify/input.hpp"

@@ -3,6 +3,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "supercoil/identification/units.hpp"
+
 #include "apps/supercoil/identify/findings.hpp"
 
 namespace supercoil::operating {

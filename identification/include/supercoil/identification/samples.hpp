@@ -3,13 +3,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace supercoil::identification {
-
-/// To the microsecond, without trailing zeros: a recording's times may count from 1970.
-std::string time_text(double time_s);
 
 /// A span of time, ends included.
 struct Span {

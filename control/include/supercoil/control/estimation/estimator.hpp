@@ -55,7 +55,8 @@ class Estimator {
   Estimator(const EstimatorSettings& settings, double step_s);
   /// One tick: this tick's position, and the power really applied since the last one.
   void step(double position_m, double applied_power_W);
-  /// Call after a pause without steps: signals start at rest, what was learned stays.
+  /// Call after a pause without steps: what was learned stays, but is not trusted until the signals
+  /// have forgotten the motion before the pause.
   void restart();
   /// Empty for "none".
   const std::optional<Estimate>& estimate() const { return estimate_; }

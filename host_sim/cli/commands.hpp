@@ -31,6 +31,7 @@ struct RunOptions {
   std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
   bool end_with_parent = false;                  ///< in real time
   bool check = false;                            ///< only read the scenario
+  bool keys = false;                             ///< and print its keys
   bool json = false;                             ///< on standard output, and no text
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure

@@ -87,8 +87,12 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--end-with-parent", options.end_with_parent,
                 "Also end when the parent process ends, for whatever reason")
       ->needs(real_time);
-  run->add_flag("--check", options.check,
-                "Only check the scenario, and print what the muscle can do");
+  CLI::Option* check = run->add_flag("--check", options.check,
+                                     "Only check the scenario, and print what the muscle can do");
+  run->add_flag("--keys", options.keys,
+                "With --check, print every key that applies to the scenario instead, with the "
+                "value in force, its default and what is allowed")
+      ->needs(check);
   run->add_flag("--json", options.json,
                 "Print JSON instead of text: summary.json, or the results of --check");
   run->add_flag("--allow-fault", options.allow_fault,

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/keys_json.hpp"
 #include "apps/common/problems_json.hpp"
 #include "cli/commands.hpp"
 #include "cli/forecast.hpp"
@@ -115,9 +116,10 @@ OrErrors check_together(const RunOptions& options) {
   return once_for_each("--channel", options.channels.size());
 }
 
-/// The scenarios on one bus, with the boards that the options name.
+/// The scenarios on one bus, with the boards that the options name. keys: of each.
 tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options,
-                                                       LearnedFolder& folder_of_learned) {
+                                                       LearnedFolder& folder_of_learned,
+                                                       std::vector<config::KeyList>& keys) {
   if (auto together = check_together(options); !together)
     return tl::unexpected(std::move(together.error()));
   const auto learned = folder_of_learned.load();
@@ -125,7 +127,8 @@ tl::expected<std::vector<Scenario>, Errors> read_input(const RunOptions& options
   std::vector<Scenario> scenarios;
   for (std::size_t i = 0; i < options.scenarios.size(); ++i) {
     const Hardware hardware = options.boards.empty() ? Hardware::scenarios : Hardware::boards;
-    auto scenario = read_scenario(options.scenarios[i], *learned, hardware);
+    keys.emplace_back();
+    auto scenario = read_scenario(options.scenarios[i], *learned, hardware, &keys.back());
     if (!scenario) return tl::unexpected(std::move(scenario.error()));
     if (auto used = use_own_board(options, i, *learned, *scenario); !used)
       return tl::unexpected(std::move(used.error()));
@@ -143,15 +146,32 @@ tl::expected<Window, Errors> window_of(const RunOptions& options, const Scenario
                        number_text(scenario.duration_s, 9)));
 }
 
-/// Checks one of several copies, since all can do the same. JSON of several scenarios is a list.
+/// JSON of several scenarios is a list.
+void print(const nlohmann::ordered_json& of_each) {
+  std::puts((of_each.size() == 1 ? of_each[0] : of_each).dump(2).c_str());
+}
+
+void print_keys(const RunOptions& options, const std::vector<config::KeyList>& keys) {
+  if (options.json) {
+    nlohmann::ordered_json all;
+    for (const config::KeyList& of_scenario : keys)
+      all.push_back(keys_json(of_scenario));
+    return print(all);
+  }
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys.size() > 1) std::printf("%s:\n", options.scenarios[i].c_str());
+    std::fputs(config::to_text(keys[i]).c_str(), stdout);
+  }
+}
+
+/// Checks one of several copies, since all can do the same.
 void check_only(const RunOptions& options, const std::vector<Scenario>& boards) {
   const std::size_t scenarios = options.scenarios.size();
   if (options.json) {
     nlohmann::ordered_json all;
     for (std::size_t i = 0; i < scenarios; ++i)
       all.push_back(forecast_json(boards[i]));
-    std::puts((scenarios == 1 ? all[0] : all).dump(2).c_str());
-    return;
+    return print(all);
   }
   for (std::size_t i = 0; i < scenarios; ++i) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenarios[i].c_str(),
@@ -174,10 +194,15 @@ int run_command(const RunOptions& given) {
   RunOptions options = given;
   options.quiet = options.quiet || options.json;
   LearnedFolder folder_of_learned(options.learned);
-  const auto boards = read_input(options, folder_of_learned);
+  std::vector<config::KeyList> keys;
+  const auto boards = read_input(options, folder_of_learned, keys);
   if (!boards) return refuse(options, boards.error());
   const auto window = window_of(options, boards->front());
   if (!window) return refuse(options, window.error());
+  if (options.keys) {
+    print_keys(options, keys);
+    return exit_done;
+  }
   if (options.check) {
     check_only(options, *boards);
     return exit_done;

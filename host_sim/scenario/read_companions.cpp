@@ -38,7 +38,7 @@ std::vector<PlantSettings> read_companions(const toml::table& document, Diagnost
     for (const char* key : of_the_bundle) {
       if (own.has(key)) own.wrong(key, "applies to the whole bundle: set it in [plant]");
     }
-    Diagnostics found(diagnostics.file());
+    Diagnostics found(diagnostics.file(), diagnostics.keys());
     companions.push_back(read_plant(overlaid(document, path_of(number), "plant", found)));
     add_new(found, diagnostics);
   }

@@ -149,7 +149,7 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
     const Section own = section.section("antagonist");
     if (own.table() != nullptr) {
       refuse_keys_of_one_muscle(own);
-      Diagnostics found(diagnostics.file());
+      Diagnostics found(diagnostics.file(), diagnostics.keys());
       joint.antagonist->plant = read_plant(overlaid(document, "joint.antagonist", "plant", found));
       add_new(found, diagnostics);
     }
@@ -194,7 +194,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
   believed.muscle =
       config::read_parameters(muscle, along_the_arc(lever, lever_m, agonist, &antagonist, ratio));
   muscle.finish();
-  Diagnostics found(diagnostics.file());
+  Diagnostics found(diagnostics.file(), diagnostics.keys());
   Section other_muscle = overlaid(document, "joint.antagonist_muscle", "muscle", found);
   believed.antagonist = config::read_parameters(
       other_muscle, along_the_arc(lever, ratio * lever_m, antagonist, &agonist, 1.0 / ratio));

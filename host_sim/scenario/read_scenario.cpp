@@ -117,7 +117,8 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
                         "is missing: give the time of the event");
       }
       config::Section section(&event, "event", diagnostics);
-      const double at_s = section.number("at_s", 0.0, {0.0, duration_s});
+      const double at_s = section.required_number("at_s", {0.0, duration_s});
+      if (std::isnan(at_s)) continue;  // reported
       if (at_s == duration_s)
         section.wrong("at_s", "must be before the end of the run, duration_s");
       const bool reset = section.flag("reset", false);
@@ -181,16 +182,18 @@ KnownBefore known_before(const std::optional<board::Learned>& learned,
 }  // namespace
 
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const LearnedMuscles& learned, Hardware hardware) {
+                                  const LearnedMuscles& learned, Hardware hardware,
+                                  config::KeyList* keys) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
-  return scenario_from(std::move(document), name, learned, hardware);
+  return scenario_from(std::move(document), name, learned, hardware, keys);
 }
 
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const LearnedMuscles& learned, Hardware hardware) {
-  config::Diagnostics diagnostics(name);
+                                 const LearnedMuscles& learned, Hardware hardware,
+                                 config::KeyList* keys) {
+  config::Diagnostics diagnostics(name, keys);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
   scenario.crc32 = config::crc32_of(document);
@@ -201,6 +204,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   if (learned[0]) believed.muscle = learned[0]->muscle;
   if (learned[1]) believed.antagonist = learned[1]->muscle;
   scenario.start = read_conditions(document, believed, scenario.step_s(), hardware, diagnostics);
+  diagnostics.close_keys();
   const Conditions& start = scenario.start;
   scenario.known[0] = known_before(learned[0], configured.muscle, start.plant);
   scenario.known[1] =
@@ -218,8 +222,8 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     moment.reset |= event->reset;
     moment.new_controller |= event->changes.contains("controller");
     moment.new_estimator |= event->changes.contains("estimator");
-    const std::string keys = keys_of(event->changes);
-    moment.changes += (moment.changes.empty() || keys.empty() ? "" : ", ") + keys;
+    const std::string changed = keys_of(event->changes);
+    moment.changes += (moment.changes.empty() || changed.empty() ? "" : ", ") + changed;
     apply_changes(document, std::move(event->changes));
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
@@ -237,9 +241,9 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
 }
 
 ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned,
-                                 Hardware hardware) {
+                                 Hardware hardware, config::KeyList* keys) {
   if (const auto text = builtin_scenario(path)) {
-    return parse_scenario(std::string(*text), path, learned, hardware);
+    return parse_scenario(std::string(*text), path, learned, hardware, keys);
   }
   config::Diagnostics diagnostics(path);
   const bool is_name = path.find('.') == std::string::npos && path.find('/') == std::string::npos;
@@ -253,7 +257,7 @@ ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& 
   }
   const std::string text = config::read_text(path, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
-  return parse_scenario(text, path, learned, hardware);
+  return parse_scenario(text, path, learned, hardware, keys);
 }
 
 }  // namespace supercoil::host_sim

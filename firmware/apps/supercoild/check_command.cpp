@@ -5,6 +5,7 @@
 
 #include "apps/common/exit_status.hpp"
 #include "apps/common/feasibility_json.hpp"
+#include "apps/common/keys_json.hpp"
 #include "apps/common/problems_json.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
@@ -66,18 +67,32 @@ void print(const Json& json) {
   std::puts(json.dump(2).c_str());
 }
 
+int refuse(const Errors& problems, bool as_json) {
+  if (as_json) {
+    print(problems_json(problems));
+  } else {
+    std::fputs(config::to_text(problems).c_str(), stderr);
+  }
+  return exit_wrong_input;
+}
+
 }  // namespace
+
+int keys_command(const std::string& file, bool as_json) {
+  config::KeyList keys;
+  const auto config = config::read_board_config(file, &keys);
+  if (!config) return refuse(config.error(), as_json);
+  if (as_json) {
+    print(keys_json(keys));
+  } else {
+    std::fputs(config::to_text(keys).c_str(), stdout);
+  }
+  return exit_done;
+}
 
 int check_command(const std::string& file, bool as_json) {
   auto config = config::read_board_config(file);
-  if (!config) {
-    if (as_json) {
-      print(problems_json(config.error()));
-    } else {
-      std::fputs(config::to_text(config.error()).c_str(), stderr);
-    }
-    return exit_wrong_input;
-  }
+  if (!config) return refuse(config.error(), as_json);
   const std::vector<std::uint32_t> versions = recall_learned(*config);
   if (as_json) {
     print(json_of(*config, versions));

@@ -25,6 +25,9 @@ int off_command(const std::string& config, const std::string& run_folder);
 /// as_json: for programs. Returns the exit status.
 int check_command(const std::string& file, bool as_json);
 
+/// Prints every key that applies to the file. Returns the exit status.
+int keys_command(const std::string& file, bool as_json);
+
 struct LatencyOptions {
   std::string config;       ///< empty: one channel at rate_Hz
   double rate_Hz = 1000.0;  ///< 100 to 10000

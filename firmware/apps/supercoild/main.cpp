@@ -56,6 +56,11 @@ int run_program(int count, char** arguments) {
       app.add_option("--check", file,
                      "Read a board's configuration, print what was understood, and exit")
           ->type_name("FILE");
+  bool keys = false;
+  app.add_flag("--keys", keys,
+               "With --check, print every key that applies to the file instead, with the value in "
+               "force, its default and what is allowed")
+      ->needs(check);
   bool off = false;
   app.add_flag("--off", off, "Set every line low and every duty to 0, and end")->excludes(check);
   app.add_option("--config", options.config, "The board's configuration")
@@ -83,6 +88,7 @@ int run_program(int count, char** arguments) {
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }
+  if (keys) return daemon::keys_command(file, as_json);
   if (app.count("--check") > 0) return daemon::check_command(file, as_json);
   if (off) return daemon::off_command(options.config, options.run_folder);
   if (!measures) return daemon::run_command(options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "config/read_board.hpp"
 #include "config/read_bundles.hpp"
@@ -91,10 +92,17 @@ void refuse_settings(Section& board, const BoardSettings& settings, Diagnostics&
   }
 }
 
+/// A list in [every_channel] is read for each channel.
+void erase_repeated(KeyList& keys) {
+  std::set<std::string> names;
+  std::erase_if(keys, [&names](const Key& key) { return !names.insert(key.name).second; });
+}
+
 }  // namespace
 
-BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name) {
-  Diagnostics diagnostics(name);
+BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name,
+                                         KeyList* keys) {
+  Diagnostics diagnostics(name, keys);
   const toml::table document = parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
   Section root(&document, "", diagnostics);
@@ -136,15 +144,16 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   root.finish();
   if (!refuse_number(channels, diagnostics)) refuse_settings(board, config.settings, diagnostics);
   refuse_slow_buses(buses, config.wiring, config.settings.step_s());
+  if (keys != nullptr) erase_repeated(*keys);
   if (!diagnostics.empty()) return tl::unexpected(in_order(diagnostics.problems()));
   return config;
 }
 
-BoardConfigOrProblems read_board_config(const std::string& path) {
+BoardConfigOrProblems read_board_config(const std::string& path, KeyList* keys) {
   Diagnostics diagnostics(path);
   const std::string text = read_text(path, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
-  return parse_board_config(text, path);
+  return parse_board_config(text, path, keys);
 }
 
 }  // namespace supercoil::config

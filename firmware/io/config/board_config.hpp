@@ -51,10 +51,11 @@ struct BoardConfig {
 /// A configuration, or everything that is wrong with it, in the order of the file.
 using BoardConfigOrProblems = tl::expected<BoardConfig, Errors>;
 
-/// path: a .toml file.
-BoardConfigOrProblems read_board_config(const std::string& path);
+/// path: a .toml file. keys: gets all keys that apply to it, if not null.
+BoardConfigOrProblems read_board_config(const std::string& path, KeyList* keys = nullptr);
 
 /// The same from text; name: as in messages.
-BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name);
+BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name,
+                                         KeyList* keys = nullptr);
 
 }  // namespace supercoil::config

@@ -16,6 +16,22 @@ MracSettings::Parameters read_six(Section& section, const char* key,
   return Eigen::Map<const MracSettings::Parameters>(list.data());
 }
 
+/// Both absent: no projection.
+void read_bounds(Section& section, MracSettings& m) {
+  constexpr Range range{-1e6, 1e6};
+  const auto lower = section.numbers("lower", {}, range, 6, 6);
+  const auto upper = section.numbers("upper", {}, range, 6, 6);
+  if (lower.empty() && upper.empty()) return;
+  using Map = Eigen::Map<const MracSettings::Parameters>;
+  const MracSettings::Parameters wide = MracSettings::Parameters::Constant(range.max);
+  m.bounds = control::Box<double, 6>{
+      lower.empty() ? MracSettings::Parameters(-wide) : MracSettings::Parameters(Map(lower.data())),
+      upper.empty() ? wide : MracSettings::Parameters(Map(upper.data()))};
+  if ((m.bounds->lower.array() > m.bounds->upper.array()).any()) {
+    section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
+  }
+}
+
 /// Reads lists, and what else is not a tunable.
 void read_mrac_lists(Section& section, MracSettings& m) {
   const auto alpha = section.numbers("alpha", {m.alpha[0], m.alpha[1]}, {1e-6, 1e6}, 2, 2);
@@ -25,25 +41,16 @@ void read_mrac_lists(Section& section, MracSettings& m) {
   m.gain = read_six(section, "gain", m.gain, {-1e9, 1e9});
   m.initial = read_six(section, "initial", m.initial, {-1e6, 1e6});
   m.initial_sigma = section.number("initial_sigma", m.initial_sigma, {-1e6, 1e6});
-  const MracSettings::Parameters wide = MracSettings::Parameters::Constant(1e6);
-  const bool bounded = section.has("lower") || section.has("upper");
-  const auto lower = read_six(section, "lower", -wide, {-1e6, 1e6});
-  const auto upper = read_six(section, "upper", wide, {-1e6, 1e6});
-  if ((lower.array() > upper.array()).any()) {
-    section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
-  }
-  if (bounded) m.bounds = control::Box<double, 6>{lower, upper};
+  read_bounds(section, m);
   m.accept_failed_premises = section.flag("accept_failed_premises", false);
 }
 
 MracSettings read_mrac_preset(Section& section, double max_W) {
-  const std::string preset = section.text("preset", "a");
-  if (const auto named = control::mrac_preset(preset, max_W)) return *named;
-  std::string names;
+  std::vector<std::string> names;
+  names.reserve(control::mrac_presets.size());
   for (const auto& [name, text] : control::mrac_presets)
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  section.wrong("preset", "must be one of: " + names);
-  return {};
+    names.emplace_back(name);
+  return *control::mrac_preset(section.one_of("preset", "a", std::move(names)), max_W);
 }
 
 }  // namespace

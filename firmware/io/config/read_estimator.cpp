@@ -5,11 +5,14 @@ namespace supercoil::config {
 
 namespace {
 
+control::Theta theta_of(const std::vector<double>& list) {
+  return {list[0], list[1], list[2], list[3]};
+}
+
 control::Theta read_four(Section& section, const char* key, const control::Theta& fallback,
                          Range range) {
-  const auto list =
-      section.numbers(key, {fallback[0], fallback[1], fallback[2], fallback[3]}, range, 4, 4);
-  return control::Theta{list[0], list[1], list[2], list[3]};
+  return theta_of(
+      section.numbers(key, {fallback[0], fallback[1], fallback[2], fallback[3]}, range, 4, 4));
 }
 
 /// Reads the values that are lists.
@@ -17,16 +20,14 @@ void read_gradient(Section& section, control::GradientSettings& g) {
   const control::Tunable& gain = control::tunables()[control::tunable_named("gain_1")];
   g.gain = read_four(section, "gain", g.gain, {gain.min, gain.max});
   g.initial = read_four(section, "initial", g.initial, {-1e9, 1e9});
-  if (section.has("lower") || section.has("upper")) {
-    g.bounds =
-        control::Box<double, 4>{read_four(section, "lower", g.scale.nominal * 0.1, {-1e9, 1e9}),
-                                read_four(section, "upper", g.scale.nominal * 10.0, {-1e9, 1e9})};
-    if ((g.bounds->lower.array() > g.bounds->upper.array()).any()) {
-      section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
-    }
-  } else {
-    section.numbers("lower", {}, {0.0, 0.0}, 0, 0);
-    section.numbers("upper", {}, {0.0, 0.0}, 0, 0);
+  const auto lower = section.numbers("lower", {}, {-1e9, 1e9}, 4, 4);
+  const auto upper = section.numbers("upper", {}, {-1e9, 1e9}, 4, 4);
+  if (lower.empty() && upper.empty()) return;
+  g.bounds = control::Box<double, 4>{
+      lower.empty() ? control::Theta(g.scale.nominal * 0.1) : theta_of(lower),
+      upper.empty() ? control::Theta(g.scale.nominal * 10.0) : theta_of(upper)};
+  if ((g.bounds->lower.array() > g.bounds->upper.array()).any()) {
+    section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
   }
 }
 

@@ -27,14 +27,10 @@ void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSe
 }
 
 void read_thermal_fuse(Section& section, ChannelLabel& label) {
-  if (!section.has("thermal_fuse_C")) {
-    section.allow({"thermal_fuse_C"});
-    return;
-  }
   // No fuse is made for less than 60 °C, and nylon melts at 260 °C.
   constexpr Range range_C{60.0, 260.0};
-  const double opens_at_C = section.number("thermal_fuse_C", 0.0, {0.0, range_C.max});
-  label.thermal_fuse_C = opens_at_C;
+  label.thermal_fuse_C = section.optional_number("thermal_fuse_C", {0.0, range_C.max});
+  const double opens_at_C = label.thermal_fuse_C.value_or(0.0);
   if (opens_at_C > 0.0 && opens_at_C < range_C.min) {
     section.wrong("thermal_fuse_C", "must be 60 to 260, or 0 if there is no thermal fuse");
   }

@@ -34,8 +34,8 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
     section.wrong(lever_key, "needs lever_range_deg, the angles of its first and its last lever");
     return control::Lever(radii_m.front());
   }
-  const auto range_deg =
-      section.numbers(range_key, {-1.0, 1.0}, {-max_angle_deg, max_angle_deg}, 2, 2);
+  const auto range_deg = section.required_numbers(range_key, {-max_angle_deg, max_angle_deg}, 2, 2);
+  if (range_deg.empty()) return control::Lever(radii_m.front());  // reported
   if (!(range_deg[0] <= 0.0 && range_deg[1] >= 0.0 && range_deg[0] < range_deg[1])) {
     section.wrong(range_key, "must be two angles, with 0 between them or equal to one of them");
     return control::Lever(radii_m.front());

@@ -66,8 +66,8 @@ void read_pull(Section& section, const BoardSettings& board, JointSettings& join
   label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.max});
   if (section.has("pretension_N")) joint.pretension_N = label.pretension_N;
   read_stiffness_ratio(section, joint);
-  if (!section.has("max_pull_N")) return;
-  label.max_pull_N = section.number("max_pull_N", INFINITY, pull_range_N);
+  label.max_pull_N = section.optional_number("max_pull_N", pull_range_N);
+  if (!label.max_pull_N) return;
   const double antagonist_N = label.pretension_N / joint.antagonist_lever_ratio;
   const double cold_N = std::max(label.pretension_N, antagonist_N);
   if (*label.max_pull_N < cold_N) {

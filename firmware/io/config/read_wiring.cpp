@@ -87,13 +87,9 @@ PwmAddress WiringReader::pwm(Section section, const std::string& owner) {
   if (section.has("bits") && section.has("steps")) {
     section.wrong("bits", "and steps set the same value: give only one of them");
   }
-  if (section.has("bits")) {
-    address.steps = (1 << section.integer("bits", 12, 4, 24)) - 1;
-    section.allow({"steps"});
-  } else {
-    address.steps = static_cast<int>(section.integer("steps", address.steps, 15, 1 << 24));
-    section.allow({"bits"});
-  }
+  const auto bits = section.optional_integer("bits", 4, 24);
+  if (bits) address.steps = (1 << *bits) - 1;
+  address.steps = static_cast<int>(section.integer("steps", address.steps, 15, 1 << 24));
   address.access = access(section, pwm_transactions, pwm_bytes);
   section.finish();
   if (!address.device.empty() && section.has("number")) {

@@ -51,6 +51,28 @@ std::string list_rule(Range range, std::size_t min_count, std::size_t max_count)
   return "a list of " + count + " numbers, each " + shown(range);
 }
 
+/// monostate: a table, or what no reader accepts.
+KeyValue value_of(const toml::node& node) {
+  if (const auto number = node.value_exact<std::int64_t>()) return *number;
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto flag = node.value_exact<bool>()) return *flag;
+  if (auto text = node.value_exact<std::string>()) return std::move(*text);
+  std::vector<double> list;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array)
+      list.push_back(element.value<double>().value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return list;
+}
+
+/// A reader's mark for a key without a default or value.
+bool is_none(const KeyValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return !std::isfinite(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return text->empty();
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  return list != nullptr && list->empty();
+}
+
 }  // namespace
 
 Section::Found Section::lookup(std::string_view key) const {
@@ -80,7 +102,40 @@ void Section::wrong(std::string_view key, const std::string& message) {
   diagnostics_->add(place, full_key(key), message, has_value ? shown(*node) : "", node == nullptr);
 }
 
+void Section::note(std::string_view key, Key known) const {
+  KeyList* keys = diagnostics_->keys();
+  if (keys == nullptr) return;
+  const toml::node* node = lookup(key).node;
+  known.name = joined_path(path_, key);
+  known.value = node == nullptr ? known.fallback : value_of(*node);
+  known.line = node == nullptr ? 0 : static_cast<int>(node->source().begin.line);
+  for (KeyValue* value : {&known.fallback, &known.value}) {
+    if (is_none(*value)) *value = std::monostate();
+  }
+  keys->push_back(std::move(known));
+}
+
+void Section::require(std::string_view key, std::string rule) {
+  if (!has(key)) missing_.push_back({std::string(key), std::move(rule)});
+  if (KeyList* keys = diagnostics_->keys()) {
+    keys->back().required = true;
+    keys->back().fallback = std::monostate();
+  }
+}
+
+std::optional<std::int64_t> Section::optional_integer(std::string_view key, std::int64_t min,
+                                                      std::int64_t max) {
+  const std::int64_t none = min - 1;
+  const std::int64_t value = integer(key, none, min, max);
+  if (KeyList* keys = diagnostics_->keys()) {
+    keys->back().fallback = std::monostate();
+    if (!has(key)) keys->back().value = std::monostate();
+  }
+  return value == none ? std::nullopt : std::optional(value);
+}
+
 double Section::number(std::string_view key, double fallback, Range range) {
+  note(key, {.type = "number", .fallback = fallback, .range = range});
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   if (!node->is_number()) {
@@ -95,6 +150,9 @@ double Section::number(std::string_view key, double fallback, Range range) {
 
 std::int64_t Section::integer(std::string_view key, std::int64_t fallback, std::int64_t min,
                               std::int64_t max) {
+  note(key, {.type = "integer",
+             .fallback = fallback,
+             .range = Range{static_cast<double>(min), static_cast<double>(max)}});
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   const std::string allowed = std::to_string(min) + " to " + std::to_string(max);
@@ -109,6 +167,7 @@ std::int64_t Section::integer(std::string_view key, std::int64_t fallback, std::
 }
 
 bool Section::flag(std::string_view key, bool fallback) {
+  note(key, {.type = "flag", .fallback = fallback});
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   if (node->is_boolean()) return *node->value<bool>();
@@ -117,6 +176,7 @@ bool Section::flag(std::string_view key, bool fallback) {
 }
 
 std::string Section::text(std::string_view key, std::string_view fallback) {
+  note(key, {.type = "text", .fallback = std::string(fallback)});
   const toml::node* node = find(key);
   if (node == nullptr) return std::string(fallback);
   if (node->is_string()) return *node->value<std::string>();
@@ -124,8 +184,29 @@ std::string Section::text(std::string_view key, std::string_view fallback) {
   return std::string(fallback);
 }
 
+std::string Section::one_of(std::string_view key, std::string_view fallback,
+                            std::vector<std::string> names) {
+  if (key == "kind" && !has(key)) default_kind_ = fallback;
+  std::string given = text(key, fallback);
+  const bool allowed = !has(key) || std::ranges::find(names, given) != names.end();
+  if (!allowed) {
+    std::string all;
+    for (const std::string& name : names)
+      all += (all.empty() ? "" : ", ") + name;
+    wrong(key, "must be one of: " + all);
+    given = fallback;
+  }
+  if (KeyList* keys = diagnostics_->keys()) keys->back().names = std::move(names);
+  return given;
+}
+
 std::vector<double> Section::numbers(std::string_view key, std::vector<double> fallback,
                                      Range range, std::size_t min_count, std::size_t max_count) {
+  note(key, {.type = "numbers",
+             .fallback = fallback,
+             .range = range,
+             .min_count = min_count,
+             .max_count = max_count});
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   const std::string rule = "must be " + list_rule(range, min_count, max_count);
@@ -145,28 +226,33 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
   return values;
 }
 
+std::optional<double> Section::optional_number(std::string_view key, Range range) {
+  const double value = number(key, std::numeric_limits<double>::quiet_NaN(), range);
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
 double Section::required_number(std::string_view key, Range range) {
-  if (!has(key)) missing_.push_back({std::string(key), "a number, " + shown(range)});
-  return number(key, std::numeric_limits<double>::quiet_NaN(), range);
+  const double value = number(key, std::numeric_limits<double>::quiet_NaN(), range);
+  require(key, "a number, " + shown(range));
+  return value;
 }
 
 std::vector<double> Section::required_numbers(std::string_view key, Range range,
                                               std::size_t min_count, std::size_t max_count) {
-  if (!has(key)) missing_.push_back({std::string(key), list_rule(range, min_count, max_count)});
-  return numbers(key, {}, range, min_count, max_count);
+  std::vector<double> values = numbers(key, {}, range, min_count, max_count);
+  require(key, list_rule(range, min_count, max_count));
+  return values;
 }
 
 std::int64_t Section::required_integer(std::string_view key, std::int64_t min, std::int64_t max) {
-  if (!has(key)) {
-    missing_.push_back({std::string(key),
-                        "a whole number, " + std::to_string(min) + " to " + std::to_string(max)});
-  }
-  return integer(key, min, min, max);
+  const std::int64_t value = integer(key, min, min, max);
+  require(key, "a whole number, " + std::to_string(min) + " to " + std::to_string(max));
+  return value;
 }
 
 std::string Section::required_text(std::string_view key) {
-  if (!has(key)) missing_.push_back({std::string(key), "text in quotes"});
   std::string given = text(key, "");
+  require(key, "text in quotes");
   const Found found = lookup(key);
   if (given.empty() && found.node != nullptr && found.node->is_string()) {
     wrong(key, "must not be empty");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,14 +17,9 @@
 
 namespace supercoil::config {
 
-/// Minimum and maximum allowed value, inclusive.
-struct Range {
-  double min;
-  double max;
-};
-
 /// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range
 /// or a NaN is noted in the diagnostics, and the default is returned so that reading can go on.
+/// What each key may be is noted there too, so that the program can list all keys.
 /// When all keys have been asked for, finish() notes each key that was not read, and each
 /// required one that is absent.
 class Section {
@@ -37,37 +33,41 @@ class Section {
   /// table by table. Lists are not merged.
   Section over(const toml::table* under, std::string under_path) const;
 
-  /// A float or an integer.
+  /// A float or an integer. A default that is not finite is none.
   double number(std::string_view key, double fallback, Range range);
   /// min and max: inclusive.
   std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t min,
                        std::int64_t max);
   /// true or false; a number is refused.
   bool flag(std::string_view key, bool fallback);
-  /// Any string, also an empty one.
+  /// Any string, also an empty one. An empty default is none.
   std::string text(std::string_view key, std::string_view fallback);
-  /// Between least and most numbers, each in range.
+  /// One of the names, or the default.
+  std::string one_of(std::string_view key, std::string_view fallback,
+                     std::vector<std::string> names);
+  /// Between min_count and max_count numbers, each in range. An empty default is none.
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range range,
                               std::size_t min_count, std::size_t max_count);
   /// One of a set of names.
   template <class Value, std::size_t N>
   Value choice(std::string_view key, Value fallback, const control::Names<Value, N>& names) {
-    if (key == "kind" && !has(key)) default_kind_ = control::name_of(names, fallback);
-    const std::string given = text(key, control::name_of(names, fallback));
-    if (const auto value = control::find_named(names, given)) return *value;
-    std::string allowed;
-    for (const auto& [name, value] : names) {
-      allowed += (allowed.empty() ? "" : ", ") + std::string(name);
-    }
-    wrong(key, "must be one of: " + allowed);
-    return fallback;
+    std::vector<std::string> allowed;
+    for (const auto& [name, value] : names)
+      allowed.emplace_back(name);
+    const std::string given = one_of(key, control::name_of(names, fallback), std::move(allowed));
+    return control::find_named(names, given).value_or(fallback);
   }
   /// A table inside this one; absent is an empty one.
   Section section(std::string_view key);
   /// Each of [[key]], named key[1], key[2], …; a single table counts as one. Empty when absent.
   std::vector<Section> sections(std::string_view key);
 
-  /// Like those above, for keys without a default. NaN, min or empty if the key is absent or
+  /// For keys that may be absent and have no default. Empty if the key is absent or wrong.
+  std::optional<double> optional_number(std::string_view key, Range range);
+  std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t min,
+                                               std::int64_t max);
+
+  /// Like those above, for keys that must be there. NaN, min or empty if the key is absent or
   /// wrong.
   double required_number(std::string_view key, Range range);
   /// As numbers().
@@ -113,6 +113,10 @@ class Section {
     if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   }
   Found lookup(std::string_view key) const;
+  /// For the list of keys: adds the table, the value and the line to what is known of the key.
+  void note(std::string_view key, Key known) const;
+  /// For the key that was read last: without a default. rule: what it must be.
+  void require(std::string_view key, std::string rule);
   const toml::node* find(std::string_view key);
   std::string full_key(std::string_view key) const;
   /// Notes unknown keys; returns the names that were probably meant.

@@ -232,6 +232,20 @@ class Results(ProgramCase):
         self.assertLessEqual(sum(summary["limited_by_ratio"].values()), 1.0)
         self.assertNotIn("nothing", summary["limited_by_ratio"])
 
+    def test_check_prints_the_keys_at_the_start(self):
+        scenario = self.scenario(SHORT + "[[event]]\nat_s = 0.1\ncontroller.kind = 'pi'\n")
+        done = self.run_program("run", scenario, "--check", "--keys")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"\nplant\.air_acts +false +false +true, false\n")
+        self.assertNotIn("proportional_W_per_m", done.stdout)
+        self.assertRegex(done.stdout, r"\nevent\.at_s +0\.1 +required +\d+ +0 to ")
+        both = json.loads(self.run_program("run", "sine", "steps", "--check", "--keys", "--json").stdout)
+        names = [[key["key"] for key in one["keys"]] for one in both]
+        self.assertEqual([len(of_one) for of_one in names], [len(set(of_one)) for of_one in names])
+        self.assertEqual([name in names[1] for name in ("reference.levels_m", "reference.offset_m")], [True, False])
+        joint = self.run_program("run", "joint", "--check", "--keys").stdout
+        self.assertRegex(joint, r"\njoint\.antagonist_muscle\.stiffness_N_per_m ")
+
     def test_check_and_list_write_nothing(self):
         checked = self.run_program("run", self.scenario(SHORT), "--check")
         self.assertEqual(checked.returncode, 0)

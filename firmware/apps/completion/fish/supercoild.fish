@@ -2,6 +2,7 @@
 complete -c supercoild -n true -s h -l help -d 'Print this help message and exit'
 complete -c supercoild -n true -l version -d 'Display program version information and exit'
 complete -c supercoild -n true -l check -r -F -d 'Read a board'\''s configuration, print what was understood, and exit'
+complete -c supercoild -n true -l keys -d 'With --check, print every key that applies to the file instead, with the value in force, its default and what is allowed'
 complete -c supercoild -n true -l off -d 'Set every line low and every duty to 0, and end'
 complete -c supercoild -n true -l config -r -F -d 'The board'\''s configuration'
 complete -c supercoild -n true -l run-folder -r -F -d 'Where the lock and the socket for local commands are'

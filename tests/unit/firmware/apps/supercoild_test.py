@@ -47,6 +47,27 @@ class Program(unittest.TestCase):
         self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
         self.assertRegex(done.stdout, r"\n  total    \d+ KiB\n")
 
+    def test_check_prints_every_key_with_its_value_default_and_range(self):
+        done = self.run_program("--check", SLOW, "--keys")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"^key +value +default +line +allowed\n")
+        self.assertRegex(done.stdout, r"\nboard\.rate_Hz +100 +1000 +\d+ +100 to 10000\n")
+        listed = json.loads(self.run_program("--check", SLOW, "--keys", "--json").stdout)["keys"]
+        keys = {each["key"]: each for each in listed}
+        self.assertEqual(len(keys), done.stdout.count("\n") - 1)
+        self.assertEqual(keys["board.late_ms"], {"key": "board.late_ms", "type": "number", "value": 5.0, "default": 5.0,
+                                                 "required": False, "line": 0, "min": 0.001, "max": 10.0})
+        self.assertEqual(keys["channel[4].limits.preset"]["names"], ["nylon", "skin"])
+
+    def test_keys_of_a_wrong_file_are_its_problems(self):
+        name, line = self.changed("rate_Hz = 100", "rate_Hz = 1")
+        done = self.run_program("--check", name, "--keys")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn(f"{name}:{line}: ", done.stderr)
+        alone = self.run_program("--keys")
+        self.assertEqual((alone.returncode, alone.stdout), (2, ""))
+        self.assertIn("--keys requires --check", alone.stderr)
+
     def test_check_prints_json_for_programs(self):
         done = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml", "--json")
         report = json.loads(done.stdout)

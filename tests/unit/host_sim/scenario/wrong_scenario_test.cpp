@@ -245,8 +245,10 @@ TEST(WrongScenario, KeyWithTensOfThousandsOfParts) {
 }
 
 TEST(WrongScenario, MissingPoles) {
-  check_answer("s.toml:1: reference_model.kind = 'poles': needs poles_rad_per_s = [a, b, c]",
-               "reference_model.kind = 'poles'\ncontroller.kind = 'pi'");
+  check_answer(
+      "s.toml:1: reference_model.poles_rad_per_s: is missing: it must be a list of 3 "
+      "numbers, each 0.001 to 1000",
+      "reference_model.kind = 'poles'\ncontroller.kind = 'pi'");
 }
 
 TEST(WrongScenario, KeyOfAnotherKindNamesTheDefaultKind) {

@@ -1,0 +1,46 @@
+// The keys that a file may have, as its readers ask for them: for --keys, and for the tables in
+// docs/.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace supercoil::config {
+
+/// Minimum and maximum allowed value, inclusive.
+struct Range {
+  double min;
+  double max;
+};
+
+/// monostate: none. Numbers are finite, lists and texts are not empty.
+using KeyValue =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+
+struct Key {
+  std::string name{};            ///< with its table: channel[1].limits.max_W
+  std::string_view type{};       ///< number, integer, numbers (a list), flag or text
+  KeyValue fallback{};           ///< its default
+  KeyValue value{};              ///< in force
+  std::optional<Range> range{};  ///< of a number, or of each in a list
+  std::size_t min_count = 0;     ///< of a list
+  std::size_t max_count = 0;
+  std::vector<std::string> names{};  ///< allowed texts; empty: any
+  bool required = false;
+  int line = 0;  ///< where the file has it; 0: it does not
+};
+
+using KeyList = std::vector<Key>;
+
+/// What a key may be: "0 to 255"; empty: any text.
+std::string allowed_text(const Key& key);
+
+/// A line each: value, default, the file's line, and what is allowed.
+std::string to_text(const KeyList& keys);
+
+}  // namespace supercoil::config

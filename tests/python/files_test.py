@@ -105,6 +105,18 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, said):
                 supercoil.load(self.path / "damaged.scfr")
 
+    def test_what_is_missing_of_a_truncated_file_is_named(self):
+        flight, trace = ((self.path / name).read_bytes() for name in ("flight-1.scfr", "trace.csv"))
+        columns = trace.split(b"\n")[0].count(b",") + 1
+        for content, said in ((b"", "cut: is empty"),
+                              (flight[:300], "cut: is cut off after 300 of the 512 bytes of its header"),
+                              (flight[:512 + 3 * 112 + 50], "cut: is cut off after 3 of [0-9]+ rows; supercoil log"),
+                              (trace[:trace.rindex(b",", 0, -60)], f"cut:401: has [0-9]+ fields; there are {columns}"),
+                              (trace + b"1" + b"," * columns, f"cut: is not a table: .*Expected {columns} fields")):
+            (self.path / "cut").write_bytes(content)
+            with self.assertRaisesRegex(ValueError, said):
+                supercoil.load(self.path / "cut")
+
     def test_a_trace_has_its_rows_and_units(self):
         table = supercoil.load(self.path / "trace.csv")
         self.assertEqual(len(table), 400)

@@ -35,12 +35,17 @@ _NAMES: dict[str, type[IntEnum]] = {
 def _rows(file: Path) -> tuple[dict[str, str], numpy.ndarray[Any, Any]]:
     content = file.read_bytes()
     header, rows = content[:_HEADER_BYTES], content[_HEADER_BYTES:]
+    if len(header) < _HEADER_BYTES:
+        raise ValueError(f"{file}: is cut off after {len(header)} of the {_HEADER_BYTES} bytes of its header")
     first = _FIRST_LINE.match(header)
     if first is None or int(first[1]) != _FORMAT:
         raise ValueError(f"{file}: is not a flight recording of format {_FORMAT}")
     if zlib.crc32(header[first.end():]) != int(first[2], 16):
         raise ValueError(f"{file}: its header is damaged; supercoil log --damaged reads what it can")
     keys = dict(_KEY.findall(header.decode()))
+    whole = len(rows) // _ROW.itemsize
+    if whole < int(keys["rows"]):
+        raise ValueError(f"{file}: is cut off after {whole} of {keys['rows']} rows; supercoil log --damaged reads them")
     if zlib.crc32(rows) != int(keys["rows_CRC32"], 16) or len(rows) != int(keys["rows"]) * _ROW.itemsize:
         raise ValueError(f"{file}: its rows are damaged; supercoil log --damaged reads what it can")
     return keys, numpy.frombuffer(rows, _ROW)

@@ -1,6 +1,7 @@
 """Loads files of boards and simulations as pandas tables. attrs["units"] has each column's unit."""
 
 import re
+from collections import deque
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,8 @@ def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
     file = Path(path)
     with file.open("rb") as opened:
         start = opened.read(len(MAGIC))
+    if not start:
+        raise ValueError(f"{file}: is empty")
     if start == MAGIC:
         return load_flight(file)
     if start.startswith(_NPY):
@@ -69,10 +72,23 @@ def _time_of_run_s(text: str) -> float:
 
 
 def _load_csv(file: Path) -> pandas.DataFrame:
-    table = pandas.read_csv(file, float_precision="round_trip")  # otherwise pandas 2 is off by a bit
+    try:
+        table = pandas.read_csv(file, float_precision="round_trip")  # otherwise pandas 2 is off by a bit
+    except (pandas.errors.EmptyDataError, pandas.errors.ParserError, UnicodeDecodeError) as error:
+        raise ValueError(f"{file}: is not a table: {str(error).strip()}") from error
     if not len(table.columns) or table.columns[0] != "time_s":
         raise ValueError(f"{file}: is not a can.log, a flight recording or a CSV whose first column is time_s")
+    _check_last_line(file, len(table.columns))
     return _with_units(table)
+
+
+def _check_last_line(file: Path, columns: int) -> None:
+    """pandas would take the fields that a truncated file lacks for missing values."""
+    with file.open("rb") as opened:
+        number, last = deque(enumerate(opened, 1), maxlen=1)[0]
+    fields = last.count(b",") + 1
+    if last.strip() and fields < columns:
+        raise ValueError(f"{file}:{number}: has {fields} fields; there are {columns} columns: the file is cut off")
 
 
 def _load_npy(file: Path) -> pandas.DataFrame:

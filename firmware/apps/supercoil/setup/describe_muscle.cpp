@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 
 #include "text/number_text.hpp"
 
@@ -73,6 +74,39 @@ Heat heat_of(const MuscleAnswers& a, double error) {
   return heat;
 }
 
+std::string in_K(double rise_K) {
+  return number_text(rise_K, 3) + " K";
+}
+
+/// Two answers that cannot both be true, even if all are wrong by this error; empty: there are
+/// none.
+std::string contradiction(const MuscleAnswers& a, const Heat& heat, double error) {
+  if (!(a.of(QuestionId::thread_g) > 0.0)) return {};
+  const double weighed_K = a.of(QuestionId::heated_W) / heat.transfer_W_per_K;
+  const double min_K = weighed_K / (1.0 + error) / heat.transfer.high;
+  const double max_K = weighed_K / (1.0 - error) / heat.transfer.low;
+  const std::string rise = "by its weight and half_cooling_s the thread is " + in_K(min_K) +
+                           " to " + in_K(max_K) + " warmer than the air at heated_W";
+  const double read_K = a.of(QuestionId::heated_K);
+  const bool agrees = read_K / (1.0 - error) >= min_K && read_K / (1.0 + error) <= max_K;
+  if (read_K > 0.0 && !agrees)
+    return "thread_g and heated_K contradict each other: " + rise + ", not " + in_K(read_K);
+  const double endured_K = questions.at(static_cast<std::size_t>(QuestionId::heated_K)).allowed.max;
+  if (min_K > endured_K)
+    return "heated_W and thread_g contradict each other: " + rise + ", which no nylon endures";
+  return {};
+}
+
+/// What this quantity of the muscle follows from.
+std::string_view answers_for(std::string_view quantity, bool weighed) {
+  if (quantity == "stiffness_N_per_m") return "stretch_weight_g and stretch_mm";
+  if (quantity == "moving_mass_kg") return "load_g";
+  if (quantity == "damping_Ns_per_m") return "stretch_weight_g, stretch_mm and load_g";
+  if (quantity == "force_per_kelvin_N_per_K")
+    return "heated_mm, heated_W, stretch_weight_g and stretch_mm";
+  return weighed ? "thread_g and half_cooling_s" : "heated_W, heated_K and half_cooling_s";
+}
+
 PhysicalParameters muscle_of(const MuscleAnswers& a, const Heat& heat) {
   PhysicalParameters m;
   m.thermal_mass_J_per_K = heat.mass_J_per_K;
@@ -113,11 +147,13 @@ Result<MuscleDescription> describe_muscle(const MuscleAnswers& a, const config::
   }
   const double error = 1e-2 * a.of(QuestionId::uncertainty_percent);
   const Heat heat = heat_of(a, error);
+  if (std::string text = contradiction(a, heat, error); !text.empty()) return failure(text);
   MuscleDescription d{muscle_of(a, heat), {}};
   if (const auto wrong = control::check(d.muscle)) {
     std::ostringstream message;
-    message << "the answers give a muscle with " << wrong->quantity << " = " << wrong->value
-            << "; it must be " << wrong->min << " to " << wrong->max;
+    message << answers_for(wrong->quantity, a.of(QuestionId::thread_g) > 0.0)
+            << " give a muscle with " << wrong->quantity << " = " << wrong->value << "; it must be "
+            << wrong->min << " to " << wrong->max;
     return failure(message.str());
   }
   const auto add = [&](const char* path, double value, const char* reason) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <CppUTest/TestHarness.h>
 
@@ -96,8 +97,36 @@ TEST(DescribeMuscle, ImplausibleAnswersAreNamed) {
   a.set(static_cast<std::size_t>(QuestionId::stretch_mm), 0.01);
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
-  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08; it must be 0.01 to 1e+06",
-                  d.error().text().c_str());
+  STRCMP_EQUAL(
+      "stretch_weight_g and stretch_mm give a muscle with stiffness_N_per_m = 9.81e+08; it must be "
+      "0.01 to 1e+06",
+      d.error().text().c_str());
+}
+
+/// By its weight the paper's muscle is 22.5 K warmer at 2 W. The answers may be wrong by half.
+TEST(DescribeMuscle, AThermometerThatContradictsTheWeightIsNamed) {
+  for (const auto& [heated_K, agrees] : {std::pair{22.5, true}, std::pair{60.0, true},
+                                         std::pair{2.0, false}, std::pair{8.0, true}}) {
+    MuscleAnswers a = paper_answers();
+    a.set(static_cast<std::size_t>(QuestionId::heated_K), heated_K);
+    CHECK_EQUAL(agrees, describe_muscle(a).has_value());
+  }
+  MuscleAnswers a = paper_answers();
+  a.set(static_cast<std::size_t>(QuestionId::heated_K), 150.0);
+  a.set(static_cast<std::size_t>(QuestionId::uncertainty_percent), 20.0);
+  STRCMP_EQUAL(
+      "thread_g and heated_K contradict each other: by its weight and half_cooling_s the thread is "
+      "12.5 K to 42.1 K warmer than the air at heated_W, not 150 K",
+      describe_muscle(a).error().text().c_str());
+}
+
+/// Ten watts in a hundredth of a gram that cools as slowly.
+TEST(DescribeMuscle, AHeatThatTheThreadWouldNotEndureIsNamed) {
+  MuscleAnswers a = paper_answers();
+  a.set(static_cast<std::size_t>(QuestionId::heated_W), 10.0);
+  a.set(static_cast<std::size_t>(QuestionId::thread_g), 0.01);
+  STRCMP_CONTAINS("heated_W and thread_g contradict each other: by its weight",
+                  describe_muscle(a).error().text().c_str());
 }
 
 TEST(DescribeMuscle, APowerStageWithDelayGetsLessBandwidth) {

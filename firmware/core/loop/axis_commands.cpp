@@ -8,8 +8,10 @@ namespace supercoil {
 
 namespace {
 
+/// A place between two others is refused like one beyond the last: the nearest is a whole number.
 Reply no_such_place(double place, std::size_t places) {
-  return {Refusal::out_of_range, std::clamp(place, 0.0, static_cast<double>(places - 1))};
+  return {Refusal::out_of_range,
+          std::clamp(std::round(place), 0.0, static_cast<double>(places - 1))};
 }
 
 bool is_place(double place, std::size_t places) {
@@ -121,6 +123,8 @@ Reply Axis::choose_controller(double place) {
   if (!is_place(place, tracking_.controllers()))
     return no_such_place(place, tracking_.controllers());
   const auto chosen = static_cast<std::size_t>(place);
+  // It would forget what it has learned.
+  if (chosen == tracking_.chosen()) return Refusal::none;
   if (mode_ == Mode::position) {
     tracking_.take_over(chosen, reference_, muscle_);
   } else {

@@ -85,7 +85,7 @@ std::string_view needed_value(Verb verb) {
     case Verb::controller:
     case Verb::estimator:
     case Verb::tune:
-      return "a number, its place in the configuration from 0";
+      return "a whole number, its place in the configuration from 0";
     default:
       return "";
   }

@@ -1,6 +1,7 @@
 // What an axis is commanded, and what it publishes.
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <CppUTest/TestHarness.h>
 
@@ -88,6 +89,35 @@ TEST(Axis, UsesTheSelectedController) {
   LONGS_EQUAL(1, rig().snapshot().controller);
   CHECK(answer_to(Verb::controller, 3.0) == Refusal::out_of_range);
   LONGS_EQUAL(1, rig().snapshot().controller);
+}
+
+/// mrac would forget what it has learned of this muscle.
+TEST(Axis, ChoosingTheControllerInUseChangesNothing) {
+  const auto gain = [&] {
+    CHECK(rig().run_until([&] { return rig().snapshot().gain.gain == control::Gain::position; },
+                          1.0));
+    return rig().snapshot().gain.value;
+  };
+  CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
+  rig().heat(Task::position);
+  rig().run(0.1);
+  const double first = gain();
+  rig().run(20.0);
+  const double learned = gain();
+  CHECK_COMPARE(std::abs(learned - first), >, 0.01);
+  CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
+  DOUBLES_EQUAL(learned, gain(), 0.1 * std::abs(learned - first));
+}
+
+TEST(Axis, NamesAWholeNumberAsTheNearestPlace) {
+  for (const auto& [place, nearest] :
+       {std::pair{1.6, 2.0}, std::pair{0.4, 0.0}, std::pair{2.4, 2.0}, std::pair{-3.0, 0.0}}) {
+    for (const Verb verb : {Verb::controller, Verb::estimator}) {
+      CHECK(answer_to(verb, place) == Refusal::out_of_range);
+      if (verb == Verb::controller) DOUBLES_EQUAL(nearest, rig().last_nearest, 0.0);
+      DOUBLES_EQUAL(std::floor(rig().last_nearest), rig().last_nearest, 0.0);
+    }
+  }
 }
 
 TEST(Axis, RefusesInvalidTuningSlots) {

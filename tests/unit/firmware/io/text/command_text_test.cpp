@@ -62,9 +62,10 @@ TEST(CommandText, ErrorsNameTheProblem) {
   check_wrong("1 calibrat", "'calibrat' is not a command; did you mean calibrate?");
   check_wrong("1 power", "power needs a number, in W");
   check_wrong("1 tune pi",
-              "tune needs a number, its place in the configuration from 0; 'pi' is not one");
-  check_wrong("1 controller 1.5",
-              "controller needs a number, its place in the configuration from 0; '1.5' is not one");
+              "tune needs a whole number, its place in the configuration from 0; 'pi' is not one");
+  check_wrong(
+      "1 controller 1.5",
+      "controller needs a whole number, its place in the configuration from 0; '1.5' is not one");
   check_wrong("1 position 0.01 5", "position takes one value: leave out '5'");
   check_wrong("1 arm now", "arm takes no value: leave out 'now'");
   check_wrong("1 heat",

@@ -20,6 +20,13 @@ constexpr double min_error_ratio = 0.005;
 constexpr double max_error_ratio = 0.15;
 /// The same of a part to which the model was fitted, below which it explains that part.
 constexpr double explained_error_ratio = 0.05;
+/// A recording of long_enough time constants is long enough, one of less than too_short is not;
+/// between them the time constant's deviation decides, which is at most this ratio of it.
+constexpr double long_enough = 5.0;
+constexpr double too_short = 2.0;
+constexpr double max_deviation_ratio = 0.3;
+/// Time constants that are recommended.
+constexpr double recommended_length = 10.0;
 
 // NOLINTNEXTLINE(cert-dcl50-cpp): printf's own form
 [[gnu::format(printf, 1, 2)]] std::string format_text(const char* format, ...) {
@@ -54,7 +61,8 @@ std::string limit_text(const Fit& fit) {
     if (!is_at_limit(p, fit.numbers[static_cast<Eigen::Index>(i)])) continue;
     return format_text(
         "the fit ended at its limit of %s, %.3g: slower, faster or weaker than any super-coiled "
-        "polymer muscle, or the times or powers have another unit",
+        "polymer muscle, the recording is too short (record ten time constants), or the times or "
+        "powers have another unit",
         std::string(p.name).c_str(), fit.muscle.*p.member);
   }
   return {};
@@ -86,16 +94,36 @@ std::string change_text(const Comparison& c, const Samples& samples) {
       std::string(first.parameters[change.parameter].name).c_str(), 100.0 * (change.ratio - 1.0));
 }
 
+/// By the time constant of the linear model, fitted to all of the recording.
+std::string short_text(const Comparison& c, const Samples& samples) {
+  const Span all{samples.start_s, samples.end_s()};
+  const Fit& first = c.models.front().fit;
+  const Fit fit = refit(first.muscle, first.effects, samples, all);
+  double deviation_s = 0.0;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].member == &Muscle::time_constant_s) deviation_s = fit.deviation(i);
+  const double tau_s = fit.muscle.time_constant_s;
+  const double duration_s = all.to_s - all.from_s;
+  const bool is_known = deviation_s <= max_deviation_ratio * tau_s;
+  if (duration_s >= (is_known ? too_short : long_enough) * tau_s) return {};
+  return format_text(
+      "%.3g s are too short: they leave a time constant of %.2g ± %.2g s. Record ten time "
+      "constants, here about %.2g s, in which the muscle warms up and cools down several times",
+      duration_s, tau_s, deviation_s, recommended_length * (tau_s + deviation_s));
+}
+
 }  // namespace
 
 std::string why_rejected(const Comparison& c, const Samples& samples) {
   if (std::string text = transformation_text(c); !text.empty()) return text;
   const EvaluatedModel& best = c.best();
   std::string limit = limit_text(best.fit);
-  if (limit.empty() && best.unseen_rms_m <= max_error_ratio * c.sizes.stroke_m) return {};
+  if (limit.empty() && best.unseen_rms_m <= max_error_ratio * c.sizes.stroke_m)
+    return short_text(c, samples);
   if (counts_backwards(c, samples))
     return "the position falls when the muscle is heated: give --position-scale -1";
   if (!limit.empty()) return limit;
+  if (std::string text = short_text(c, samples); !text.empty()) return text;
   if (std::string text = change_text(c, samples); !text.empty()) return text;
   return format_text(
       "no model predicts the part that it was not fitted to: the best is off by %.0f %% of the "

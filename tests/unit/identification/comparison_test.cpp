@@ -1,4 +1,5 @@
 // Models are chosen by data that they were not fitted to; data that no muscle makes is reported.
+#include <algorithm>
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -79,6 +80,18 @@ TEST(Comparison, NamesAMuscleThatChangedBetweenTheParts) {
   const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
   STRCMP_CONTAINS("changed between 0 to 80 s and 80 to 120 s: gain_m_per_W by +33 %",
                   c.rejection_reason.c_str());
+}
+
+/// Of a muscle with a time constant of 9 s.
+TEST(Comparison, SaysHowLongToRecordWhenARecordingIsTooShort) {
+  for (const double duration_s : {3.0, 8.0}) {
+    Samples samples = random_steps(duration_s, full_W, 31);
+    std::fill(samples.power_W.begin() + 25, samples.power_W.end(), full_W);
+    record(other_muscle(), noise_m, 32, samples);
+    const double middle_s = 2.0 / 3.0 * duration_s;
+    const Comparison c = compare(samples, {{0.0, middle_s}, {middle_s, duration_s}});
+    STRCMP_CONTAINS("too short", c.rejection_reason.c_str());
+  }
 }
 
 TEST(Comparison, ReportsAChangeOnlyWhenThereIsOne) {

@@ -133,6 +133,12 @@ class Identify(unittest.TestCase):
         self.assertAlmostEqual(fitted["gain_m_per_W"]["value"] / GAIN_M_PER_W, 1, delta=0.01)
         self.assertAlmostEqual(fitted["time_constant_s"]["value"] / TIME_CONSTANT_S, 1, delta=0.01)
 
+    def test_a_recording_shorter_than_the_time_constant_is_refused(self):
+        for start_s in (0, 20, 50):  # of 4.2 s
+            done = self.identify(self.trace, "--from", start_s, "--to", start_s + 3, "--muscle", "m.toml", status=1)
+            self.assertRegex(done.stdout, "No model is accepted: 3 s are too short: .* Record ten time constants")
+            self.assertFalse((self.path / "m.toml").exists())
+
     def test_a_muscle_beyond_the_fits_limits_is_not_found(self):
         samples = self.samples()
         slow = []  # a time constant of 790 s, in rows 0.95 s apart

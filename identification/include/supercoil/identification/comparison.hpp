@@ -55,7 +55,8 @@ Comparison compare(const Samples& samples, const Parts& parts);
 
 /// Why none of these models is accepted, and what to do about it where that is known: a material
 /// with a phase transformation, a fit at its limit, a position that counts the wrong way, a muscle
-/// that changed between the parts, other causes. Empty: the best one is accepted.
+/// that changed between the parts, a recording too short for its time constant, other causes.
+/// Empty: the best one is accepted.
 std::string why_rejected(const Comparison& comparison, const Samples& samples);
 
 /// What a linear controller can use of a model: the linear model and what moves the rest length.

@@ -107,7 +107,7 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s, 
   power.error_feedback = section.flag("error_feedback", power.error_feedback);
   const double max_s = static_cast<double>(board::OutputDelay::max_ticks) * step_s;
   power.delay_s = section.number("delay_s", power.delay_s, {0.0, max_s});
-  power.gain = section.number("gain", power.gain, {0.0, 10.0});
+  power.gain = section.number("gain", power.gain, {0.01, 10.0});
   section.finish();
   return power;
 }

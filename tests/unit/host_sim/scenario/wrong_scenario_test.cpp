@@ -68,6 +68,11 @@ TEST(WrongScenario, NaNIsOutOfEveryRange) {
   check_answer("s.toml:1: power.max_W = inf: must be 0.001 to 1000", "power.max_W = inf");
 }
 
+/// No reference could be followed: the forecast would ask for infinite power.
+TEST(WrongScenario, PowerThatNeverHeatsIsOutOfRange) {
+  check_answer("s.toml:1: power.gain = 0: must be 0.01 to 10", "power.gain = 0.0");
+}
+
 TEST(WrongScenario, TextForANumber) {
   check_answer("s.toml:1: power.max_W = '4.5 W': must be a number, 0.001 to 1000",
                "power.max_W = '4.5 W'");

@@ -263,6 +263,10 @@ tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t run
     }
     return tl::unexpected(diagnostics.problems());
   }
+  if (document.empty()) {
+    diagnostics.add(0, "", "is empty: a study has at least one of [study], [[draw]], [goals]");
+    return tl::unexpected(diagnostics.problems());
+  }
   Study study;
   study.name = std::filesystem::path(path).stem().string();
   if (text.starts_with('#')) study.about = description({"", text});

@@ -112,12 +112,18 @@ TEST(Study, AnUnknownNameSuggestsTheNearestStudy) {
   STRCMP_CONTAINS("did you mean follows?", supercoil::config::to_text(study.error()).c_str());
 }
 
+/// A thousand runs of the sine would answer no question.
+TEST(Study, AnEmptyFileIsRefused) {
+  for (const char* text : {"", "# temperature.toml, to be written\n"})
+    check_problem("is empty: a study has at least one of [study], [[draw]], [goals]", text);
+}
+
 TEST(Study, AFaultIsAFailureByDefault) {
   const std::size_t faults = *find_quantity("faults");
   const auto goal = [&](const Study& study) {
     return std::ranges::find(study.goals, faults, &Goal::quantity)->max;
   };
-  DOUBLES_EQUAL(0.0, goal(study_of("")), 0.0);
+  DOUBLES_EQUAL(0.0, goal(study_of("[study]")), 0.0);
   DOUBLES_EQUAL(3.0, goal(study_of("[goals]\nfaults = 3")), 0.0);
 }
 

@@ -1,6 +1,7 @@
 #include "loop/channel.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace supercoil {
@@ -58,7 +59,10 @@ void Channel::supervise(const BoardTick& board) {
   if (cause != Fault::none && !board.testing) {
     disarm(cause, board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
-  if (!reset_requested_) state_.reset(false, true);
+  if (!reset_requested_) {
+    state_.reset(false, true);
+    group_reset_.reset();
+  }
   // If the supervisor rejects the probed resistance, the channel has been made safe by now.
   if (axis_.end_probe() && !hand_over(Mode::calibrate)) state_.rest();
 }
@@ -86,6 +90,7 @@ void Channel::make_safe(Fault cause, const detectors::Margin& margin) {
     cause_is_new_ = cause != Fault::none;
   }
   abandon_others();
+  group_reset_.reset();
   state_.disarm(cause);
   axis_.disarm();
 }
@@ -172,13 +177,15 @@ void Channel::arm_now() {
 }
 
 Refusal Channel::reset(const BoardTick& board) {
-  bool persists = present_fault_ != Fault::none || board.fault != Fault::none;
   reset_requested_ = true;
+  if (const auto answered = std::exchange(group_reset_, std::nullopt)) return *answered;
+  bool persists = present_fault_ != Fault::none || board.fault != Fault::none;
   for (const Channel* const other : others_)
     persists = persists || other->present_fault_ != Fault::none;
   for (Channel* const other : others_) {
     other->reset_requested_ = true;
-    other->state_.reset(true, persists);
+    const Refusal answer = other->state_.reset(true, persists);
+    if (answer != Refusal::no_edge) other->group_reset_ = answer;
   }
   return state_.reset(true, persists);
 }

@@ -168,6 +168,9 @@ class Channel {
   detectors::Margin first_margin_;
   bool cause_is_new_ = false;  ///< no row has shown it yet
   bool reset_requested_ = false;
+  /// How another channel's reset, in this tick or the last one, ended for this channel: its own is
+  /// answered alike.
+  std::optional<Refusal> group_reset_;
   std::uint32_t selector_ = 0;  ///< a fraction, in units of 2⁻³²
   Snapshot snapshot_;
 };

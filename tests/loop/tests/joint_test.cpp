@@ -29,6 +29,26 @@ TEST(Joint, ArmsRestsAndCoolsAsOne) {
   CHECK(both(State::armed));
 }
 
+TEST(Joint, AnswersResetsOfBothMusclesAlike) {
+  arm();
+  for (const bool same_tick : {true, false}) {
+    hold(0.002, 0.5);
+    rig.run(1.0);
+    CHECK(both(State::fault) && fault_of(antagonist) == Fault::command_timeout);
+    rig.send(Verb::reset);
+    if (!same_tick) rig.tick();
+    rig.loop.send({antagonist, Verb::reset, 0.0});
+    rig.tick();
+    CHECK(both(State::disarmed));
+    CHECK(rig.last_answers[agonist] == Refusal::none);
+    CHECK(rig.last_answers[antagonist] == Refusal::none);
+    CHECK(rig.answer_of(antagonist, Verb::reset) == Refusal::no_edge);
+    rig.run(0.1);
+    CHECK(rig.answer_of(antagonist, Verb::reset) == Refusal::wrong_state);
+    rig.arm();
+  }
+}
+
 TEST(Joint, ArmsOnlyWhenBothMusclesMay) {
   rig.boot();
   rig.board.channel(antagonist).current.set(host_sim::ConverterFaults{.silent = true});

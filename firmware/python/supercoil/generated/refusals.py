@@ -24,12 +24,12 @@ reset: a detector of the channel or of the board still trips. Remove the cause f
 
 
 class NoEdge(RefusalError):
-    """reset: there was another one in the tick before, or in the same tick. Send it again"""
+    """reset: there was another one of this channel in the tick before, or in the same tick. Send it again. (In a joint or a bundle each channel may send one: it resets all of them, and all get the same answer)"""
 
     number = 3
     name = "no_edge"
     meaning = """\
-reset: there was another one in the tick before, or in the same tick. Send it again"""
+reset: there was another one of this channel in the tick before, or in the same tick. Send it again. (In a joint or a bundle each channel may send one: it resets all of them, and all get the same answer)"""
 
 
 class NotReady(RefusalError):

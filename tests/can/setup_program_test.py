@@ -101,7 +101,7 @@ class SetupProgram(SetupCase):
         questions = ["", "10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("the answers give a muscle with ", done.stderr)
+        self.assertIn("stretch_weight_g and stretch_mm give a muscle with ", done.stderr)
         self.assertIn(f"the answers are kept: supercoil setup describe --config {self.board} offers them again", done.stdout)
         self.assertEqual(self.board.read_text(), self.example)
         self.assertNotRegex(self.setup_program(*self.script(max_W=40)).stderr, r"board\.toml:\d")

@@ -134,6 +134,19 @@ def problems_of_results():
             yield f"docs/troubleshooting.md: does not say what to do about {name}"
 
 
+def problems_of_messages():
+    """Where programs are installed there is no folder docs/: their messages name pages of `supercoil docs`."""
+    sources = [path for folder in ("firmware", "host_sim") for path in sorted((ROOT / folder).rglob("*.[ch]pp"))]
+    for source in sources:
+        for number, line in enumerate(source.read_text().splitlines(), 1):
+            code, where = line.split("//")[0], f"{source.relative_to(ROOT)}:{number}"
+            if re.search(r"docs/[\w/-]+\.md", code):
+                yield f"{where}: names a file of the sources: use documentation_page()"
+            for page in re.findall(r'documentation_page\("([\w/-]+)"\)', code):
+                if not (ROOT / "docs" / f"{page}.md").is_file():
+                    yield f"{where}: there is no page {page}"
+
+
 def problems_of_keys():
     """For pages that help an operator to repair a board: words with a unit, in backquotes."""
     docs = ROOT / "docs"
@@ -150,6 +163,6 @@ def problems_of_keys():
 
 if __name__ == "__main__":
     found = [*problems_of_faults(), *problems_of_results(), *problems_of_links(), *problems_of_navigation(),
-             *problems_of_drawing(), *problems_of_keys()]
+             *problems_of_drawing(), *problems_of_messages(), *problems_of_keys()]
     print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/run_results.hpp"
+#include "text/documentation.hpp"
 
 namespace supercoil::host_sim {
 
@@ -52,8 +53,9 @@ void NodeRun::warn() const {
     std::fprintf(
         stderr,
         "supercoil-sim: %swarning: the control loop oscillated by itself, first seen at %g s with "
-        "a period of %.2g s; see docs/control.md\n",
-        node.c_str(), summary_.oscillated_at_s(), summary_.oscillation_period_s());
+        "a period of %.2g s; see %s\n",
+        node.c_str(), summary_.oscillated_at_s(), summary_.oscillation_period_s(),
+        documentation_page("control").c_str());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "paper/experiment.hpp"
 #include "paper/reproduction.hpp"
 #include "scenario/reference.hpp"
+#include "text/documentation.hpp"
 
 namespace supercoil::host_sim::paper {
 
@@ -246,8 +247,9 @@ Part compute_errata() {
   Part part;
   part.title = "Errata";
   part.introduction =
-      "What the paper prints, and what its own equations and parameters give. docs/paper.md has "
-      "the derivations.";
+      "What the paper prints, and what its own equations and parameters give. For the derivations "
+      "see " +
+      documentation_page("paper") + ".";
   add_coefficients(part);
   add_models(part);
   add_premises(part);

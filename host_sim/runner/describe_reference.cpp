@@ -6,6 +6,7 @@
 #include "loop/feasibility.hpp"
 #include "runner/board_of.hpp"
 #include "runner/reference_feasibility.hpp"
+#include "text/documentation.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::host_sim {
@@ -67,11 +68,12 @@ std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) 
          " % of the time";
 }
 
-/// "; it ends in controller_invalid at about 125 s (docs/faults/controller_invalid.md)"
+/// "; it ends in controller_invalid at about 125 s (see faults/controller_invalid in ...)"
 std::string end_text(const ReferenceFeasibility& f) {
   if (std::isnan(f.invalid_s)) return "";
   return "; it ends in controller_invalid at about " + in_digits(f.invalid_s) +
-         " s, because the muscle lacks power for too long (docs/faults/controller_invalid.md)";
+         " s, because the muscle lacks power for too long (see " +
+         documentation_page("faults/controller_invalid") + ")";
 }
 
 /// Shaping does not know of a load that pulls at the muscle, which then gets no more power.
@@ -204,7 +206,9 @@ std::string describe_unseen_rest(const Scenario& scenario) {
   return "plant.load_N holds the muscle at " + in_mm(rest_m(scenario)) +
          " while it is cold, and the sensor reads no less than " +
          number_text(1e3 * min_m, digits) +
-         " mm: its reading stands still there and looks frozen (docs/faults/sensor_frozen.md); "
+         " mm: its reading stands still there and looks frozen (see " +
+         documentation_page("faults/sensor_frozen") +
+         "); "
          "lower sensor.position.min_m";
 }
 

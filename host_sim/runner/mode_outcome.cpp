@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "text/documentation.hpp"
 #include "text/result_words.hpp"
 
 namespace supercoil::host_sim {
@@ -18,7 +19,7 @@ std::string describe_mode(const Snapshot& snapshot) {
   if (snapshot.result == ModeResult::none) return {};
   std::string text = result_text(snapshot.result, snapshot.identify_notes);
   if (snapshot.result == ModeResult::running) text += "; give it a longer simulation.duration_s";
-  return text + " (docs/running.md#commands)";
+  return text + " (see " + documentation_page("running") + ")";
 }
 
 std::string mode_failed_because(const Scenario& scenario, const Simulation& simulation) {

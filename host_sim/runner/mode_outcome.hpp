@@ -7,7 +7,7 @@
 
 namespace supercoil::host_sim {
 
-/// "too_little_motion: the muscle moved by less than 1 % ... (docs/running.md#commands)"; empty:
+/// "too_little_motion: the muscle moved by less than 1 % ... (see running in ...)"; empty:
 /// there was none.
 std::string describe_mode(const Snapshot& snapshot);
 

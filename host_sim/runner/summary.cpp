@@ -12,6 +12,7 @@
 
 #include "runner/mode_outcome.hpp"
 #include "runner/scenario_promise.hpp"
+#include "text/documentation.hpp"
 #include "text/number_text.hpp"
 #include "text/program_version.hpp"
 
@@ -27,6 +28,11 @@ constexpr int schema_version = 6;
 
 std::string page_of(Fault fault) {
   return "docs/faults/" + std::string(name(fault)) + ".md";
+}
+
+/// For a person.
+std::string explanation_of(Fault fault) {
+  return documentation_page("faults/" + std::string(name(fault)));
 }
 
 /// JSON has no infinity: null.
@@ -90,7 +96,7 @@ ordered_json limits_json(const LimitCount& limits, std::int64_t all_ticks) {
 
 std::string fault_text(Fault fault) {
   return "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
-         "; " + page_of(fault);
+         "; see " + explanation_of(fault);
 }
 
 std::string Summary::FaultEvent::text() const {
@@ -104,7 +110,7 @@ std::string Summary::FaultEvent::text() const {
     line += ": " + number_text(rounding ? 0.0 : margin.measured, 3) + " measured, limit ";
     line += number_text(margin.limit, 3);
   }
-  return line + " (" + page_of(fault) + ")";
+  return line + " (see " + explanation_of(fault) + ")";
 }
 
 std::string Summary::never_armed_because(const Scenario& scenario,

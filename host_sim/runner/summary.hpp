@@ -29,7 +29,7 @@ struct LimitCount {
   std::array<std::int64_t, limit_names.size()> ticks{};  ///< in the order of LimitedBy
 };
 
-/// "fault 20 heater_open; docs/faults/heater_open.md"
+/// "fault 20 heater_open; see faults/heater_open in `supercoil docs`"
 std::string fault_text(Fault fault);
 
 /// Collects a run's figures as it goes. Tracking is the true position against the controller's own
@@ -90,7 +90,7 @@ class Summary {
     Fault fault;
     double time_s;
     detectors::Margin margin;
-    /// "fault 20 heater_open at 1.234 s: 0.1 measured, limit 0.27 (docs/faults/heater_open.md)"
+    /// "fault 20 heater_open at 1.234 s: 0.1 measured, limit 0.27 (see faults/...)"
     std::string text() const;
   };
   /// In the order in which they latched.

@@ -154,7 +154,7 @@ class Refused(unittest.TestCase):
 
     def test_a_held_set_point_names_the_fault_that_ended_it(self):
         held = ("command", "1", "position", "0.02", "--for", "60")
-        fault = f"fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1 reset --socket {self.socket}"
+        fault = f"fault heater_open; see faults/heater_open in `supercoil docs`; when its cause is gone: supercoil command 1 reset --socket {self.socket}"
         for options in (), ("--json",):
             self.answers |= {"position": ["ok", "ok", "refused: wrong_state"], "status": ["1 active none -\n", "1 fault heater_open -\n"]}
             done = self.program(*held, *options)

@@ -155,7 +155,7 @@ class SetupOnABoard(SetupCase):
             time.sleep(1.0)
             heats.kill()
         until("FAULT command_timeout")
-        fault_text = f"fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil command 1 reset {' '.join(bus)}\n"
+        fault_text = f"fault command_timeout; see faults/command_timeout in `supercoil docs`; when its cause is gone: supercoil command 1 reset {' '.join(bus)}\n"
         done = self.setup_program("calibrate", *bus, stdin=subprocess.DEVNULL)
         self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {fault_text}"))
         self.assertIn("FAULT command_timeout", command("state").stdout)

@@ -105,7 +105,7 @@ def judge(table, run, dbc, log):
     judge_crowded(table, run, marks, frames)
     judge_muscle(table, frames, quantities(dbc) + 1)
     table.row("wire open: arm tells the fault and its page",
-              "wire open: supercoil: 5 arm: fault heater_open; docs/faults/heater_open.md" in run.console, 1, 1, "")
+              "wire open: supercoil: 5 arm: fault heater_open; see faults/heater_open in `supercoil docs`" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 

@@ -200,7 +200,7 @@ class BrokenMuscle(unittest.TestCase):
         source = f"socketcand:{board.found[1]}"
         until(lambda: command(source, "1", "arm").returncode == 0)
         done = command(source, "1", "identify", "--for", "60", "--json")
-        why = "fault heater_open; docs/faults/heater_open.md"
+        why = "fault heater_open; see faults/heater_open in `supercoil docs`"
         self.assertEqual((done.returncode, json.loads(done.stdout), done.stderr),
                          (1, {"command": "1 identify", "result": "interrupted", "cause": why},
                           f"supercoil: 1 identify ended: interrupted, {why}\n"))

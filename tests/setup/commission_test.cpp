@@ -123,7 +123,7 @@ TEST(Commission, NothingIsPromisedForAnUntestedControlLaw) {
 TEST(Commission, AMuscleThatFitsNoModelIsRefusedWithTheReason) {
   const Commissioned c = commissioned(69);
   STRCMP_CONTAINS("identify ended: poor_fit", c.refused.c_str());
-  STRCMP_CONTAINS("; docs/troubleshooting.md says what to do", c.refused.c_str());
+  STRCMP_CONTAINS("; for what to do see troubleshooting in `supercoil docs`", c.refused.c_str());
   CHECK(c.fault == Fault::none);
 }
 
@@ -132,8 +132,8 @@ TEST(Commission, AFaultDuringIdentifyIsReportedWithItsPage) {
   muscle.scenario += "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n";
   const Commissioned c = commission(muscle);
   STRCMP_EQUAL(
-      "identify ended: interrupted, fault heater_open; docs/faults/heater_open.md; when "
-      "its cause is gone: supercoil command 1 reset",
+      "identify ended: interrupted, fault heater_open; see faults/heater_open in `supercoil docs`; "
+      "when its cause is gone: supercoil command 1 reset",
       c.refused.c_str());
 }
 

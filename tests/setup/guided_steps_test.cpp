@@ -171,8 +171,8 @@ TEST(GuidedSteps, AFaultThatPreventsArmingIsReportedWithItsReset) {
     const auto found = board.steps(person).run(step);
     CHECK_FALSE(found.has_value());
     STRCMP_CONTAINS(
-        "fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil "
-        "command 1 reset",
+        "fault command_timeout; see faults/command_timeout in `supercoil docs`; when its cause is "
+        "gone: supercoil command 1 reset",
         found.error().text().c_str());
   }
   STRCMP_EQUAL("ok", board.link().ask("1 reset")->c_str());
@@ -181,7 +181,8 @@ TEST(GuidedSteps, AFaultThatPreventsArmingIsReportedWithItsReset) {
 
 TEST(GuidedSteps, AnEarlierFaultIsReportedAndResetOnConfirmation) {
   const std::string notice =
-      "channel 1: fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: ";
+      "channel 1: fault command_timeout; see faults/command_timeout in `supercoil docs`; when its "
+      "cause is gone: ";
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
   let_a_command_expire(board);
   Person person(board.link());

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "text/documentation.hpp"
+
 namespace supercoil::operating {
 
 namespace {
@@ -16,7 +18,7 @@ Result<std::string> antagonist_of(BoardLink& board, const std::string& channel) 
 }
 
 std::string fault_text(const std::string& fault) {
-  return "fault " + fault + "; docs/faults/" + fault + ".md";
+  return "fault " + fault + "; see " + documentation_page("faults/" + fault);
 }
 
 }  // namespace

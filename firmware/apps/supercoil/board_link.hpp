@@ -150,7 +150,8 @@ class CanBoardLink final : public BoardLink {
 };
 
 /// Arms a channel and waits until its heater is measured: until then heating is refused.
-/// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
+/// "ok", "refused: why", or "fault heater_open; see faults/heater_open in ...". The error: no
+/// answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
 /// "fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1

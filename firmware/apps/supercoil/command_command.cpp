@@ -16,6 +16,7 @@
 #include "apps/supercoil/typed_command.hpp"
 #include "apps/supercoil/value_range.hpp"
 #include "text/command_text.hpp"
+#include "text/documentation.hpp"
 #include "text/refusal_words.hpp"
 #include "text/result_words.hpp"
 
@@ -128,9 +129,10 @@ int report_ending(BoardLink& board, const CommandOptions& options, const Channel
     std::printf("%s\n", json.dump().c_str());
   }
   const std::string all = line + " ended: " + result_text(result, notes, cause);
-  const bool has_remedy = result != "interrupted";
-  if (result != "found")
-    return fail(exit_failed, all + (has_remedy ? "; docs/troubleshooting.md says what to do" : ""));
+  const std::string remedy = result == "interrupted"
+                                 ? ""
+                                 : "; for what to do see " + documentation_page("troubleshooting");
+  if (result != "found") return fail(exit_failed, all + remedy);
   if (!notes.empty() && !options.json) std::printf("%s\n", all.c_str());
   return exit_done;
 }

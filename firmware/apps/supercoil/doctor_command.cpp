@@ -6,6 +6,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/doctor/check_board.hpp"
 #include "apps/supercoil/doctor/report.hpp"
+#include "text/documentation.hpp"
 
 namespace supercoil::operating {
 
@@ -53,8 +54,8 @@ int doctor_command(const DoctorOptions& options) {
     sink({"configuration", hal::Severity::problem,
           "none: " + options.config + ": there is no such file",
           "copy the closest example from /etc/supercoil/boards (in the sources: "
-          "firmware/io/config/examples) to that path and correct it (docs/configuration.md "
-          "explains every key); or name another file with --config"});
+          "firmware/io/config/examples) to that path and correct it (every key is explained by " +
+              documentation_page("configuration") + "); or name another file with --config"});
     return conclude(report, options.json);
   }
   const auto config = config::read_board_config(options.config);

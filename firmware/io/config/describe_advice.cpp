@@ -4,6 +4,7 @@
 #include "config/findings.hpp"
 #include "config/recommended_controller.hpp"
 #include "loop/feasibility.hpp"
+#include "text/documentation.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::config {
@@ -23,10 +24,12 @@ std::string remedy(LimitedBy held_by) {
   switch (held_by) {
     case LimitedBy::temperature:
       return "narrower bounds in [thermal], or measurements that show how hot it is, allow more "
-             "(docs/safety.md)";
+             "(see " +
+             documentation_page("safety") + ")";
     case LimitedBy::unproven:
       return "senses compared with a meter and a sensor with less noise allow more "
-             "(docs/faults/heater_not_responding.md)";
+             "(see " +
+             documentation_page("faults/heater_not_responding") + ")";
     default:
       return "a higher max_W, or supply voltage, allows more";
   }

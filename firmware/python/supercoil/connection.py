@@ -74,7 +74,7 @@ class Connection:
             except NoAnswerError:
                 raise NoAnswerError(
                     f"no heartbeat from node {self.node} on {self._address} within {_FIRST_HEARTBEAT_S:g} s. Is the "
-                    "board on, its node and bit rate right? docs/can.md says what to check") from None
+                    "board on, its node and bit rate right? For what to check see can in `supercoil docs`") from None
         if heartbeat.status.protocol_version != PROTOCOL_VERSION:
             raise VersionMismatchError(self.node, heartbeat.status.protocol_version)
 

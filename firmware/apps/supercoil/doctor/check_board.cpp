@@ -14,6 +14,7 @@
 #include "apps/supercoil/doctor/check_devices.hpp"
 #include "linux_board/lock_file.hpp"
 #include "telemetry/schedule.hpp"
+#include "text/documentation.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::doctor {
@@ -80,8 +81,10 @@ void check_machine(const CheckOptions& options, const hal::FindingSink& sink) {
                "enable I2C in the device tree, if a device is on it", sink);
   list_devices("SPI devices", m.sys + "/bus/spi/devices", "spi",
                "enable SPI in the device tree, if a device is on it", sink);
-  list_devices("CAN interfaces", m.sys + "/class/net", "can",
-               "bring one up (docs/can.md), if this board is to be on a bus", sink);
+  list_devices(
+      "CAN interfaces", m.sys + "/class/net", "can",
+      "bring one up (see " + documentation_page("can") + "), if this board is to be on a bus",
+      sink);
   list_devices("converters", m.converters(), "iio:device",
                "enable the converter in the device tree", sink);
 }

@@ -5,6 +5,7 @@
 #include "apps/supercoil/doctor/check_board.hpp"
 #include "apps/supercoil/doctor/report.hpp"
 #include "apps/supercoil/setup/file_steps.hpp"
+#include "text/documentation.hpp"
 
 namespace supercoil::operating {
 
@@ -35,8 +36,10 @@ StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& c
     if (!finding.remedy.empty()) user.show("what to do: " + finding.remedy);
   });
   const auto problems = report.count(hal::Severity::problem);
-  user.show(doctor::summary(report) +
-            (problems > 0 ? "; fix all problems before anything is heated (docs/doctor.md)" : ""));
+  user.show(doctor::summary(report) + (problems > 0
+                                           ? "; fix all problems before anything is heated (see " +
+                                                 documentation_page("doctor") + ")"
+                                           : ""));
   return Json{{"looked_at", config.name},
               {"problems", problems},
               {"warnings", report.count(hal::Severity::warning)},

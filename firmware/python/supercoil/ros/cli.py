@@ -52,8 +52,8 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
         prog="supercoil-ros", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Muscles as joints of ROS 2, over DDS as rmw_cyclonedds_cpp speaks it. No ROS is needed on this "
         "machine.\nPositions are in metres, or, for two muscles that turn a joint, in radians.",
-        epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. docs/ros.md "
-        "describes everything.")
+        epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. Everything is "
+        "described by ros in `supercoil docs`.")
     parser.add_argument("address", help="address of the boards: can0, socketcand:[HOST:]PORT, INTERFACE:CHANNEL of "
                         "python-can, or the path of the board's own socket")
     parser.add_argument("--joint", metavar="NAME=NODE", action="append", required=True, type=_joint,

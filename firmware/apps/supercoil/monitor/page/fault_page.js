@@ -34,7 +34,7 @@ export class FaultPage {
   /** Another fault's page opens here; other documents are not served. */
   #link(label, target) {
     const other = /^([a-z_]+)\.md/.exec(target)?.[1];
-    if (!other) return element("span", { class: "elsewhere", title: `docs/faults/${target}` }, label);
+    if (!other) return element("span", { class: "elsewhere", title: `see ${target.replace(/^\.\.\//, "").replace(/\.md.*/, "")} in supercoil docs` }, label);
     return element("button", { type: "button", class: "link", onclick: () => this.open(other) }, label);
   }
 }

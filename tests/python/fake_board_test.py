@@ -195,6 +195,45 @@ class Sessions(unittest.TestCase):
             with self.assertRaises(supercoil.faults.OverTemperature):
                 muscle.hold(1.0)
 
+    def test_hold_and_move_to_raise_the_refusal_that_ended_the_command(self):
+        self.board()
+        with self.muscle() as muscle:
+            for wait in (lambda: muscle.hold(60.0), lambda: muscle.move_to(0.01)):
+                muscle.set_position(0.01)
+                self.lease.refuse["renew"] = [Refusal.wrong_state] * 100  # as if another program had disarmed it
+                with self.assertRaisesRegex(supercoil.refusals.WrongState, "renew is refused"):
+                    wait()
+            self.lease.refuse = {}
+            muscle.set_position(0.01)
+            muscle.hold(0.2)
+            muscle.rest()
+            muscle.hold(0.2)
+
+    def test_a_board_that_falls_silent_ends_hold(self):
+        board = self.board()
+        with self.assertRaisesRegex(supercoil.NoAnswerError, "does not answer"), self.muscle() as muscle:
+            muscle.set_position(0.01)
+            board.obey = lambda *_: None
+            muscle.hold(60.0)
+
+    def test_wrong_arguments_are_named_and_nothing_is_sent(self):
+        board = self.board()
+        with self.assertRaisesRegex(ValueError, "node '5': must be a whole number, 1 to 63"):
+            sync.Muscle(f"virtual:{self.channel}", str(NODE))
+        muscle = self.muscle()
+        for command in (muscle.arm, muscle.disarm, muscle.rest):
+            with self.assertRaisesRegex(RuntimeError, "node 5 is not connected: use 'with'"):
+                command()
+        with muscle:
+            for wrong in ("0.01", None, [0.01, 0.02]):
+                with self.assertRaisesRegex(TypeError, "position is .*; it must be a number"):
+                    muscle.set_position(wrong)
+            with self.assertRaisesRegex(ValueError, "no setting is called 'max_power_w'; did you mean max_power_W?"):
+                muscle.change("max_power_w", 1.0)
+            with self.assertRaisesRegex(TypeError, "max_power_W is '1'; it must be a number"):
+                muscle.change("max_power_W", "1")
+        self.assertEqual(board.commands, [])
+
     def test_a_python_can_bus_is_used_and_stays_open(self):
         self.board()
         with can.Bus(interface="virtual", channel=self.channel) as bus:
@@ -224,6 +263,9 @@ class Sessions(unittest.TestCase):
             with self.subTest(address), self.assertRaisesRegex(supercoil.BusError, address.split(":")[0]), \
                     sync.Muscle(address):
                 pass
+        with self.assertRaisesRegex(supercoil.BusError, r"socketcand:abc: must be socketcand:\[HOST:\]PORT"), \
+                sync.Muscle("socketcand:abc"):
+            pass
         with self.assertRaises(ValueError):
             sync.Muscle("can0", 64)
 

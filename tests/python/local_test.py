@@ -205,6 +205,13 @@ class Local(unittest.TestCase):
         self.assertLessEqual({line.split()[1] for line in self.daemon.lines}, known)
         self.assertLessEqual({opcode.name for opcode in Opcode} - {"compare", "claim_of_version_3", "lease"}, known)
 
+    def test_a_daemon_that_ends_also_ends_hold(self):
+        with self.assertRaisesRegex(supercoil.BusError, "supercoild has ended"), self.muscle() as muscle:
+            muscle.arm()
+            muscle.set_position(0.004)
+            self.daemon.answers["2 renew"] = ""  # closes the connection
+            muscle.hold(60.0)
+
     def test_a_missing_channel_is_named(self):
         with self.assertRaisesRegex(supercoil.BusError, "nothing is known about channel 3"), sync.Muscle(self.path, 3):
             pass

@@ -58,6 +58,8 @@ def open_bus(address: str, options: dict[str, object]) -> can.BusABC:
         if found := _SOCKETCAND.fullmatch(address):
             return _open_socketcand(found["host"] or "127.0.0.1", int(found["port"]), found["channel"] or "can0")
         interface, colon, channel = address.partition(":")
+        if interface == "socketcand" and "port" not in options:
+            raise ValueError("must be socketcand:[HOST:]PORT[/INTERFACE], for example socketcand:29536")
         if not colon:
             interface, channel = "socketcan", address
         number = int(channel) if channel.isdecimal() else channel  # numbered devices

@@ -10,9 +10,18 @@ from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
 from supercoil.joints import QUANTITIES, Joint, joint_of
+from supercoil.named import number, unknown
 
 _POLL_PERIOD_S = 0.02
 _SETTLED_S = 0.2
+
+
+def _setting_of(setting: Setting | str) -> Setting:
+    if isinstance(setting, Setting):
+        return setting
+    if setting in Setting.__members__:
+        return Setting[setting]
+    raise unknown("setting", setting, Setting.__members__)
 
 
 class Order(NamedTuple):
@@ -30,6 +39,7 @@ class Commands(Connection):
         while True:
             try:
                 await self._obey(Opcode.arm)
+                self._kept.rests()
                 break
             except refusals.NotReady:
                 if time.monotonic() > end:
@@ -73,12 +83,12 @@ class Commands(Connection):
         await self._heat(Opcode.power, power_W)
 
     async def move_to(self, position_m: float, *, tolerance_m: float = 2e-4, timeout_s: float = 30.0) -> None:
-        """Returns when the muscle has been within the tolerance for 0.2 s."""
+        """Returns when the muscle has been within the tolerance for 0.2 s. Raises at once what hold() raises."""
         await self.set_position(position_m)
         end = time.monotonic() + timeout_s
         there_since: float | None = None
         while there_since is None or time.monotonic() - there_since < _SETTLED_S:
-            await self._wait(_POLL_PERIOD_S)
+            await self._wait_held(_POLL_PERIOD_S)
             now = time.monotonic()
             newest = self.telemetry.newest(messages.Measurement)
             near = newest is not None and abs(newest.position_m - position_m) <= tolerance_m
@@ -88,11 +98,13 @@ class Commands(Connection):
                 raise NotReachedError(f"node {self.node}: not at {position_m:.6f} m within {timeout_s:g} s: at {at}")
 
     async def hold(self, seconds: float) -> None:
-        """Waits, and meanwhile keeps the muscle where it is. A fault is raised at once."""
+        """Waits, and meanwhile keeps the muscle where it is. Raises at once: a fault; the refusal of the renewed
+        command, because another program has disarmed the muscle or taken its lease; BusError or NoAnswerError, if the
+        bus or, for 2 s, the board is gone."""
         end = time.monotonic() + seconds
         self._kept.raise_if_let_go()
         while (rest := end - time.monotonic()) > 0:
-            await self._wait(min(rest, _POLL_PERIOD_S))
+            await self._wait_held(min(rest, _POLL_PERIOD_S))
 
     async def rest(self) -> None:
         """Active becomes armed: the muscle cools. Does nothing if it was let go or never heated: it rests already."""
@@ -108,18 +120,20 @@ class Commands(Connection):
         """Renews the last command to heat. It is renewed in the background too, until the deadline."""
         await self._heat(Opcode.renew)
 
-    async def setting(self, setting: Setting) -> float:
-        return await self._link.read(setting)
+    async def setting(self, setting: Setting | str) -> float:
+        return await self._link.read(_setting_of(setting))
 
     async def settings(self) -> dict[Setting, float]:
         """All settings of this node."""
         values = {setting: await self._link.read(setting) for setting in Setting}
         return {setting: value for setting, value in values.items() if value == value}
 
-    async def change(self, setting: Setting, value: float) -> float:
+    async def change(self, setting: Setting | str, value: float) -> float:
         """Changes a setting until the board starts again. Returns the value that now holds."""
+        which = _setting_of(setting)
+        carried = number(str(which), value)
         self._kept.alive()
-        return await self._link.write(setting, value)
+        return await self._link.write(which, carried)
 
     async def program(self) -> str:
         """The program that the board runs, "0.2.0 (2780ebf)": version, and commit unless it is a release. Boards send

@@ -11,13 +11,14 @@ import can
 
 from supercoil import codec
 from supercoil.address import is_local
-from supercoil.errors import NoAnswerError, VersionMismatchError
+from supercoil.errors import BusError, NoAnswerError, VersionMismatchError
 from supercoil.generated import refusals
 from supercoil.generated.names import Fault, Opcode, State
 from supercoil.generated.version import PROTOCOL_VERSION
 from supercoil.keeper import Keeper
 from supercoil.link import CanLink, Link
 from supercoil.local import SocketLink
+from supercoil.named import number
 from supercoil.recording import Recording
 from supercoil.telemetry import Telemetry, base_of
 
@@ -36,7 +37,7 @@ class Connection:
         python-can; or the path of the board's own socket: node is then the channel. deadline_s: how long the muscle is
         kept where it is while the program is silent."""
         if node not in _NODES:
-            raise ValueError(f"node {node}: must be 1 to 63")
+            raise ValueError(f"node {node!r}: must be a whole number, 1 to 63")
         if not deadline_s > 0:
             raise ValueError(f"deadline_s {deadline_s}: must be above 0")
         self.node = node
@@ -82,9 +83,9 @@ class Connection:
         """Disarms the muscle if it was commanded, and releases the lease."""
         if self._open_link is None:
             return
+        keeper = self._kept
         link, self._open_link = self._open_link, None
-        assert self._keeper is not None
-        await self._keeper.stop()
+        await keeper.stop()
         try:
             # The lease may have been released at the deadline; another master that now has it is not stopped.
             leased = link.heartbeat.status is not None and link.heartbeat.status.leased
@@ -99,19 +100,23 @@ class Connection:
 
     async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None,
                         trace: TracebackType | None) -> None:
-        with contextlib.suppress(NoAnswerError) if error is not None else contextlib.nullcontext():
+        with contextlib.suppress(NoAnswerError, BusError) if error is not None else contextlib.nullcontext():
             await self.close()
 
     @property
     def _link(self) -> Link:
         if self._open_link is None:
-            raise RuntimeError(f"node {self.node} is not connected: use 'async with', or connect()")
+            raise self._not_connected()
         return self._open_link
 
     @property
     def _kept(self) -> Keeper:
-        assert self._keeper is not None
+        if self._open_link is None or self._keeper is None:
+            raise self._not_connected()
         return self._keeper
+
+    def _not_connected(self) -> RuntimeError:
+        return RuntimeError(f"node {self.node} is not connected: use 'with' ('async with' in asyncio), or connect()")
 
     @property
     def telemetry(self) -> Telemetry:
@@ -164,9 +169,10 @@ class Connection:
 
     async def _obey(self, opcode: Opcode, value: float = 0.0) -> None:
         """Raises a refusal because of a fault as that fault."""
+        carried = number(opcode.name, value)
         self._kept.alive()
         try:
-            await self._link.command(opcode, value)
+            await self._link.command(opcode, carried)
             self._commanded = True
         except refusals.WrongState:
             await self._wait_for_fault()
@@ -190,3 +196,12 @@ class Connection:
         await asyncio.sleep(seconds)
         await self._link.heartbeat.raise_fault()
         self._kept.raise_if_let_go()
+
+    async def _wait_held(self, seconds: float) -> None:
+        """Also raises why the board no longer obeys the last command to heat."""
+        await self._wait(seconds)
+        if (lost := self._kept.lost) is not None:
+            if isinstance(lost, refusals.WrongState):
+                await self._wait_for_fault()
+                await self._link.heartbeat.raise_fault()
+            raise lost

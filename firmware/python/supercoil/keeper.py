@@ -16,6 +16,7 @@ from supercoil.link import Link
 RENEW_EVERY_S = 0.06  # three renewals fit into 250 ms
 _KEEP_PERIOD_S = 0.3
 _NAP_S = 0.02
+_MAX_UNANSWERED = 4  # renewals in a row, 2 s
 
 _log = logging.getLogger("supercoil")
 
@@ -29,6 +30,8 @@ class Keeper:
         self._renewed_at = 0.0
         self._heats = False
         self._let_go = False
+        self._unanswered = 0
+        self._lost: SupercoilError | None = None
         self._task: asyncio.Task[None] | None = None
 
     def start(self) -> None:
@@ -48,10 +51,18 @@ class Keeper:
     def heats(self) -> None:
         """A command to heat was obeyed."""
         self._heats = True
+        self._lost = None
+        self._unanswered = 0
         self._renewed_at = time.monotonic()
 
     def rests(self) -> None:
         self._heats = False
+        self._lost = None
+
+    @property
+    def lost(self) -> SupercoilError | None:
+        """Why the board no longer obeys the last command to heat; None: it does, or there is none."""
+        return self._lost
 
     def raise_if_let_go(self) -> None:
         """Raises once: the program may continue after that."""
@@ -66,13 +77,22 @@ class Keeper:
             await asyncio.sleep(_NAP_S)
             try:
                 await self._update()
-            except RefusalError:
-                self._heats = False  # a fault, another master, or the mode has ended: the next call reports it
-            except NoAnswerError:
-                pass  # the command expires on the board; the next round tries again
+            except RefusalError as refused:  # a fault, another master, or the mode has ended
+                if self._heats:
+                    self._lose(refused)
+                    self._heats = False
+            except NoAnswerError as silent:  # the command expires on the board; the next round tries again
+                self._unanswered += 1
+                if self._heats and self._unanswered >= _MAX_UNANSWERED:
+                    self._lose(silent)
             except SupercoilError as error:
                 _log.error("node %d: %s", self._node, error)
+                if self._heats:
+                    self._lose(error)
                 return
+
+    def _lose(self, why: SupercoilError) -> None:
+        self._lost = why.with_traceback(None)  # of this task: whoever catches the error may clear its frames
 
     async def _update(self) -> None:
         if not self._link.holds_lease:
@@ -84,6 +104,8 @@ class Keeper:
         elif self._heats and now - self._renewed_at >= RENEW_EVERY_S:
             self._renewed_at = now
             await self._link.command(Opcode.renew, 0.0)
+            self._unanswered = 0
+            self._lost = None
         elif self._link.lease_age_s >= _KEEP_PERIOD_S:
             await self._link.keep()
 

@@ -35,6 +35,7 @@ class SocketLink:
         self._path = path
         self._channel = channel
         self._socket: socket.socket | None = None
+        self._ended = f"{path} is not connected"
         self._exchange_lock = asyncio.Lock()
         self._exchanges: set[asyncio.Future[str]] = set()
         self._polling: asyncio.Task[None] | None = None
@@ -46,8 +47,9 @@ class SocketLink:
             await asyncio.get_running_loop().sock_connect(opened, self._path)
         except OSError as error:
             opened.close()
-            nobody = isinstance(error, (FileNotFoundError, ConnectionRefusedError))
-            hint = "; is supercoild running?" if nobody else ""
+            hint = "; is supercoild running?" if isinstance(error, FileNotFoundError | ConnectionRefusedError) else ""
+            if isinstance(error, PermissionError):
+                hint = "; who commands a board must be in its group supercoil"
             raise BusError(f"{self._path}: {error.strerror}{hint}") from error
         self._socket = opened
         try:
@@ -147,23 +149,26 @@ class SocketLink:
         loop = asyncio.get_running_loop()
         async with self._exchange_lock:
             if self._socket is None:
-                raise BusError(f"{self._path} is not connected")
+                raise BusError(self._ended)
             try:
                 async with asyncio.timeout(_ANSWER_WITHIN_S):
                     await loop.sock_sendall(self._socket, line.encode())
                     answer = (await loop.sock_recv(self._socket, _MAX_BYTES)).decode()
             except TimeoutError:
-                self._end()  # as above
-                raise NoAnswerError(f"supercoild does not answer within {_ANSWER_WITHIN_S:g} s") from None
+                silent = f"supercoild does not answer within {_ANSWER_WITHIN_S:g} s"
+                self._end(silent)  # as above
+                raise NoAnswerError(silent) from None
             except OSError as error:
-                self._end()
-                raise BusError(f"{self._path}: {error.strerror}") from error
+                ended = isinstance(error, BrokenPipeError | ConnectionResetError)
+                self._end("supercoild has ended" if ended else str(error.strerror))
+                raise BusError(self._ended) from error
             if not answer:
-                self._end()
-                raise BusError(f"{self._path}: supercoild has ended")
+                self._end("supercoild has ended")
+                raise BusError(self._ended)
             return answer.strip()
 
-    def _end(self) -> None:
+    def _end(self, why: str) -> None:
+        self._ended = f"{self._path}: {why}"
         if self._socket is not None:
             self._socket.close()
             self._socket = None

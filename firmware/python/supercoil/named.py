@@ -22,6 +22,16 @@ class Named(enum.IntEnum):
         return self.name
 
 
+def number(what: str, value: object) -> float:
+    """The value of an argument, which may be any kind of number, also numpy's."""
+    try:
+        if isinstance(value, str | bytes):
+            raise TypeError
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} is {value!r}; it must be a number") from None
+
+
 def unknown(what: str, name: str, known: Iterable[str]) -> ValueError:
     """what: "message"; the error names the one that was probably meant, or all."""
     names = list(known)

@@ -171,13 +171,13 @@ class Muscle:
     def forget_tuning(self) -> None:
         run(self._muscle.forget_tuning())
 
-    def setting(self, setting: Setting) -> float:
+    def setting(self, setting: Setting | str) -> float:
         return run(self._muscle.setting(setting))
 
     def settings(self) -> dict[Setting, float]:
         return run(self._muscle.settings())
 
-    def change(self, setting: Setting, value: float) -> float:
+    def change(self, setting: Setting | str, value: float) -> float:
         return run(self._muscle.change(setting, value))
 
     def program(self) -> str:

@@ -97,6 +97,11 @@ class CompareSenses(unittest.TestCase):
         self.assertIn("no answer: the input has ended", done.stderr)
         self.assert_nothing_changed()
 
+    def test_more_power_than_the_channel_may_have_is_refused(self):
+        done = self.supercoil("doctor", "--compare-senses", "--power", "50", "--config", EXAMPLE, input="")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"supercoil: --power 50: {EXAMPLE} allows channel 1 at most 4.5 W (limits.max_W)\n")
+
     def test_ctrl_c_leaves_the_channel_disarmed(self):
         for _ in range(TRIES):
             self.supercoil("command", "1", "reset")

@@ -1,4 +1,5 @@
 // supercoil doctor --compare-senses: compares a running board's senses with a meter.
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -79,6 +80,13 @@ int compare_senses(const DoctorOptions& options) {
   if (config) {
     const BoardSettings& board = config->settings;
     plan = plan_comparison(plan.channel, board.channels[place - 1], board);
+  }
+  const double max_W = config ? config->settings.channels[place - 1].limiter.max_W : INFINITY;
+  if (options.power_W > max_W) {
+    return refuse(options.json, exit_wrong_input,
+                  "--power " + number_text(options.power_W, 3) + ": " + options.config +
+                      " allows channel " + plan.channel + " at most " + number_text(max_W, 3) +
+                      " W (limits.max_W)");
   }
   if (options.power_W > 0.0) plan.power_W = options.power_W;
   watch_for_interrupts();

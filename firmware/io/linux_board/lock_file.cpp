@@ -37,7 +37,8 @@ std::string objection(const hal_linux::Descriptor& file, const std::string& path
 /// Why open() failed, from errno.
 std::string open_failure(int error) {
   if (error == ELOOP) return "the lock file is a symbolic link, which is not followed";
-  return "the lock file cannot be created: " + reason(error);
+  const std::string why = "the lock file cannot be created: " + reason(error);
+  return error == ENOENT ? why + "; create its folder, or name another (--run-folder)" : why;
 }
 
 std::string content(const hal_linux::Descriptor& file) {

@@ -13,6 +13,8 @@
 
 #include "apps/supercoil/doctor/check_devices.hpp"
 #include "linux_board/lock_file.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
 #include "telemetry/schedule.hpp"
 #include "text/documentation.hpp"
 #include "text/nearest.hpp"
@@ -54,6 +56,33 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
         ""});
 }
 
+/// What each channel has learned, as supercoild loads it at its start.
+void check_storage(const config::BoardConfig& config, const hal::FindingSink& sink) {
+  storage::PosixFiles files;
+  std::string versions;
+  std::vector<std::string> damaged;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    const int channel = static_cast<int>(i + 1);
+    const auto loaded = storage::LearnedStore(config.storage_folder, channel, files).load();
+    if (!loaded) {
+      return sink(
+          {"storage", Severity::problem, loaded.error().text(),
+           "create the folder, mount its disk, or correct board.storage_folder; if a file is "
+           "damaged, restore a copy, or move the channel's files away and identify again"});
+    }
+    damaged.insert(damaged.end(), loaded->problems.begin(), loaded->problems.end());
+    versions += std::string(i > 0 ? ", " : "") + "channel " + std::to_string(channel) + " " +
+                (loaded->learned ? "version " + std::to_string(loaded->learned->version)
+                                 : std::string("nothing"));
+  }
+  if (!damaged.empty()) {
+    return sink({"storage", Severity::warning, joined(damaged),
+                 "the other version of the set is used: copy the folder away, and replace the card "
+                 "or disk if it damages files"});
+  }
+  sink({"storage", Severity::ok, config.storage_folder + ": learned by " + versions, ""});
+}
+
 /// Lists the devices of one kind by their kernel names.
 void list_devices(const std::string& what, const std::string& folder, const std::string& prefix,
                   const std::string& remedy, const hal::FindingSink& sink) {
@@ -93,6 +122,7 @@ void check_board(const config::BoardConfig& config, const CheckOptions& options,
                  const hal::FindingSink& sink) {
   check_system(options, sink);
   check_can(config, options, sink);
+  check_storage(config, sink);
   const auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
   const auto& watchdog = config.wiring.watchdog;
   if (watchdog) {

@@ -26,6 +26,9 @@ class Doctor(unittest.TestCase):
                          ("/dev/watchdog", "/dev/no-such-watchdog")):
             self.assertIn(old, text)
             text = text.replace(old, new)
+        self.storage = self.path / "learned"
+        self.storage.mkdir()
+        text = text.replace("[board]\n", f'[board]\nstorage_folder = "{self.storage}"\n', 1)
         (self.path / "b.toml").write_text(text)
 
     def run_doctor(self, *arguments, **options):
@@ -94,7 +97,8 @@ class Doctor(unittest.TestCase):
 
     def test_without_its_folder_no_device_is_touched(self):
         found = self.findings("--run-folder", "none")
-        self.assertIn("none/lock: the lock file cannot be created", found["devices"]["found"])
+        self.assertIn("none/lock: the lock file cannot be created: No such file or directory; create its folder, "
+                      "or name another (--run-folder)", found["devices"]["found"])
         self.assertNotIn("heartbeat", found)
 
     def test_warnings_alone_are_not_a_failure(self):
@@ -111,6 +115,22 @@ class Doctor(unittest.TestCase):
         found = self.findings()
         self.assertEqual(found["CAN no-can6"]["severity"], "problem")
         self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, without commands; the limit is 50.0 %$")
+
+    def test_what_the_channels_have_learned_can_be_loaded(self):
+        def storage():
+            found = self.findings()["storage"]
+            return found["severity"], found["found"]
+
+        self.assertEqual(storage(), ("ok", f"{self.storage}: learned by channel 1 nothing, channel 2 nothing, "
+                                     "channel 3 nothing, channel 4 nothing"))
+        (self.storage / "learned-2.toml").write_text("")
+        self.assertEqual(storage(), ("problem", f"{self.storage}/learned-2.toml: is empty; "
+                                     f"{self.storage}/learned-2.toml.previous: is not there"))
+        (self.storage / "learned-2.toml").unlink()
+        self.storage.rmdir()
+        severity, found = storage()
+        self.assertEqual(severity, "problem")
+        self.assertIn(f"{self.storage}: cannot be opened as a folder", found)
 
     def test_a_can_interface_is_checked_only_on_request(self):
         self.assertNotIn("CAN", " ".join(self.findings()))

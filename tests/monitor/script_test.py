@@ -114,7 +114,7 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(self.identify_by_script("--for", "2", "--json"),
                          (1, '{"command":"1 identify","result":"interrupted","cause":"by the end of --for"}\n', ended + "the end of --for\n"))
 
-        for words, by, cause in ((("--hold",), signal.SIGINT, "Ctrl-C"), ((), signal.SIGINT, "Ctrl-C"), ((), signal.SIGTERM, "SIGTERM")):
+        for words, by, cause in ((("--hold",), signal.SIGINT, "Ctrl-C"), ((), signal.SIGINT, "Ctrl-C"), ((), signal.SIGTERM, "SIGTERM"), ((), signal.SIGHUP, "SIGHUP")):
             def interrupt(program, by=by):
                 until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
                 program.send_signal(by)

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM, as flags to poll.
+// Ctrl-C, SIGTERM and SIGHUP, as flags to poll.
 #pragma once
 
 #include <cerrno>
@@ -25,10 +25,13 @@ inline void watch_for_interrupts() {
   };
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
+  // A closed terminal sends SIGHUP. Under nohup it stays ignored.
+  if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 /// The name of what interrupted the program.
 inline const char* interrupter() {
+  if (interrupted == SIGHUP) return "SIGHUP";
   return interrupted == SIGTERM ? "SIGTERM" : "Ctrl-C";
 }
 

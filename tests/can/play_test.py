@@ -122,6 +122,7 @@ class Refused(unittest.TestCase):
     def test_a_refused_position_names_the_whole_range(self):
         self.assertEqual(self.error_of("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
+        self.assertIn("; -0.01 to 0.025 are in range\n", self.error_of("command", "1", "position", "0.9", "--for", "5"))
         answer = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
         self.assertEqual(answer["range"], "-0.01 to 0.025 are in range")
 

@@ -30,6 +30,11 @@ std::string reason() {
   return std::generic_category().message(errno);
 }
 
+std::string remedy(int error) {
+  if (error == ENOENT || error == ECONNREFUSED) return "; is supercoild running?";
+  return error == EACCES ? "; who commands a board must be in its group supercoil" : "";
+}
+
 }  // namespace
 
 Result<BoardSocket> BoardSocket::open(const std::string& path) {
@@ -44,8 +49,8 @@ Result<BoardSocket> BoardSocket::open(const std::string& path) {
   const timeval patience{max_answer_s, 0};
   ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    const bool nobody = errno == ENOENT || errno == ECONNREFUSED;
-    return failure(path + ": " + reason() + (nobody ? "; is supercoild running?" : ""));
+    const std::string hint = remedy(errno);
+    return failure(path + ": " + reason() + hint);
   }
   return socket;
 }

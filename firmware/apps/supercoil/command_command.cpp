@@ -87,10 +87,15 @@ int report_stopped(BoardLink& board, const CommandOptions& options, const std::s
   return fail(exit_failed, line + ": " + fault);
 }
 
-int send_line(BoardLink& board, const CommandOptions& options, const std::string& line) {
-  const auto answer = board.ask(line);
+/// Also names the range of a refused value.
+int report_with_range(BoardLink& board, const CommandOptions& options, const std::string& line,
+                      const BoardLink::Answer& answer) {
   const std::string range = answer ? range_of_refused(board, options, *answer) : "";
   return report_answer(options, line, answer, range);
+}
+
+int send_line(BoardLink& board, const CommandOptions& options, const std::string& line) {
+  return report_with_range(board, options, line, board.ask(line));
 }
 
 /// Reports a wrong request, or one without an answer; as JSON too if wanted.
@@ -176,7 +181,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
     if (!goes_on && !is_over && !first) static_cast<void>(board.ask(options.words[0] + " rest"));
     if (is_over && !first && !resends_value) return report_endings(board, options);
     if (is_over) return report_stopped(board, options, line, *answer);
-    if (!goes_on) return report_answer(options, line, answer);
+    if (!goes_on) return report_with_range(board, options, line, answer);
     if (progress.shows()) progress.show(progress_ratio(board, options, time_s), "");
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 50);

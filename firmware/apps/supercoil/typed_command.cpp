@@ -14,6 +14,7 @@ namespace supercoil::operating {
 namespace {
 
 constexpr int position_digits = 9;  // in metres: nanometres
+constexpr int limit_digits = 7;     // limits are floats on a bus
 constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
 struct Value {
@@ -108,7 +109,7 @@ std::string position_range(const CommandOptions& options, const KnownMuscle& kno
   const double max_m = known[known_max_set_point];
   if (!(min_m < max_m)) return "";
   const auto shown = [&](double position_m) {
-    return options.joint.direction == 0 ? number_text(position_m, position_digits)
+    return options.joint.direction == 0 ? number_text(position_m, limit_digits)
                                         : degrees_text(options, position_m);
   };
   // An antagonist's positions grow as the angle falls.

@@ -55,9 +55,14 @@ void print_extent(Lines& lines, const recorder::Recording& recording) {
   const auto& rows = recording.rows;
   lines.add("  recorded: %.3f s to %.3f s, %zu rows", recording.time_s(rows.front()),
             recording.time_s(rows.back()), rows.size());
+  if (const double end_s = recording.time_s(rows.back()); end_s < 0.0) {
+    lines.add("  the fault is not in it: all below is from %.3f s before the fault and earlier",
+              -end_s);
+  }
   const double rate_Hz = recording.header.rate_Hz;
   if (rate_Hz <= 0.0) return;
-  lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
+  const int channels = recording.header.channels;
+  lines.add("  %d channel%s at %g Hz", channels, channels == 1 ? "" : "s", rate_Hz);
   const Gaps gaps = gaps_of(recording);
   if (gaps.count > 0) {
     lines.add("  ticks are missing: %" PRId64 " gap%s, the longest %.3f s, from %.3f s on",

@@ -16,6 +16,8 @@ namespace {
 /// must not be filled with them.
 constexpr int max_damaged = 9;
 
+constexpr const char* previous_used = "the version before it is used";
+
 std::uint32_t version_after(const Examined& current, const Examined& previous) {
   const std::uint32_t last = std::max(current.learned.value_or(board::Learned{}).version,
                                       previous.learned.value_or(board::Learned{}).version);
@@ -44,7 +46,9 @@ Result<Loaded> LearnedStore::load() {
     if (previous.damaged()) loaded.problems.push_back(previous.problem);
     return loaded;
   }
-  if (previous.learned) return Loaded{Source::previous, previous.learned, {current.problem}};
+  if (previous.learned) {
+    return Loaded{Source::previous, previous.learned, {current.problem + "; " + previous_used}};
+  }
   if (current.exists || previous.exists) {
     return failure(current.problem + "; " + previous.problem);
   }

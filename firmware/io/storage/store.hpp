@@ -25,7 +25,8 @@ enum class Source {
 struct Loaded {
   Source source = Source::nothing;
   std::optional<board::Learned> learned;  ///< empty when nothing has been stored yet
-  /// "path: what is wrong with it", for the log; empty when all is in order.
+  /// "path: what is wrong with it", and what is used instead, for the log; empty when all is in
+  /// order.
   std::vector<std::string> problems;
 };
 

@@ -77,8 +77,7 @@ void check_storage(const config::BoardConfig& config, const hal::FindingSink& si
   }
   if (!damaged.empty()) {
     return sink({"storage", Severity::warning, joined(damaged),
-                 "the other version of the set is used: copy the folder away, and replace the card "
-                 "or disk if it damages files"});
+                 "copy the folder away, and replace the card or disk if it damages files"});
   }
   sink({"storage", Severity::ok, config.storage_folder + ": learned by " + versions, ""});
 }

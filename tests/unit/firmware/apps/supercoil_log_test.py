@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import resource
 import subprocess
 import tempfile
@@ -285,6 +286,14 @@ class Log(unittest.TestCase):
         self.refused("d.scfr: has no whole row", "d.scfr", "--damaged")
         (self.path / "d.scfr").write_bytes(b"something else")
         self.refused("d.scfr: is neither a flight recording nor a log of candump -L", "d.scfr", "--damaged")
+
+    def test_a_summary_says_that_a_cut_recording_ends_before_its_fault(self):
+        warning = "  the fault is not in it: all below is from "
+        (self.path / "d.scfr").write_bytes(self.recording[:HEADER + 10 * ROW])
+        text = self.log("d.scfr", "--damaged", "--summary").stdout
+        end_s = re.search(r"recorded: \S+ s to -(\S+) s, 10 rows\n", text)[1]
+        self.assertIn(f"{warning}{end_s} s before the fault and earlier\n", text)
+        self.assertNotIn(warning, self.log("r.scfr", "--summary").stdout)
 
     def test_wrong_input_ends_with_status_2(self):
         self.refused("none.scfr: there is no such file", "none.scfr")

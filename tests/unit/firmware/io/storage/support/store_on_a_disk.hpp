@@ -28,7 +28,10 @@ struct StoreOnADisk : Utest {
     CHECK(loaded.has_value());
     CHECK(loaded->source == source);
     LONGS_EQUAL(n, which(*loaded->learned));
-    STRCMP_EQUAL(problem, loaded->problems.empty() ? "" : loaded->problems.front().c_str());
+    const bool falls_back = source == storage::Source::previous;
+    const std::string told =
+        std::string(problem) + (falls_back ? "; the version before it is used" : "");
+    STRCMP_EQUAL(told.c_str(), loaded->problems.empty() ? "" : loaded->problems.front().c_str());
   }
 };
 

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import pickle
 import re
 import socket
 import subprocess
@@ -40,6 +41,15 @@ class Errors(unittest.TestCase):
             self.assertEqual((kind.number, kind.name), (number, names.Refusal(number).name))
             self.assertTrue(kind.meaning)
         self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
+
+    def test_an_error_survives_the_way_to_another_process(self):
+        for error in (faults.OverTemperature(3, 161.0, 160.0), refusals.OutOfRange(1, "position", 0.025),
+                      supercoil.VersionMismatchError(7, 4), supercoil.NoAnswerError("no answer"),
+                      supercoil.OutcomeError("identify ended: poor_fit", "poor_fit", ("friction",))):
+            with self.subTest(type(error).__name__):
+                restored = pickle.loads(pickle.dumps(error))
+                self.assertIs(type(restored), type(error))
+                self.assertEqual((str(restored), str(vars(restored))), (str(error), str(vars(error))))
 
     def test_units_and_choices_match_the_board(self):
         def range_text(name, *options):

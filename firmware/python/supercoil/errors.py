@@ -6,8 +6,16 @@ from typing import ClassVar
 from supercoil.generated.version import PROTOCOL_VERSION, __version__
 
 
+def _restored(kind: type[Exception], args: tuple[object, ...]) -> Exception:
+    return kind.__new__(kind, *args)
+
+
 class SupercoilError(Exception):
     """Base of all exceptions of this package."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickled as it is, for processes that pass it on: its constructor takes other arguments than the text."""
+        return _restored, (type(self), self.args), self.__dict__
 
 
 class FaultError(SupercoilError):

@@ -97,6 +97,21 @@ class SetupProgram(SetupCase):
         script.write_text(script.read_text() + "[nameplate]\nrated_W = 2\nstroke = 8\n")
         self.assert_refused(self.setup_program("--script", script), "nameplate.rated_Ohm", "nameplate.stroke", "did you mean stroke_")
 
+    def test_a_nameplate_that_this_board_does_not_allow_is_named(self):
+        measured = {key: None for key in ANSWERS} | {"stretch_weight_g": 100, "stretch_mm": 55, "half_cooling_s": 1.3}
+        for rated, wrong in (({"max_C": 40}, "nameplate.max_C = 40: must be 0, if it is not given, or 50 to 180: no muscle moves below"),
+                             ({"length_mm": 9000, "stroke_percent": 60}, "muscle.max_travel_mm = 5400 by [nameplate]: must be 0.01 to 41 here"),
+                             ({"rated_W": 30}, "muscle.max_W = 30 by [nameplate]: must be 0.001 to 11.66")):
+            _, script = self.script(**measured)
+            script.write_text(script.read_text() + "[nameplate]\n"
+                              + "".join(f"{key} = {value}\n" for key, value in (self.PLATE | rated).items()))
+            with self.subTest(rated):
+                self.assert_refused(self.setup_program("--script", script), f"{script}: {wrong}")
+        typed = ["1", *map(str, (self.PLATE | {"max_C": 40}).values()), "120"]
+        done = self.setup_program("describe", input="\n".join(typed) + "\n")
+        self.assertIn("  max_C = 40: must be 0, if it is not given, or 50 to 180", done.stdout)
+        self.assertIn("in Ohm (0.1 to 10000) [10]: ", done.stdout)
+
     def test_implausible_answers_are_refused_and_kept(self):
         questions = ["", "10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
         done = self.setup_program("describe", input="\n".join(questions) + "\n")

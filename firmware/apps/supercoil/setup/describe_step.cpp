@@ -44,9 +44,12 @@ Result<DescribeAnswers> ask_questions(const BoardRanges& board, SetupRecord& rec
   const auto has = ask_and_store(has_nameplate, record, user);
   if (!has) return tl::unexpected(has.error());
   for (std::size_t i = 0; *has > 0.0 && i < nameplate_questions.size(); ++i) {
-    const auto value = ask_and_store(nameplate_questions[i], record, user);
-    if (!value) return tl::unexpected(value.error());
-    answers.nameplate.set(i, *value);
+    do {
+      const auto value = ask_and_store(nameplate_questions[i], record, user);
+      if (!value) return tl::unexpected(value.error());
+      answers.nameplate.set(i, *value);
+      if (const std::string wrong = answers.nameplate.objection(); !wrong.empty()) user.show(wrong);
+    } while (!answers.nameplate.objection().empty());
   }
   for (std::size_t i = 0; i < questions.size(); ++i) {
     Question q = next_question(i, answers.muscle, board);
@@ -71,6 +74,8 @@ Result<DescribeAnswers> complete_script(const Script& script, const SetupOptions
                                         const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
   std::string wrong;
+  if (const std::string rated = script.nameplate.objection(); !rated.empty())
+    wrong += options.script + ": nameplate." + rated + "\n";
   for (std::size_t i = 0; i < questions.size(); ++i) {
     if (answers.has(i)) {
       const Question q = next_question(i, answers, board);
@@ -82,7 +87,12 @@ Result<DescribeAnswers> complete_script(const Script& script, const SetupOptions
     const Question& q = questions[i];
     const double rated = script.nameplate.suggested(static_cast<QuestionId>(i));
     const double offered = std::isnan(rated) ? q.fallback : rated;
-    if (!std::isnan(offered)) {
+    const config::Range allowed = next_question(i, answers, board).allowed;
+    if (rated > allowed.max) {
+      wrong += options.script + ": muscle." + std::string(q.key) + " = " +
+               number_text(rated, range_digits) + " by [nameplate]: must be " +
+               range_text(allowed) + " here: answer it in [muscle]: " + std::string(q.text) + "\n";
+    } else if (!std::isnan(offered)) {
       answers.set(i, offered);
     } else {
       wrong += options.script + ": muscle." + std::string(q.key) +

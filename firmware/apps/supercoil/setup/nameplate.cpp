@@ -18,6 +18,14 @@ constexpr int temperature_digits = 4;
 
 }  // namespace
 
+std::string Nameplate::objection() const {
+  const double max_C = of(Rated::max_C);
+  if (!(max_C > 0.0 && max_C < min_rated_C)) return {};
+  return "max_C = " + number_text(max_C, temperature_digits) + ": must be 0, if it is not given, or " +
+         range_text({min_rated_C, nameplate_questions.back().allowed.max}) +
+         ": no muscle moves below";
+}
+
 double Nameplate::suggested(QuestionId question) const {
   if (!present()) return NAN;
   const double stroke_mm = 1e-2 * of(Rated::stroke_percent) * of(Rated::length_mm);

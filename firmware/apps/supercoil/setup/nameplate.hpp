@@ -33,6 +33,8 @@ class Nameplate {
   double of(Rated what) const { return values_[static_cast<std::size_t>(what)]; }
   void set(std::size_t question, double value) { values_.at(question) = value; }
   bool present() const { return !std::isnan(values_.front()); }
+  /// "max_C = 40: must be …"; empty: its values are possible.
+  std::string objection() const;
 
   /// Its answer to a question of describe; NaN: none. The rated power is assumed to heat the muscle
   /// to its max temperature: a muscle that is believed hotter than it is gets less heat.

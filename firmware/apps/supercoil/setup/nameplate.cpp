@@ -21,7 +21,8 @@ constexpr int temperature_digits = 4;
 std::string Nameplate::objection() const {
   const double max_C = of(Rated::max_C);
   if (!(max_C > 0.0 && max_C < min_rated_C)) return {};
-  return "max_C = " + number_text(max_C, temperature_digits) + ": must be 0, if it is not given, or " +
+  return "max_C = " + number_text(max_C, temperature_digits) +
+         ": must be 0, if it is not given, or " +
          range_text({min_rated_C, nameplate_questions.back().allowed.max}) +
          ": no muscle moves below";
 }

@@ -126,6 +126,12 @@ class Identify(unittest.TestCase):
         self.refused([(t, x, 2) for t, x, _ in rows], 2, "power never changes from 2 W")
         self.refused(rows, 1, "the columns are time_s, position_m, heated", head="time_s,position_m,heated")
 
+    def test_a_file_that_is_not_text_is_refused_without_printing_it(self):
+        for content in ("time_s,position_m,power_W\n0,0,0\n".encode("utf-16"), b"\x93NUMPY\x01\x00v\x00{'descr': "):
+            (self.path / "r.csv").write_bytes(content)
+            self.assertEqual(self.identify("r.csv", status=2).stderr,
+                             "supercoil: r.csv: is not text: it must be CSV in UTF-8, or a flight recording\n")
+
     def test_a_sensor_with_its_zero_far_away_gives_the_same(self):
         far = self.write("far.csv", "time_s,position_m,power_W", [(t, x + 0.5, p) for t, x, p in self.samples()])
         found = json.loads(self.identify(far, "--json", "--stiffness", 25, "--thermal-mass", 0.25).stdout)

@@ -44,6 +44,8 @@ Result<Recording> read_input(const IdentifyOptions& o) {
   if (!content) return tl::unexpected(content.error());
   const auto text_of = [&](const Problem& problem) { return failure(to_text(o.file, problem)); };
   const bool flight = content->starts_with("supercoil flight recording");
+  if (!flight && content->find('\0') != std::string::npos)
+    return text_of({0, "is not text: it must be CSV in UTF-8, or a flight recording"});
   auto recording = flight ? from_flight_recording(*content, o.columns.channel)
                           : identification::read_csv(*content, o.columns);
   if (!recording) return text_of(recording.error());

@@ -102,6 +102,13 @@ class CompareSenses(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertEqual(done.stderr, f"supercoil: --power 50: {EXAMPLE} allows channel 1 at most 4.5 W (limits.max_W)\n")
 
+    def test_a_channel_that_is_armed_already_is_named_so(self):
+        self.supercoil("command", "1", "reset")
+        self.supercoil("command", "1", "arm")
+        done = self.supercoil("doctor", "--compare-senses", "--config", EXAMPLE, input="")
+        self.assertEqual((done.returncode, done.stderr), (1, "supercoil: arm: refused: wrong_state: it is already "
+                                                          "armed, or has a fault: reset it first\n"))
+
     def test_ctrl_c_leaves_the_channel_disarmed(self):
         for _ in range(TRIES):
             self.supercoil("command", "1", "reset")

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "text/command_text.hpp"
 #include "text/number_text.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -33,8 +35,11 @@ Heated::Done Heated::ask(const std::string& what) {
 Heated::Done Heated::ask_channel(const std::string& channel, const std::string& what) {
   const auto answer = board_.ask(channel + " " + what);
   if (!answer) return tl::unexpected(answer.error());
-  if (*answer != "ok") return failure(what + ": " + *answer);
-  return {};
+  if (*answer == "ok") return {};
+  // Whoever asks explains a refused value.
+  const bool explained = refuses(*answer, Refusal::out_of_range);
+  return failure(what + ": " +
+                 (explained ? *answer : answer_with_reason(channel + " " + what, *answer)));
 }
 
 Heated::Done Heated::heat(double power_W) {

@@ -89,7 +89,7 @@ class Files(unittest.TestCase):
         self.assertEqual(len(table), len(rows))
         self.assertEqual(table.attrs["fault"], "heater_open")
         self.assertEqual(table.attrs["units"]["applied_W"], "W")
-        others = {"probing", "trusted", "limited", "multiplexed_selector"}  # flags as numbers; a name of its own
+        others = {"probing", "trusted", "limited"}  # flags as numbers
         for place in range(0, len(rows), 371):
             self.assert_same(table.index[place], rows[place]["time_s"], "time_s")
             for column, text in rows[place].items():

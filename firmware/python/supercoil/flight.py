@@ -2,7 +2,7 @@
 
 import re
 import zlib
-from enum import IntEnum
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -27,9 +27,12 @@ _ROW = numpy.dtype([
     ("gain_selector", "u1"), ("result", "u1"), ("multiplexed_selector", "u1"), ("identify_notes", "u1"),
     ("multiplexed_value", "<f4")])
 _FLAGS = {"probing": 1, "trusted": 2, "limited": 4, "proof_off": 8, "oscillated": 16, "slack": 32}
-_NAMES: dict[str, type[IntEnum]] = {
+_MULTIPLEXED = ("none", "bias", "theta1_deviation", "theta2_deviation", "theta3_deviation", "theta4_deviation",
+                "bias_deviation")
+_NAMES: dict[str, Callable[[int], object]] = {
     "state": State, "mode": Mode, "fault": Fault, "limited_by": LimitedBy, "margin_selector": Fault,
-    "gain_selector": Gain, "result": Result}
+    "gain_selector": Gain, "result": Result,
+    "multiplexed_selector": lambda number: _MULTIPLEXED[number] if number < len(_MULTIPLEXED) else number}
 
 
 def _rows(file: Path) -> tuple[dict[str, str], numpy.ndarray[Any, Any]]:

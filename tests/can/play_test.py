@@ -119,6 +119,15 @@ class Refused(unittest.TestCase):
         path = motion(self.folder, {1: 1.0})
         self.assertIn("refused: out_of_range; 0.024 would be obeyed", self.error_of("play", path, "--settle", "0"))
 
+    def test_a_comparison_that_ends_early_rests_before_it_looks_for_a_fault(self):
+        self.answers["status"] = "1 active none -\n"
+        done = subprocess.run([SUPERCOIL, "doctor", "--compare-senses", "--power", "0.2", "--config", f"{self.folder}/none.toml",
+                               "--socket", self.socket], input="", capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual((done.returncode, done.stderr), (1, "supercoil: no answer: the input has ended\n"))
+        words = [line.split()[0] for line in self.received]
+        after_heat = len(words) - words[::-1].index("power")
+        self.assertEqual(words[after_heat:after_heat + 2], ["rest", "status"])
+
     def test_a_refused_position_names_the_whole_range(self):
         self.assertEqual(self.error_of("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")

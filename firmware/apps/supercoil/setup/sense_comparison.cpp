@@ -85,6 +85,8 @@ Result<board::SenseComparison> compare_senses(BoardLink& board, const Comparison
                                               Operator& user) {
   Heated heated(board, plan.channel, user);
   const auto ended = [&](const std::string& why) {
+    // Looking for a fault takes so long that the command to heat would expire, and be one.
+    static_cast<void>(heated.ask("rest"));
     return failure(with_present_fault(why, board, plan.channel));
   };
   if (const auto armed = heated.ask("arm"); !armed) return ended(armed.error().text());

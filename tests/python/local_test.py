@@ -212,6 +212,14 @@ class Local(unittest.TestCase):
             self.daemon.answers["2 renew"] = ""  # closes the connection
             muscle.hold(60.0)
 
+    def test_stop_disarms_a_channel_and_discover_needs_a_bus(self):
+        sync.stop(self.path, 2)
+        self.assertEqual(self.daemon.lines, ["2 disarm"])
+        with self.assertRaisesRegex(supercoil.BusError, "commands: is the socket of one board"):
+            sync.discover(self.path)
+        with self.assertRaisesRegex(TypeError, r"address is .*Path\(.*; it must be text, or a bus of python-can"):
+            sync.Muscle(pathlib.Path(self.path), 2).connect()
+
     def test_a_missing_channel_is_named(self):
         with self.assertRaisesRegex(supercoil.BusError, "nothing is known about channel 3"), sync.Muscle(self.path, 3):
             pass

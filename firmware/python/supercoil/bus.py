@@ -41,6 +41,8 @@ class Bus:
     @classmethod
     async def join(cls, address: str | can.BusABC, options: dict[str, object]) -> "Bus":
         """The bus of this address, opened unless this event loop has it open. Must be left as often as joined."""
+        if not isinstance(address, str | can.BusABC):
+            raise TypeError(f"address is {address!r}; it must be text, or a bus of python-can")
         loop = asyncio.get_running_loop()
         key = (loop, address if isinstance(address, str) else id(address))
         cls._remove_unused()

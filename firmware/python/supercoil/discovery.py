@@ -6,11 +6,14 @@ from typing import NamedTuple
 import can
 
 from supercoil import codec
+from supercoil.address import is_local
 from supercoil.bus import Bus
+from supercoil.errors import BusError
 from supercoil.generated import messages
 from supercoil.generated.names import Fault, State
 from supercoil.generated.version import PROTOCOL_VERSION
-from supercoil.link import CanLink
+from supercoil.link import CanLink, Link
+from supercoil.local import SocketLink
 
 
 class Found(NamedTuple):
@@ -36,6 +39,8 @@ async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options
         if base == messages.STATUS and (status := codec.decode(base, data, time_s)) is not None:
             statuses[node] = status
 
+    if is_local(address):
+        raise BusError(f"{address}: is the socket of one board, not a bus with several")
     bus = await Bus.join(address, options)
     try:
         with bus.monitor(receive):
@@ -47,8 +52,13 @@ async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options
 
 
 async def stop(address: str | can.BusABC, node: int = 1, **options: object) -> None:
-    """Disarms a node, whoever holds its lease and whatever version of the protocol it speaks."""
-    link = CanLink(address, node, options)
+    """Disarms a node, whoever holds its lease and whatever version of the protocol it speaks; by the board's own socket
+    a channel."""
+    link: Link
+    if isinstance(address, str) and is_local(address):
+        link = SocketLink(address, node)
+    else:
+        link = CanLink(address, node, options)
     await link.open()
     try:
         await link.disarm()

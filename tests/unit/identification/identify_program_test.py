@@ -108,6 +108,12 @@ class Identify(unittest.TestCase):
         self.identify(self.trace, "--plot", "p.svg", "--from", 10, "--to", 90)
         self.assertIn("measured − predicted", (self.path / "p.svg").read_text())
 
+    def test_only_the_figure_is_missing_if_it_cannot_be_drawn(self):
+        done = self.identify(self.trace, "--plot", "none/p.svg", "--muscle", "m.toml", "--from", 10, "--to", 90, status=1)
+        self.assertIn("none/p.svg", done.stderr)
+        self.assertIn("motion explained", done.stdout)
+        self.assertIn("[muscle]", (self.path / "m.toml").read_text())
+
     def test_spans_are_as_requested(self):
         found = json.loads(self.identify(self.trace, "--json", "--fit", "40:90", "--judge", "5:35").stdout)
         self.assertEqual((found["fitted_s"], found["unseen_s"]), ([40, 90], [5, 35]))

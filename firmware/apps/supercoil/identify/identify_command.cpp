@@ -114,10 +114,6 @@ int identify_command(const IdentifyOptions& options) {
   const Findings found = find(options, recording->size(), std::move(samples), *parts);
 
   std::string text = options.json ? json_report(found) : report(found);
-  if (!options.plot.empty()) {
-    if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
-      return refuse(options.json, exit_failed, drawn.error().text());
-  }
   const bool accepted = found.comparison.rejection_reason.empty();
   Result<std::string> table = failure("no [muscle] table is written: no model is accepted");
   if (accepted) table = muscle_table(found);
@@ -125,10 +121,17 @@ int identify_command(const IdentifyOptions& options) {
   storage::PosixFiles files;
   if (const auto written = files.write({STDOUT_FILENO, "standard output"}, text); !written)
     return refuse(options.json, exit_failed, written.error().text());
-  if (!table) return fail(exit_failed, table.error().text());
-  if (options.muscle.empty()) return exit_done;
-  const auto written = write_file(options.muscle, *table);
-  return written ? exit_done : fail(exit_failed, written.error().text());
+  int status = table ? exit_done : fail(exit_failed, table.error().text());
+  if (table && !options.muscle.empty()) {
+    if (const auto written = write_file(options.muscle, *table); !written)
+      status = fail(exit_failed, written.error().text());
+  }
+  // Last: without gnuplot only the figure is missing.
+  if (!options.plot.empty()) {
+    if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
+      status = fail(exit_failed, drawn.error().text());
+  }
+  return status;
 }
 
 }  // namespace supercoil::operating

@@ -206,7 +206,7 @@ class Program(unittest.TestCase):
         done = self.run_program(*arguments[:3], "none")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "supercoild: problem: none/lock: the lock file cannot be created: "
-                             "No such file or directory\n"))
+                             "No such file or directory; create its folder, or name another (--run-folder)\n"))
 
     def test_damaged_learned_values_prevent_a_start(self):
         arguments = self.no_such_board()

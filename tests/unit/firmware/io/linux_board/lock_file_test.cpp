@@ -39,8 +39,9 @@ TEST(LockFile, HasOnlyOneHolder) {
 
 TEST(LockFile, ReportsAMissingFolder) {
   const auto lock = LockFile::take(folder / "none/lock");
-  const std::string why =
-      folder / "none/lock" + ": the lock file cannot be created: No such file or directory";
+  const std::string why = folder / "none/lock" +
+                          ": the lock file cannot be created: No such file or directory; "
+                          "create its folder, or name another (--run-folder)";
   STRCMP_EQUAL(why.c_str(), lock.error().text().c_str());
 }
 

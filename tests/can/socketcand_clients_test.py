@@ -166,6 +166,24 @@ class HostileClients(unittest.TestCase):
         self.assert_goes_on()
 
 
+class SilentBoard(unittest.TestCase):
+    def test_the_monitor_says_that_its_values_are_old(self):
+        with tempfile.TemporaryDirectory() as folder:
+            simulator = Simulator(folder)
+            self.addCleanup(simulator.end)
+            monitor = subprocess.Popen([os.environ["SUPERCOIL"], "monitor", "--text", f"socketcand:{simulator.port}"],
+                                       stdout=subprocess.PIPE, text=True)
+            self.addCleanup(monitor.communicate)
+            self.addCleanup(monitor.kill)
+            while not monitor.stdout.readline().startswith("node 1: disarmed"):
+                self.assertIsNone(monitor.poll())
+            simulator.process.send_signal(signal.SIGSTOP)
+            self.addCleanup(simulator.process.send_signal, signal.SIGCONT)
+            while not (line := monitor.stdout.readline()).startswith("SILENT"):
+                self.assertIsNone(monitor.poll())
+            self.assertRegex(line, r"^SILENT: nothing was heard for \d+ s; older values follow\n$")
+
+
 class Usage(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -154,6 +154,29 @@ std::string node_text(int number, const Newest& node, const std::string& kind) {
   return text;
 }
 
+/// How long a bus has been silent.
+class Silence {
+ public:
+  /// Empty while frames arrive, and before the first one.
+  std::string text(const FrameHistory& frame_history) {
+    const auto now = std::chrono::steady_clock::now();
+    if (const std::uint64_t end = frame_history.end(); end != end_) {
+      end_ = end;
+      heard_ = now;
+    }
+    const auto silent = std::chrono::duration_cast<std::chrono::seconds>(now - heard_);
+    if (end_ == 0 || silent < shown_from) return "";
+    return "SILENT: nothing was heard for " + std::to_string(silent.count()) +
+           " s; older values follow\n";
+  }
+
+ private:
+  static constexpr std::chrono::seconds shown_from{2};
+
+  std::uint64_t end_ = 0;
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 std::map<int, int> active_controllers(const FrameHistory& frame_history) {
@@ -193,10 +216,12 @@ int show_on_terminal(const FrameHistory& frame_history, bool log,
                      const std::function<bool()>& ended) {
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const auto every = std::chrono::milliseconds(terminal ? 200 : 1000);
+  Silence silence;
   do {
     if (!log) std::this_thread::sleep_for(every);
     // Cursor home, and clear the screen below.
-    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(frame_history);
+    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") +
+                             (log ? "" : silence.text(frame_history)) + state_text(frame_history);
     if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return exit_failed;
   } while (!log && !ended());
   return exit_done;

@@ -130,7 +130,8 @@ class SetupProgram(SetupCase):
         self.assert_refused(self.setup_program(*self.script(load_g=0)), "muscle.load_g = 0", "0.1 to 1e+06")
         self.assert_refused(self.setup_program(*self.script(take_gains=2)), "muscle.take_gains = 2", "0 to 1")
         self.assert_refused(self.setup_program(*self.script(lode_g=3)), "muscle.lode_g", "did you mean load_g?")
-        self.assert_refused(self.setup_program(*self.script(thread_g=0)), "thread_g or heated_K must be known")
+        script = self.script(thread_g=0)
+        self.assert_refused(self.setup_program(*script), f"{script[1]}: thread_g or heated_K must be known")
         self.assert_refused(self.setup_program(*self.script("[senses]\npower_W = 0.1\nsupply_V = [12.0]\ncurrent_A = [0.004, 0]")),
                             "answers.toml:15: senses.supply_V", "2 numbers", "senses.current_A", "1e-05 to 1000")
         self.assert_refused(self.setup_program(*self.script("[limits]\nstop_m = 0.008")), "limits.stop_m", "did you mean stop_mm?")

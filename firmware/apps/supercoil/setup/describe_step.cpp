@@ -150,7 +150,10 @@ config::LoopTime loop_time_in_file(const std::string& text, int channel) {
 Result<Json> write_description(const DescribeAnswers& answers, const SetupOptions& options,
                                const std::string& text, Operator& user) {
   auto described = describe_muscle(answers.muscle, loop_time_in_file(text, options.channel));
-  if (!described) return failure(described.error().text() + "\n");
+  if (!described) {
+    const std::string script = options.script.empty() ? "" : options.script + ": ";
+    return failure(script + described.error().text() + "\n");
+  }
   for (Entry& limit : answers.nameplate.limits(trip_in_file_C(text, options.channel)))
     described->entries.push_back(std::move(limit));
   const auto index = static_cast<std::size_t>(options.channel) - 1;

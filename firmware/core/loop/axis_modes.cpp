@@ -35,8 +35,10 @@ bool Axis::step_identify() {
   if (now != ModeResult::found && cooling_found) store_thermal_facts(heater_.facts());
   if (now != ModeResult::found) return end_mode(now);
   const control::PhysicalParameters& muscle = identify_.found();
-  const SmallSignal::Settings plan = plan_small_signal(
-      proof_.settings(), muscle, identify_.risen_m() / muscle.dc_gain_m_per_W(), 1.0 / step_s_);
+  const double gain_m_per_W = muscle.dc_gain_m_per_W();
+  const SmallSignal::Settings plan =
+      plan_small_signal(proof_.settings(), muscle, identify_.risen_m() / gain_m_per_W,
+                        identify_.reach_m() / gain_m_per_W, 1.0 / step_s_);
   if (!std::isfinite(plan.dither.decided_s)) {
     // The response of an earlier muscle says nothing about this one.
     return end_mode(keep_identified(0.0));

@@ -67,6 +67,8 @@ class Excitation {
   /// The muscle is so slow that its first stroke counts, and need not end at a low.
   bool slow() const { return slow_; }
   double risen_m() const { return position_m_ - cold_m_; }
+  /// How far the strokes rise; 0: not known yet.
+  double reach_m() const { return reach_m_; }
   /// Of these strokes, 0 to 1.
   float progress() const {
     const float half = phase_ == Phase::cool ? 0.5F : 0.0F;

@@ -98,6 +98,8 @@ class Identify {
   bool shortened() const { return shortened_ > 0; }
   /// Above the cold muscle's position, smoothed.
   double risen_m() const { return excitation_.risen_m(); }
+  /// How far above it the strokes go.
+  double reach_m() const { return excitation_.reach_m(); }
   const control::PhysicalParameters& found() const { return found_; }
   const Quality& quality() const { return quality_; }
   /// IdentifyNotes of the last judgement; 0 while it runs. If a muscle was found, poor_fit means

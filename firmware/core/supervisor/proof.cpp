@@ -112,15 +112,18 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
 
 SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
-                                        double rate_Hz) {
+                                        double max_hold_W, double rate_Hz) {
   constexpr double time_constants = 5.0;
   constexpr double max_settle_s = 45.0;
   ProofSettings full_response = settings;
   full_response.response_ratio = 1.0;
   SmallSignal::Settings s;
   s.dither = plan_proof(full_response, muscle, rate_Hz).dither;
-  // Both halves of the dither need room.
-  s.hold_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
+  // Both halves of the dither need room. A strong muscle may have so little that its dither must be
+  // smaller; noise may then hide the answer.
+  const double clear_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
+  s.hold_W = std::min(clear_W, max_hold_W);
+  s.dither.amplitude_W = std::min(s.dither.amplitude_W, 0.5 * s.hold_W);
   s.settle_s = std::min(max_settle_s, -time_constants / muscle.thermal_pole_rad_per_s());
   s.rate_Hz = rate_Hz;
   s.step_s = steps_s(rate_Hz);

@@ -41,9 +41,10 @@ ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParam
                      double rate_Hz);
 
 /// Settings to measure the answer of a muscle that was just found and holds its position at hold_W.
+/// max_hold_W: more may move it out of its travel.
 SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
-                                        double rate_Hz);
+                                        double max_hold_W, double rate_Hz);
 
 /// Any motion that follows the power proves a muscle, whatever the loop does. No motion proves
 /// nothing: a loop that holds the muscle against a fan or a load also changes the power. So, when

@@ -86,6 +86,25 @@ TEST(Identify, ContinuesWhileTheMuscleIsUncertain) {
   CHECK_COMPARE(took_s, >, 70.0);
 }
 
+/// A slow muscle that needs little power for its whole travel: a dither that its sensor could see
+/// needs more.
+TEST(Identify, StaysWithinTheShortTravelOfAStrongMuscle) {
+  const auto scenario = host_sim::parse_scenario(
+      "simulation.duration_s = 300.0\noperator.action = 'identify'\n"
+      "[plant]\nthermal_mass_J_per_K = 0.9\nheat_transfer_W_per_K = 0.06\n"
+      "stiffness_N_per_m = 6.5\nforce_per_kelvin_N_per_K = 0.03\n"
+      "[reference]\noffset_m = 0.004\namplitude_m = 0.001\n"
+      "[sensor.position]\nnoise_rms_m = 3e-6\nrange_m = 0.008\n",
+      "strong.toml");
+  CHECK(scenario.has_value());
+  host_sim::Simulation simulation(*scenario);
+  double max_m = 0.0;
+  while (!simulation.done() && !simulation.learned(0))
+    max_m = std::fmax(max_m, simulation.step().position_m);
+  CHECK(simulation.learned(0).has_value());
+  CHECK_COMPARE(max_m, <, 0.006);
+}
+
 TEST(Identify, LearnedFeedforwardTracksAfterIdentify) {
   for (const std::string_view name : {"real", "stiff", "lightly damped"}) {
     for (const MuscleKind& kind : muscle_kinds) {

@@ -30,7 +30,7 @@ double measured_ratio(const Sensor& sensor, const ProofSettings& settings = pape
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, sensor.noise_m);
   SmallSignal measuring;
-  const auto plan = plan_small_signal(settings, muscle, held_W, rate_Hz);
+  const auto plan = plan_small_signal(settings, muscle, held_W, INFINITY, rate_Hz);
   measuring.start(plan, ExpectedMotion(muscle, plan.step_s));
   double end_m = 0.0;
   double power_W = 0.0;
@@ -67,7 +67,7 @@ TEST(SmallSignal, IsUnknownBehindNoise) {
 TEST(SmallSignal, StopEndsIt) {
   SmallSignal measuring;
   CHECK_FALSE(measuring.running());
-  const auto plan = plan_small_signal(paper_proof(), {}, held_W, rate_Hz);
+  const auto plan = plan_small_signal(paper_proof(), {}, held_W, INFINITY, rate_Hz);
   measuring.start(plan, ExpectedMotion({}, plan.step_s));
   CHECK(measuring.running());
   measuring.stop();
@@ -77,7 +77,7 @@ TEST(SmallSignal, StopEndsIt) {
 TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
   const control::PhysicalParameters muscle;
   for (const double other_Hz : {150.0, 1000.0}) {
-    const auto plan = plan_small_signal(paper_proof(), muscle, held_W, other_Hz);
+    const auto plan = plan_small_signal(paper_proof(), muscle, held_W, INFINITY, other_Hz);
     DOUBLES_EQUAL(other_Hz, plan.rate_Hz, 0.0);
     DOUBLES_EQUAL(other_Hz == 150.0 ? 2.0 / 150.0 : 0.01, plan.step_s, 1e-12);
     DOUBLES_EQUAL(-5.0 / muscle.thermal_pole_rad_per_s(), plan.settle_s, 1e-9);
@@ -88,17 +88,27 @@ TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
 TEST(SmallSignal, IsPlannedWithinAMinuteAndWithHeadroom) {
   control::PhysicalParameters slow;
   slow.thermal_mass_J_per_K = 15.0 * slow.heat_transfer_W_per_K;
-  DOUBLES_EQUAL(45.0, plan_small_signal(paper_proof(), slow, held_W, rate_Hz).settle_s, 0.0);
-  const auto low = plan_small_signal(paper_proof(), {}, 0.0, rate_Hz);
+  DOUBLES_EQUAL(45.0, plan_small_signal(paper_proof(), slow, held_W, INFINITY, rate_Hz).settle_s,
+                0.0);
+  const auto low = plan_small_signal(paper_proof(), {}, 0.0, INFINITY, rate_Hz);
   DOUBLES_EQUAL(2.0 * low.dither.amplitude_W, low.hold_W, 1e-12);
-  DOUBLES_EQUAL(2.25, plan_small_signal(paper_proof(), {}, 4.5, rate_Hz).hold_W, 1e-12);
+  DOUBLES_EQUAL(2.25, plan_small_signal(paper_proof(), {}, 4.5, INFINITY, rate_Hz).hold_W, 1e-12);
+}
+
+/// As little as it may be, both halves of the dither fit.
+TEST(SmallSignal, HoldsNoMorePowerThanItMay) {
+  const auto free = plan_small_signal(paper_proof(), {}, held_W, INFINITY, rate_Hz);
+  const double little_W = 0.5 * free.dither.amplitude_W;
+  const auto plan = plan_small_signal(paper_proof(), {}, held_W, little_W, rate_Hz);
+  DOUBLES_EQUAL(little_W, plan.hold_W, 1e-12);
+  DOUBLES_EQUAL(0.5 * little_W, plan.dither.amplitude_W, 1e-12);
 }
 
 TEST(SmallSignal, AmplitudeIgnoresTheResponseOfAnEarlierMuscle) {
   ProofSettings rubbed = paper_proof();
   rubbed.response_ratio = 0.5;
-  DOUBLES_EQUAL(plan_small_signal(paper_proof(), {}, held_W, rate_Hz).dither.amplitude_W,
-                plan_small_signal(rubbed, {}, held_W, rate_Hz).dither.amplitude_W, 0.0);
+  DOUBLES_EQUAL(plan_small_signal(paper_proof(), {}, held_W, INFINITY, rate_Hz).dither.amplitude_W,
+                plan_small_signal(rubbed, {}, held_W, INFINITY, rate_Hz).dither.amplitude_W, 0.0);
 }
 
 /// For 4 s, of a slow dither for 10 s or four periods, of the slowest for two; and one period
@@ -124,7 +134,7 @@ TEST(SmallSignal, TakesTheTimeThatItsDitherNeeds) {
 /// Without settling and without noise, from the very first step on.
 TEST(SmallSignal, RatioOfTheModelsOwnMotionIsOne) {
   const control::PhysicalParameters muscle;
-  auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);
+  auto plan = plan_small_signal(paper_proof(), muscle, held_W, INFINITY, rate_Hz);
   plan.settle_s = plan.hold_W = 0.0;
   SmallSignal measuring;
   measuring.start(plan, ExpectedMotion(muscle, plan.step_s));

@@ -122,6 +122,7 @@ class Axis {
   /// pull against each other with the smaller of the two powers.
   Reply admits_against(const Axis& other, double power_W) const;
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
+  double min_travel_m() const { return 0.0 - max_reverse_travel_m_; }  // never -0
   /// For a joint's agonist: how far the other muscle may pull it.
   void limit_reverse_travel(double max_m) {
     max_reverse_travel_m_ = max_m;
@@ -284,8 +285,10 @@ class Axis {
   Playback playback_;
   double reference_ = 0.0;  ///< as reference()
   double max_pull_W_ = std::numeric_limits<double>::infinity();
-  /// Below rest; for a single muscle as far as above it.
-  double max_reverse_travel_m_ = settings_.supervision.max_travel_m;
+  /// Below rest; for a single muscle as far as above it. Nothing turns a joint of one muscle back.
+  double max_reverse_travel_m_ = settings_.joint.turns() && !settings_.joint.has_other()
+                                     ? 0.0
+                                     : settings_.supervision.max_travel_m;
   control::ControllerOutput demanded_;
   double share_W_ = 0.0;  ///< its own heater's share of the demand
   modes::Identify identify_;

@@ -28,8 +28,8 @@ Reply Axis::admits(Mode mode, double& value) const {
   if (mode == Mode::position) {
     const double max_m = max_travel_m();
     const bool reachable =
-        value >= -float_rounding * max_reverse_travel_m_ && value <= float_rounding * max_m;
-    value = std::clamp(value, -max_reverse_travel_m_, max_m);
+        value >= lowest_m(max_reverse_travel_m_) && value <= float_rounding * max_m;
+    value = std::clamp(value, min_travel_m(), max_m);
     if (!reachable) return {Refusal::out_of_range, value};  // also for NaN
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
@@ -164,8 +164,8 @@ Reply Axis::choose_estimator(double place) {
 
 Reply Axis::scale(double true_m) {
   const double measured_m = inputs_.position.value;
-  // A joint's other muscle reads the same sensor with its own scale; a bundle uses its leader's.
-  if (inputs_.in_joint || settings_.bundle.follows()) return Refusal::unsuitable;
+  // A joint's scale is that of its angle; a bundle uses its leader's.
+  if (settings_.joint.turns() || settings_.bundle.follows()) return Refusal::unsuitable;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
   // What identify or calibrate has measured so far is in the old scale.

@@ -31,7 +31,7 @@ board::Learned Axis::known() const {
 void Axis::publish_muscle() {
   published_muscle_.set(known_muscle(muscle_, calibration_, response_ratio_, unexplained_ratio_,
                                      identification_,
-                                     configured_muscle(settings_, -max_reverse_travel_m_)));
+                                     configured_muscle(settings_, min_travel_m())));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {

@@ -89,6 +89,11 @@ enum class Source : std::uint8_t { local, can };
 
 /// CAN carries a value as float, so that a limit may arrive as slightly more than it is.
 inline constexpr double float_rounding = 1.0 + std::numeric_limits<float>::epsilon();
+/// The lowest position that counts as this far below rest: a computed 0 may be slightly less.
+constexpr double lowest_m(double max_reverse_travel_m) {
+  constexpr double rounding_m = 1e-9;
+  return -(float_rounding * max_reverse_travel_m + rounding_m);
+}
 
 /// A command, from whichever source, on its way to the loop.
 struct Command {

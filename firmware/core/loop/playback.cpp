@@ -11,6 +11,9 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Capability&
   const auto parts = static_cast<int>(std::clamp(piece.duration_s() / smoothed_s, 1.0, max_parts));
   const double part_s = piece.duration_s() / parts;
   const double margin_W = margin_ratio * capability.range.max_W;
+  // Where nothing pulls the muscle below rest, only its power is judged.
+  const double reverse_m = capability.max_reverse_travel_m;
+  const double min_m = reverse_m > 0.0 ? lowest_m(reverse_m) : -INFINITY;
   control::ModelMotion<double> from = piece.at(piece.begins_s()).motion;
   for (int i = 1; i <= parts; ++i) {
     const control::ModelMotion<double> to = piece.at(piece.begins_s() + i * part_s).motion;
@@ -21,8 +24,7 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Capability&
                             capability.theta[2] * (to.position - from.position) / part_s +
                             capability.theta[3] * 0.5 * (from.position + to.position);
     const bool possible = needed_W >= capability.range.min_W - margin_W &&
-                          needed_W <= capability.range.max_W + margin_W &&
-                          to.position >= -float_rounding * capability.max_reverse_travel_m &&
+                          needed_W <= capability.range.max_W + margin_W && to.position >= min_m &&
                           to.position <= float_rounding * capability.max_travel_m;
     if (!possible) return false;  // also for NaN
     from = to;
@@ -31,7 +33,7 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Capability&
 }
 
 Reply Playback::add(const Command& command, const Capability& capability) {
-  const double min_m = -float_rounding * capability.max_reverse_travel_m;
+  const double min_m = lowest_m(capability.max_reverse_travel_m);
   const double max_m = float_rounding * capability.max_travel_m;
   const auto velocity = static_cast<double>(command.velocity_m_per_s);
   const auto after_s = static_cast<double>(command.after_s);

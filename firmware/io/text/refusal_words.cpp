@@ -56,8 +56,8 @@ constexpr std::array verb_reasons{
     VerbReason{Verb::start, Refusal::out_of_range, "the start time has passed"},
     VerbReason{
         Verb::scale, Refusal::unsuitable,
-        "it shares its sensor: a joint's scale is its m_per_count and lever_m, a bundle's that of "
-        "the channel that leads"}};
+        "a joint's scale is its m_per_count and lever_m, a bundle's that of the channel that "
+        "leads"}};
 
 Verb verb_of(std::string_view line) {
   next_word(line);

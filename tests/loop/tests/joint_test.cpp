@@ -137,6 +137,21 @@ TEST(Joint, RefusesAScaleForASharedSensor) {
   }
 }
 
+/// Its only muscle cannot turn it back, and its scale is that of its angle.
+TEST(Joint, OfOneMuscleTakesNeitherAScaleNorASetPointBelowRest) {
+  RigSettings settings = rough_board();
+  settings.firmware.channels[agonist].joint = {.direction = 1, .lever = control::Lever(lever_m)};
+  Rig finger(settings);
+  begin(finger);
+  CHECK(finger.answer_of(agonist, Verb::scale, 0.002) == Refusal::unsuitable);
+  CHECK(finger.answer_of(agonist, Verb::position, -1e-6) == Refusal::out_of_range);
+  DOUBLES_EQUAL(0.0, finger.last_nearest, 0.0);
+  DOUBLES_EQUAL(0.0, finger.loop.channel(agonist).known(known_min_set_point), 0.0);
+  // As a program may compute 0.
+  CHECK(finger.answer_of(agonist, Verb::position, -1e-17) == Refusal::none);
+  CHECK(finger.answer_of(agonist, Verb::position, 0.002) == Refusal::none);
+}
+
 TEST(Joint, OneMuscleMayBeDrivenAlone) {
   arm();
   CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::none);

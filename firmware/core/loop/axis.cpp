@@ -91,12 +91,21 @@ void Axis::observe(double supply_V, const board::Measured* air, std::int64_t per
   heater_.observe(supply_V, air, periods);
   pull_.step(heater_.acting().power_W, static_cast<double>(periods) * step_s_, muscle_);
   prove(periods);
-  // Where this muscle alone would be.
-  const double alone_m = inputs_.position.value + other_.expected_m[0];
-  inputs_.from_position_K =
-      heater_.indicates_temperature() ? alone_m / heater_.heat().metres_per_K() : 0.0;
+  inputs_.from_position_K = from_position_K();
   inputs_.demanded_W = share_W_;
   inputs_.opposed_m = other_.expected_m;
+}
+
+/// From where this muscle alone would be. How far a joint's other muscle moves it is known roughly,
+/// and may be many kelvin of a weaker one: what contradicts the resistance least counts.
+double Axis::from_position_K() const {
+  if (!heater_.indicates_temperature()) return 0.0;
+  const auto rise_K = [&](double other_m) {
+    return (inputs_.position.value + other_m) / heater_.heat().metres_per_K();
+  };
+  const auto [min_m, max_m] = std::ranges::minmax(other_.expected_m);
+  const double ratio = settings_.supervision.responding_ratio;
+  return std::clamp(heater_.from_resistance_K(), rise_K(ratio * min_m), rise_K(max_m / ratio));
 }
 
 control::PowerRange Axis::own_range() const {

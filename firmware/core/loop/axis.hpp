@@ -198,6 +198,7 @@ class Axis {
     return heater_.acting().limited || other_.limited || followers_limited();
   }
   bool followers_limited() const { return bundle_ && bundle_->limited_by != LimitedBy::nothing; }
+  double from_position_K() const;
   void prove(std::int64_t periods);
   void plan_proof();
   /// Maximum by the limiters of all muscles that move together; max_hot_W(): at their hottest.

@@ -109,6 +109,8 @@ class Heater {
   double probed_Ohm() const { return probed_ ? resistance_.value_Ohm() : 0.0; }
   /// Whether the resistance indicates the muscle's temperature now.
   bool indicates_temperature() const { return indicates_temperature_; }
+  /// The rise that it indicates; 0: none.
+  double from_resistance_K() const { return inputs_.from_resistance_K; }
   const board::Heat& heat() const { return heat_; }
   /// The muscle must have cooled since boot, however hot it was before.
   bool heat_known() const { return heat_known_; }

@@ -158,6 +158,23 @@ TEST(JointFault, IdentifyRestartsBothMusclesWindows) {
 
 /// A load that comes at once is not a loose muscle, whether the muscle can hold it or is drawn out
 /// at the most power that it may have.
+/// A millimetre is 30 K of the weak one.
+TEST(JointFault, AWrongBeliefOfAStrongMuscleIsNoDisagreementOfAWeakOne) {
+  RigSettings settings = joint_board();
+  constexpr double weak = 0.1;
+  settings.board.channels[antagonist].plant.force_per_kelvin_N_per_K *= weak;
+  settings.firmware.channels[antagonist].muscle.force_per_kelvin_N_per_K *= weak;
+  settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 0.6;
+  Rig uneven(settings);
+  begin(uneven);
+  const auto faults = [&] {
+    uneven.loop.send({agonist, Verb::power, 1.5});
+    uneven.loop.send({antagonist, Verb::power, 1.0});
+    return uneven.state() == State::fault;
+  };
+  CHECK_FALSE(uneven.run_until(faults, 15.0));
+}
+
 TEST(JointFault, AMovingLoadIsNotALooseMuscle) {
   double limited_s = 0.0;
   for (const double load_Nm : {-0.0008, 0.0008, -0.004, 0.004}) {

@@ -97,14 +97,14 @@ double cold_travel_m(const ChannelSettings& c, const BoardSettings& board, const
   const board::AirSettings& air = c.thermal.air;
   double warmest_C = air.warmest_C;
   if (air.error_K > 0.0) warmest_C = std::min(warmest_C, air.coldest_C + 2.0 * air.error_K);
-  const double air_W = c.muscle.heat_transfer_W_per_K * (air.warmest_C - air.coldest_C);
+  const double air_W = f.air_shift_m / c.muscle.dc_gain_m_per_W();
   return std::max(0.0, held_travel_m(c, held_in(c, board, f.max_W, warmest_C).power_W - air_W));
 }
 
 void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
   const board::ThermalSettings& t = c.thermal;
-  const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
-  f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
+  // A joint's other muscle is in the same air and turns it back by about as much.
+  f.air_shift_m = c.joint.has_other() ? 0.0 : air_shift_m(c);
   f.cold_travel_m = cold_travel_m(c, board, f);
   // The sensor's range refers to its reading before calibration.
   const double rest_m =
@@ -123,10 +123,10 @@ std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& c
   if (controller.kind == control::ControllerKind::power) return std::nullopt;
   const double peak = peak_W_per_m(controller.model, c.muscle);
   const double load_W = load_m(c) / c.muscle.dc_gain_m_per_W();
-  return FeasibleSteps{
-      std::clamp((f.max_W - load_W) / peak, 0.0, f.travel_m),
-      std::min(f.travel_m, (f.travel_m / c.muscle.dc_gain_m_per_W() + load_W) / peak),
-      controller.shape_reference};
+  const double down_m =
+      std::min(f.travel_m, (f.travel_m / c.muscle.dc_gain_m_per_W() + load_W) / peak);
+  return FeasibleSteps{std::clamp((f.max_W - load_W) / peak, 0.0, f.travel_m),
+                       c.joint.has_other() ? NAN : down_m, controller.shape_reference};
 }
 
 }  // namespace
@@ -139,6 +139,13 @@ Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& boa
   for (const control::ControllerSettings& controller : channel.controllers)
     f.steps.push_back(feasible_steps(controller, channel, f));
   return f;
+}
+
+double air_shift_m(const ChannelSettings& channel) {
+  const control::PhysicalParameters& muscle = channel.muscle;
+  const board::AirSettings& air = channel.thermal.air;
+  return muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m *
+         (air.warmest_C - air.coldest_C);
 }
 
 double peak_W_per_m(const control::ReferenceModelSettings& settings,

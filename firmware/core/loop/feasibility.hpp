@@ -12,7 +12,7 @@ namespace supercoil {
 /// active cooling or more than the maximum power.
 struct FeasibleSteps {
   double up_m = 0.0;    ///< from rest
-  double down_m = 0.0;  ///< from the top of the travel
+  double down_m = 0.0;  ///< from the top of the travel; NaN: a joint's other muscle helps
   bool shaped = false;  ///< larger steps are shaped so that the muscle can follow them
 };
 
@@ -25,7 +25,8 @@ struct Feasibility {
   double rise_s = 0.0;                     ///< 10 to 90 % of the travel at max_W
   double fall_s = 0.0;                     ///< 90 to 10 % of it without power
   double half_travel_period_s = 0.0;       ///< the fastest sine over the middle half of the travel
-  /// How far the coldest air lowers the rest position compared with the warmest.
+  /// How far the coldest air lowers the rest position compared with the warmest; 0 in a joint of
+  /// two muscles.
   double air_shift_m = 0.0;
   double cold_travel_m = 0.0;  ///< held in the coldest, above a zero that was taken in the warmest
   bool rest_seen = true;       ///< the sensor can read that far below its zero
@@ -50,6 +51,9 @@ inline double load_m(const ChannelSettings& channel) {
 
 /// channel: of this board. Allocates: not for a tick.
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
+
+/// How far the coldest air lowers this muscle alone, compared with the warmest.
+double air_shift_m(const ChannelSettings& channel);
 
 /// The peak of power at the beginning of a step by 1 m through the reference model.
 double peak_W_per_m(const control::ReferenceModelSettings& settings,

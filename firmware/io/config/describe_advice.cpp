@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "config/describe.hpp"
 #include "config/findings.hpp"
@@ -140,7 +141,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   advise_estimator(c, lines);
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];
-    const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;
+    const bool small = steps && std::fmin(steps->up_m, steps->down_m) < 0.5 * f.travel_m;
     if (small && !steps->shaped) {
       lines.push_back("controller " + std::to_string(i) +
                       ": a step over half of the travel asks for more than the muscle can do; "

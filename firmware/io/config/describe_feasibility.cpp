@@ -22,14 +22,16 @@ std::string in_mm(double metres) {
   return in_digits(1e3 * metres) + " mm";
 }
 
-std::string motion_line(const Feasibility& f) {
+std::string motion_line(const Feasibility& f, const ChannelSettings& c) {
   std::string line =
       "holds " + in_mm(f.travel_m) + " indefinitely, at " + in_digits(f.held_W) + " W";
   if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
   line += "; 10 to 90 % of it in " + in_digits(f.rise_s) + " s at " + in_digits(f.max_W) +
           " W, back in " + in_digits(f.fall_s) + " s";
-  return line + "; a sine over its middle half needs a period of at least " +
-         in_digits(f.half_travel_period_s) + " s";
+  line += "; a sine over its middle half needs a period of at least " +
+          in_digits(f.half_travel_period_s) + " s";
+  return line +
+         (c.joint.has_other() ? "; all by itself: the joint's other muscle pulls it back" : "");
 }
 
 std::string start_line(const Feasibility& f, const ChannelSettings& c) {
@@ -145,15 +147,17 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
   std::vector<std::string> lines{start_line(f, c)};
   if (std::string line = pwm_line(c, board); !line.empty()) lines.push_back(std::move(line));
   if (c.bundle.follows()) return lines;
-  lines.insert(lines.begin(), motion_line(f));
+  lines.insert(lines.begin(), motion_line(f, c));
   if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     if (!f.steps[i]) continue;
     const std::string margin = describe_margin(c.controllers[i], c, board.step_s());
     if (!margin.empty()) lines.push_back("controller " + std::to_string(i) + ": " + margin);
+    const double down_m = f.steps[i]->down_m;
     lines.push_back("controller " + std::to_string(i) + " can follow steps of " +
-                    in_mm(f.steps[i]->up_m) + " up from rest and " + in_mm(f.steps[i]->down_m) +
-                    " down from there; larger ones " +
+                    in_mm(f.steps[i]->up_m) + " up from rest" +
+                    (std::isnan(down_m) ? "" : " and " + in_mm(down_m) + " down from there") +
+                    "; larger ones " +
                     (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do") +
                     beyond_text(f, *f.steps[i], c));
   }

@@ -13,7 +13,7 @@ namespace supercoil::config {
 namespace {
 
 double to_tenth(double value) {
-  return std::nearbyint(10.0 * value) / 10.0;
+  return std::nearbyint(10.0 * value) / 10.0 + 0.0;  // never -0
 }
 
 /// Not less than the value.
@@ -138,6 +138,14 @@ std::string slack_text(const BoardSettings& board, const JointSettings& joint) {
   return out.str();
 }
 
+/// How far the air turns a joint whose muscles are not alike.
+std::string air_text(const BoardSettings& board, const JointSettings& joint) {
+  const double forward_m = air_shift_m(board.channels[joint.agonist]);
+  const double back_m = air_shift_m(board.channels[joint.antagonist]);
+  const double coldest_m = back_m / joint.antagonist_lever_ratio - forward_m;
+  return arc(coldest_m, joint.lever) + " in the coldest air, if its zero was taken in the warmest";
+}
+
 }  // namespace
 
 std::string describe_joint(const BoardConfig& config, std::size_t index) {
@@ -158,6 +166,7 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << "  range       held indefinitely by one muscle alone: from "
       << arc(joint.lever.arc_m(back_rad), joint.lever) << " to "
       << arc(feasibility(agonist, board).travel_m, joint.lever) << "\n"
+      << "  rests       at " << air_text(board, joint) << "\n"
       << "  both pull   with " << to_tenth(joint.co_contraction_W) << " W and "
       << to_tenth(joint.co_contraction_W / gain_ratio)
       << " W while no effort is asked for; each muscle contributes half of an effort\n"

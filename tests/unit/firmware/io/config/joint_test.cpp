@@ -214,6 +214,17 @@ TEST(JointConfig, CheckReportsWhatTheJointCanDo) {
     STRCMP_CONTAINS(part, text.c_str());
 }
 
+/// Each muscle's figures are for the muscle alone; the air moves both.
+TEST(JointConfig, CheckReportsNoRestOfOneMuscleInTheAir) {
+  const std::string text = describe(read_board(board_with_joint));
+  CHECK(text.find("lower in the coldest air") == std::string::npos);
+  CHECK(text.find("down from there") == std::string::npos);
+  CHECK(text.find("below its zero") == std::string::npos);
+  STRCMP_CONTAINS("; all by itself: the joint's other muscle pulls it back\n", text.c_str());
+  STRCMP_CONTAINS("  rests       at ", text.c_str());
+  STRCMP_CONTAINS(" in the coldest air, if its zero was taken in the warmest\n", text.c_str());
+}
+
 TEST(JointConfig, CheckReportsWhereAMuscleGoesSlack) {
   STRCMP_CONTAINS("  slack       unknown: pretension_N is not configured\n",
                   describe(read_board(board_with_joint)).c_str());

@@ -37,6 +37,14 @@ double rms_um(const Scenario& scenario, double from_s, double to_s) {
 
 TEST_GROUP(Simulation){};
 
+TEST(Simulation, DoesNotJudgeTheBoundsOfAMuscleThatIsAllButCold) {
+  CHECK_FALSE(is_outside(4e-4, 0.0, 3e-4));
+  CHECK_FALSE(is_outside(0.0, 0.009, 1.0));
+  CHECK(is_outside(1.02, 0.0, 1.0));
+  CHECK(is_outside(0.98, 1.0, 2.0));
+  CHECK(is_outside(NAN, 0.0, 1.0));
+}
+
 TEST(Simulation, IsRepeatableToTheBit) {
   const Scenario scenario = read("simulation.duration_s = 20.0");
   const auto first = records_of(scenario);

@@ -55,7 +55,7 @@ def judge_findings(table, label, findings, verdict, expected):
         print(f"         {verdict}: {finding['what']}: {finding['found']}\n{'':17} {finding['remedy']}")
     for what, how in expected.items():
         named = what in found and re.search(how, found[what]["found"]) is not None and found[what]["remedy"] != ""
-        table.row(f"{label}: {what} is told as {verdict}", named, 1, 1, "")
+        table.row(f"{label}: {what} is reported as {verdict}", named, 1, 1, "")
     table.row(f"{label}: other {verdict}s", len(found.keys() - expected.keys()), 0, 0, "")
 
 

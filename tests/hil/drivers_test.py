@@ -81,7 +81,7 @@ def panic(table, run):
     marks, _ = witness.marks_and_reads(run.console)
     last = witness.looks(run.witness)[-1]
     table.row("kernel died: the run ends as", run.status, rig.DIED, rig.DIED, "")
-    table.row("           the witness tells until", (last.time_s - marks["panic"]) * 1e3, -20, 20, "ms")
+    table.row("           the witness reports until", (last.time_s - marks["panic"]) * 1e3, -20, 20, "ms")
     table.row("           and saw the heat on: supply closed", last.closed, 1, 1, "")
 
 

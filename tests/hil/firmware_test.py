@@ -92,8 +92,8 @@ AIR = (("well", "air of 20 C", 18, 22),
 def air(table, run):
     """The coldest and the hottest that a cold muscle may be, as the board reports them."""
     for name, what, coldest_C, hottest_C in AIR:
-        believed = re.search(rf"^believed {name} (.*)", run.console, re.M)[1].split()
-        for which, value_C, right_C in (("coldest", believed[7], coldest_C), ("hottest", believed[8], hottest_C)):
+        bounds = re.search(rf"^bounds {name} (.*)", run.console, re.M)[1].split()
+        for which, value_C, right_C in (("coldest", bounds[7], coldest_C), ("hottest", bounds[8], hottest_C)):
             table.row(f"{what}: {which}", float(value_C), right_C - 0.2, right_C + 0.2, "C")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 

@@ -42,7 +42,7 @@ def judge_start(table, run, frames):
     # U-Boot polls the card until it answers, and QEMU counts that as time of the board.
     print(f"          of which until the kernel's start: {kernel_s:.0f} s")
     table.row("    which says disarmed", str(status[0][1]["state"]) == "disarmed", 1, 1, "")
-    table.row("    nodes heard", len({node for _, node, message, _ in frames if message.name == "Status"}), 2, 2, "")
+    table.row("    nodes on the bus", len({node for _, node, message, _ in frames if message.name == "Status"}), 2, 2, "")
     table.row("units that failed", len(matches(run, r"^failed (.+)")), 0, 0, "")
     table.row("the host's name is the board's", matches(run, r"^host (.*)") == ["rig-no-1"], 1, 1, "")
     table.row("bit rate of can0", int(matches(run, r"^can0 bit_rate (\d+)")[0]), BIT_RATE, BIT_RATE, "")
@@ -62,8 +62,8 @@ def judge_tracking(table, run, frames):
     table.row("tracking a sine of 10 s: the muscle's lowest", min(positions) * 1e3, 7.5, 8.0, "mm")
     table.row("    and highest position", max(positions) * 1e3, 12.0, 12.5, "mm")
     table.row("    power a second after disarm", looks[-1].channels[0].power_W, 0, 0, "W")
-    table.row("faults told on the bus", sum(message.name == "Status" and str(signals["state"]) == "fault"
-                                            for _, _, message, signals in frames), 0, 0, "")
+    table.row("faults reported on the bus", sum(message.name == "Status" and str(signals["state"]) == "fault"
+                                                for _, _, message, signals in frames), 0, 0, "")
     table.row("what it learned is kept", len(matches(run, r"^kept learned-1.toml$")), 1, 1, "")
 
 

@@ -79,7 +79,7 @@ def judge(table, run):
     follows(table, run.console)
     table.row("the command to follow ended with", ended["tracked"], 0, 0, "")
     cut(table, run, looks, marks)
-    table.row("    who held it is told so", ended["its command ended with"], 1, 1, "")
+    table.row("    the command that held it fails", ended["its command ended with"], 1, 1, "")
     table.row("    reset of one resets both", console.count("reset both"), 1, 1, "")
     hottest_K = max(c.rise_K for look in looks for c in look.channels)
     table.row("hottest of both, above the air", hottest_K, 10, 100, "K")

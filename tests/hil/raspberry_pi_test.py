@@ -22,8 +22,8 @@ CONVERTERS = ("1-0048", "1-0049", "1-004a", "3-0048", "3-0049")
 
 
 def judge_no_file(table, console):
-    said = console.text
-    table.row("without board.toml: the console says so", "there is no board.toml on the boot partition" in said, 1, 1, "")
+    text = console.text
+    table.row("without board.toml: the console says so", "there is no board.toml on the boot partition" in text, 1, 1, "")
     table.row("    failed is the set-up alone", failed(console) == ["supercoil-set-up.service"], 1, 1, "")
     table.row("    supercoild does not run", console.ask("systemctl is-active supercoild").strip() == "inactive", 1, 1, "")
 
@@ -50,9 +50,9 @@ def judge_wiring(table, console):
               5, 5, "")
     table.row("the PWM, with both outputs", int(console.ask(f"cat /sys/devices/platform/soc/{raspberry_pi.PWM_HERE}/pwm/pwmchip*/npwm")), 2, 2, "")
     devices = console.ask("for d in /sys/bus/i2c/devices/*; do echo ${d##*/} $(cat $d/name); done")
-    table.row("converters told to the kernel, at their addresses", sum(f"{name} ads1115" in devices for name in CONVERTERS), 5, 5, "")
+    table.row("converters known to the kernel, at their addresses", sum(f"{name} ads1115" in devices for name in CONVERTERS), 5, 5, "")
     table.row("    on buses with their numbers", sum(int(console.ask(f"ls -d /sys/bus/i2c/devices/i2c-{bus} | wc -l")) for bus in (1, 3)), 2, 2, "")
-    table.row("the CAN controller, told to the kernel",
+    table.row("the CAN controller, known to the kernel",
               console.ask("cat /sys/bus/spi/devices/spi*/modalias").strip() == "spi:mcp2515", 1, 1, "")
     table.row("its crystal, which config.txt may change", hertz(console), 16e6, 16e6, "Hz")
 

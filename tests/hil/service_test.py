@@ -42,7 +42,7 @@ def judge(table, run):
     console = run.console
     marks, _ = witness.marks_and_reads(console)
     table.row("the script ended with", run.status, 0, 0, "")
-    table.row("Type=notify, and it told that it was ready", match_of(console, r"^service Type (\w+)") == "notify", 1, 1, "")
+    table.row("Type=notify, and it reported that it was ready", match_of(console, r"^service Type (\w+)") == "notify", 1, 1, "")
     user = int(match_of(console, r"^service user (\d+)"))
     table.row("runs as the user supercoil", int(match_of(console, r"^service uid (\d+)")), max(1, user), user, "")
     table.row("capabilities", int(match_of(console, r"^service capabilities (\w+)"), 16), 0, 0, "")

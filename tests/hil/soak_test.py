@@ -41,7 +41,7 @@ def judge(table, run, seconds):
     statuses = re.findall(r"^ended (?:identify|sine) \d: (\d+)$", console, re.M)
     table.row("commands that ended with 0: two to identify, two of each cycle", statuses.count("0"), 2 + 2 * len(sizes), len(statuses), "")
     faults = re.findall(r"^after (\d) (\w+) \w+ (\w+)", console, re.M)
-    table.row("cycles whose injected fault was told of channel 1 alone",
+    table.row("cycles whose injected fault was reported by channel 1 alone",
               sum(pair == (("1", "fault", "sensor_out_of_range"), ("2", "armed", "none")) for pair in zip(faults[::2], faults[1::2])),
               len(sizes), len(sizes), "")
     begin, end = witness.at(looks, marks["begin"]), witness.at(looks, marks["ended"])

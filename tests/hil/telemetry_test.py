@@ -65,7 +65,7 @@ def judge(table, run, dbc, log):
     table.row("the script ended with", run.status, 0, 0, "")
     frames = list(decoded(dbc, log))
     nodes = {node for _, node, message, _ in frames if message.name == "Status"}
-    table.row("nodes heard", len(nodes), 2, 2, "")
+    table.row("nodes on the bus", len(nodes), 2, 2, "")
     table.row("    the first of them", min(nodes), FIRST_NODE, FIRST_NODE, "")
     seconds = marks["disarm"] - marks["heated"]
     times = [time for time, node, message, _ in frames if node == FIRST_NODE]
@@ -78,7 +78,7 @@ def judge(table, run, dbc, log):
         expected = seconds * min(1000.0 / message.cycle_time, 1000.0 / TICK_MS)
         table.row(f"{message.name}: frames in {seconds:.1f} s", count, 0.9 * expected - 1, 1.02 * expected + 1, "")
     powers = [signals["applied_W"] for _, node, message, signals in frames if message.name == "Power" and node == FIRST_NODE]
-    table.row("most power that the bus was told", max(p for p in powers if not isinstance(p, str)), 1.9, 2.1, "W")
+    table.row("most power reported on the bus", max(p for p in powers if not isinstance(p, str)), 1.9, 2.1, "W")
 
     answers = [signals for _, _, message, signals in frames
                if message.name == "Acknowledge" and str(signals["opcode"]) == "disarm"]
@@ -88,11 +88,11 @@ def judge(table, run, dbc, log):
     table.row("    power is off after", (off.time_s - marks["disarm"]) * 1e3, -MARK_MS, 3 * TICK_MS + ROUND_MS + MARK_MS + STEP_MS + 50, "ms")
     table.row("link down: the fault is bus_off", bool(re.search(r"^state 1 fault \w+ bus_off", run.console, re.M)), 1, 1, "")
     back = [signals for time, node, message, signals in frames if message.name == "Status" and node == FIRST_NODE]
-    table.row("link up again: heard, disarmed", str(back[-1]["state"]) == "disarmed", 1, 1, "")
+    table.row("link up again: it reports disarmed", str(back[-1]["state"]) == "disarmed", 1, 1, "")
     gap = max(b - a for a, b in zip(times, times[1:]))
     table.row("    after a silence of", gap, 0.3, 30, "s")
     dropped = [signals["dropped_frames"] for _, _, message, signals in frames if message.name == "Timing"]
-    table.row("    frames that were dropped meanwhile, as it tells", dropped[-1], 1, 4095, "")
+    table.row("    frames dropped meanwhile, as it reports", dropped[-1], 1, 4095, "")
     for command, status in (("arm", 0), ("power", 0), ("fly", 2)):
         table.row(f"supercoil command on can1: {command} ended with", int(re.search(rf"^over can1: {command} (\d+)", run.console, re.M)[1]),
                   status, status, "")
@@ -104,7 +104,7 @@ def judge(table, run, dbc, log):
     table.row("    the other end sees it armed", bool(re.search(r"^seen node 5: armed", run.console, re.M)), 1, 1, "")
     judge_crowded(table, run, marks, frames)
     judge_muscle(table, frames, quantities(dbc) + 1)
-    table.row("wire open: arm tells the fault and its page",
+    table.row("wire open: arm reports the fault and its page",
               "wire open: supercoil: 5 arm: fault heater_open; see faults/heater_open in `supercoil docs`" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
@@ -121,7 +121,7 @@ def judge_crowded(table, run, marks, frames):
         edges = witness.at(looks, marks[end]).edges - witness.at(looks, marks[begin]).edges
         table.row(f"    ticks left out {what}", (marks[end] - marks[begin]) * 1e3 / TICK_MS - edges, -3, 3, "")
     dropped = [signals["dropped_frames"] for _, _, message, signals in frames if message.name == "Timing"]
-    table.row("    frames that gave way, as it tells", max(b - a for a, b in zip(dropped, dropped[10:])), 100, 4095, "")
+    table.row("    frames displaced by newer ones, as it reports", max(b - a for a, b in zip(dropped, dropped[10:])), 100, 4095, "")
     off = witness.first(looks, marks["vanished"], lambda look: look.channels[0].power_W == 0)
     table.row("interface vanished: power is off after", (off.time_s - marks["vanished"]) * 1e3, 0, 1000, "ms")
     table.row("    the fault is bus_off", bool(re.search(r"^gone 1 fault \w+ bus_off", run.console, re.M)), 1, 1, "")

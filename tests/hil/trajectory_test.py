@@ -118,7 +118,7 @@ def judge(table, run, share):
         again = [look for look in looks if off.time_s < look.time_s < marks["after"] and look.channels[0].power_W > 0.01]
         table.row("    it was heated again, looks", len(again), 0, 0, "")
     for node in (5, 9):
-        table.row(f"node {node} tells command_timeout", len(re.findall(rf"^seen {node} .*command_timeout", console, re.M)), 1, 1, "")
+        table.row(f"node {node} reports command_timeout", len(re.findall(rf"^seen {node} .*command_timeout", console, re.M)), 1, 1, "")
     table.row("by its own socket play ended with", ended["local"], 0, 0, "")
     moved = [look.channels[0].position_m for look in first if marks["alone"] <= look.time_s <= marks["alone_played"]]
     table.row("    the muscle came to", 1e3 * max(moved), 7.3, 7.6, "mm")

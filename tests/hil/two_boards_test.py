@@ -25,7 +25,7 @@ def judge(table, run, share):
     two_boards.judge_begin(table, run, ended)
     frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
     nodes = {node for _, node, message, _ in frames if message.name == "Status"}
-    table.row("nodes heard: 5, 6 of one board, 9 of the other", nodes == {5, 6, 9}, 1, 1, "")
+    table.row("nodes on the bus: 5, 6 of one board, 9 of the other", nodes == {5, 6, 9}, 1, 1, "")
     first, second = two_boards.looks(run, share)
     low, high = steady_mm(first, marks["held"] - 2, marks["held"])
     table.row("both hold: the first at least at", low, 4.9, 5.1, "mm")
@@ -35,7 +35,7 @@ def judge(table, run, share):
     table.row("    at most", high, 7.9, 8.1, "mm")
     off = witness.first(second, marks["held"], lambda look: look.channels[0].power_W == 0)
     table.row("the second is killed: its power is off after", (off.time_s - marks["held"]) * 1e3, 0, PROTECTED_MS + 100, "ms")
-    table.row("    who held it is told so", ended["held 9"], 1, 1, "")
+    table.row("    the command that held it fails", ended["held 9"], 1, 1, "")
     table.row("    and a command to it is not answered", ended["arm dead 9"], 1, 1, "")
     low, high = steady_mm(first, marks["killed"], marks["alone"])
     table.row("    the first goes on, at least at", low, 4.9, 5.1, "mm")
@@ -45,7 +45,7 @@ def judge(table, run, share):
     table.row("    and is disarmed when it comes back", console.count("seen 9 disarmed"), 2, 2, "")
     table.row("the first was held to the end", ended["held 5"], 0, 0, "")
     faults = [node for _, node, message, signals in frames if message.name == "Status" and str(signals["state"]) == "fault"]
-    table.row("faults told by anybody", len(faults), 0, 0, "")
+    table.row("faults reported by any node", len(faults), 0, 0, "")
     two_boards.judge_end(table, console, ended)
 
 

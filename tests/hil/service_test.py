@@ -15,6 +15,7 @@ from table import Table
 
 DECAY_MS = 150.0
 MARK_MS = 10.0
+SIGTERM_MS = 70.0  # five ticks, and 20 ms for the signal
 STEP_MS = 2.0
 WATCHDOG_S = 2.0
 RESTART_S = 1.0
@@ -35,7 +36,7 @@ def cold_after(table, run, mark, what, max_ms, zeroed_s, since_edge=False):
     table.row(f"    off {'after the last edge' if since_edge else 'after'}", None if off is None else (off.time_s - since_s) * 1e3, -MARK_MS,
               max_ms + STEP_MS, "ms")
     zeroed = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].duty == 0)
-    table.row("    the duty of the kernel's PWM is 0 after", None if zeroed is None else zeroed.time_s - marks[mark], 0, zeroed_s, "s")
+    table.row("    the duty of the kernel's PWM is 0 after", None if zeroed is None else zeroed.time_s - marks[mark], -MARK_MS / 1e3, zeroed_s, "s")
 
 
 def judge(table, run):
@@ -56,10 +57,10 @@ def judge(table, run):
     cold_after(table, run, "stopped", "SIGSTOP", DECAY_MS, WATCHDOG_S + HOOK_S, since_edge=True)
     table.row("    systemd's watchdog and a start later disarmed, after", marks["stopped_again"] - marks["stopped"],
               WATCHDOG_S / 2 + RESTART_S, WATCHDOG_S + RESTART_S + 16, "s")
-    # systemctl itself takes its time to begin.
-    cold_after(table, run, "stop", "systemctl stop", 1500, 2)
+    cold_after(table, run, "sigterm", "systemctl stop, systemd's SIGTERM", SIGTERM_MS, 0.5)
     table.row("    ended by itself, after", marks["stop_ended"] - marks["stop"], 0, 7, "s")
     table.row("    and well", match_of(console, r"^stopped (\w+ \w+)") == "success inactive", 1, 1, "")
+    table.row("steps of systemd that timed out", len(re.findall(r"^timed_out ", console, re.M)), 0, 0, "")
     table.row("a wrong configuration: status 2, not tried again", match_of(console, r"^wrong (\w+ \d+ \d+)") == "failed 2 0", 1, 1, "")
     table.row("    and the journal names the key", bool(re.search(r"board\.toml:\d+.*rate_Hz", console)), 1, 1, "")
 

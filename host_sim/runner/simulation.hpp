@@ -75,12 +75,15 @@ inline double hottest_rise_K(const TickRecord& record) {
   return std::fmax(record.temperature_rise_K, record.antagonist->temperature_rise_K);
 }
 
-/// The last fraction of a kelvin is not judged: free convection dies away with the rise, so that a
-/// muscle which is all but cold may cool slower than the bounds of its heat transfer say.
+inline constexpr double temperature_rounding_K = 1e-9;
+/// Below it the hot end is not judged: free convection dies away with the rise, so that a muscle
+/// which is all but cold may cool slower than the bounds of its heat transfer say.
 inline constexpr double negligible_rise_K = 0.01;
 /// Whether a temperature is not within the firmware's bounds for it.
 constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {
-  return !(rise_K >= coldest_K - negligible_rise_K && rise_K <= hottest_K + negligible_rise_K);
+  const double max_K = hottest_K < negligible_rise_K ? negligible_rise_K : hottest_K;
+  return !(rise_K >= coldest_K - temperature_rounding_K &&
+           rise_K <= max_K + temperature_rounding_K);
 }
 
 /// Wait after boot, and again after a delayed arming: the heater's probe moves the muscle by some

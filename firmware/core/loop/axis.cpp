@@ -103,9 +103,11 @@ double Axis::from_position_K() const {
   const auto rise_K = [&](double other_m) {
     return (inputs_.position.value + other_m) / heater_.heat().metres_per_K();
   };
+  // Expected motions are 0 or more.
   const auto [min_m, max_m] = std::ranges::minmax(other_.expected_m);
   const double ratio = settings_.supervision.responding_ratio;
-  return std::clamp(heater_.from_resistance_K(), rise_K(ratio * min_m), rise_K(max_m / ratio));
+  const double min_K = rise_K(ratio * min_m);
+  return std::clamp(heater_.from_resistance_K(), min_K, std::max(min_K, rise_K(max_m / ratio)));
 }
 
 control::PowerRange Axis::own_range() const {

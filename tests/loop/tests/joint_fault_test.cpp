@@ -156,8 +156,6 @@ TEST(JointFault, IdentifyRestartsBothMusclesWindows) {
   }
 }
 
-/// A load that comes at once is not a loose muscle, whether the muscle can hold it or is drawn out
-/// at the most power that it may have.
 /// A millimetre is 30 K of the weak one.
 TEST(JointFault, AWrongBeliefOfAStrongMuscleIsNoDisagreementOfAWeakOne) {
   RigSettings settings = joint_board();
@@ -175,6 +173,8 @@ TEST(JointFault, AWrongBeliefOfAStrongMuscleIsNoDisagreementOfAWeakOne) {
   CHECK_FALSE(uneven.run_until(faults, 15.0));
 }
 
+/// A load that comes at once is not a loose muscle, whether the muscle can hold it or is drawn out
+/// at the most power that it may have.
 TEST(JointFault, AMovingLoadIsNotALooseMuscle) {
   double limited_s = 0.0;
   for (const double load_Nm : {-0.0008, 0.0008, -0.004, 0.004}) {

@@ -39,9 +39,10 @@ TEST_GROUP(Simulation){};
 
 TEST(Simulation, DoesNotJudgeTheBoundsOfAMuscleThatIsAllButCold) {
   CHECK_FALSE(is_outside(4e-4, 0.0, 3e-4));
-  CHECK_FALSE(is_outside(0.0, 0.009, 1.0));
-  CHECK(is_outside(1.02, 0.0, 1.0));
-  CHECK(is_outside(0.98, 1.0, 2.0));
+  CHECK(is_outside(0.011, 0.0, 3e-4));
+  CHECK(is_outside(0.0, 1e-4, 1.0));
+  CHECK(is_outside(1.001, 0.0, 1.0));
+  CHECK(is_outside(0.0, 0.0, NAN));
   CHECK(is_outside(NAN, 0.0, 1.0));
 }
 

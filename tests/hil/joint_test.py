@@ -41,7 +41,7 @@ def holds(table, looks, marks, ended):
     table.row("both pull twice as much: moved from 10 deg by at most", max(abs(angle - 10.0) for angle in found), 0, 0.1, "deg")
     before, after = (witness.at(looks, marks[name] - 0.1).channels for name in ("held", "pulled"))
     table.row("    the command to pull ended with", ended["pulled"], 0, 0, "")
-    table.row("    power of both, over that before", sum(c.power_W for c in after) / sum(c.power_W for c in before), 1.5, 2.5, "")
+    table.row("    power of both, over that before", sum(c.power_W for c in after) / sum(c.power_W for c in before), 1.8, 2.2, "")
 
 
 def follows(table, console):

@@ -1,5 +1,5 @@
-// The keys that a file may have, as its readers ask for them: for --keys, and for the tables in
-// docs/.
+// The keys that a file may have, as its readers ask for them: for the option keys, and for the
+// tables in docs/.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,7 @@ struct Range {
 using KeyValue =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
 
+/// One key of a file, and what it may be.
 struct Key {
   std::string name{};            ///< with its table: channel[1].limits.max_W
   std::string_view type{};       ///< number, integer, numbers (a list), flag or text

@@ -64,6 +64,7 @@ class Section {
 
   /// For keys that may be absent and have no default. Empty if the key is absent or wrong.
   std::optional<double> optional_number(std::string_view key, Range range);
+  /// As optional_number(). min and max: inclusive.
   std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t min,
                                                std::int64_t max);
 

@@ -19,6 +19,9 @@ _CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]
 _SIMULATION_EPOCH_S = 1_000_000_000
 _MAX_RUN_S = 365 * 86400
 _NPY = b"\x93NUMPY"
+# From 3.1 on pandas reads every number exactly, and warns of this option; before, it was off by a bit.
+_READS_EXACTLY = tuple(map(int, pandas.__version__.split(".")[:2])) >= (3, 1)
+_EXACT: dict[str, Any] = {} if _READS_EXACTLY else {"float_precision": "round_trip"}
 
 
 def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
@@ -73,7 +76,7 @@ def _time_of_run_s(text: str) -> float:
 
 def _load_csv(file: Path) -> pandas.DataFrame:
     try:
-        table = pandas.read_csv(file, float_precision="round_trip")  # otherwise pandas 2 is off by a bit
+        table = pandas.read_csv(file, **_EXACT)
     except (pandas.errors.EmptyDataError, pandas.errors.ParserError, UnicodeDecodeError) as error:
         raise ValueError(f"{file}: is not a table: {str(error).strip()}") from error
     if not len(table.columns) or table.columns[0] != "time_s":

@@ -244,7 +244,9 @@ switch this on.
 
 **Detected** when the two temperatures differ by more than 30 K for 2 s (`disagree_K`, `disagree_s`):
 - from resistance: (R / cold R − 1) / coefficient
-- from position: position × stiffness / force per kelvin, that is, as if the muscle were at rest under its usual load
+- from position: position × stiffness / force per kelvin, that is, as if the muscle were at rest under its usual load. In a
+  [joint](../joints.md) the motion by the other muscle's heat is subtracted, from `responding_ratio` times to 1/`responding_ratio` times what its models
+  expect: of these temperatures the one nearest to that from resistance counts
 
 **Reaction:** the channel goes cold.
 
@@ -749,7 +751,8 @@ The muscle has contracted further than allowed.
 
 **Detected** at once, by a single reading: the calibrated position is above 35 mm (`max_travel_m` of the channel), or is NaN. (In a scenario without a board's file that is 0.999 of the position sensor's range: 39.96 mm of 40.)
 Readings outside the sensor's range do not count: they are [sensor_out_of_range](sensor_out_of_range.md). A position command beyond the limit is
-refused (out of range), so it cannot cause this fault.
+refused (out of range). One at the limit is obeyed, but the sensor's noise or a small overshoot then trips this fault: set `max_travel_m` a
+little beyond the farthest set point.
 
 **Reaction:** the channel goes cold.
 

@@ -181,7 +181,7 @@ class SilentBoard(unittest.TestCase):
             self.addCleanup(simulator.process.send_signal, signal.SIGCONT)
             while not (line := monitor.stdout.readline()).startswith("SILENT"):
                 self.assertIsNone(monitor.poll())
-            self.assertRegex(line, r"^SILENT: nothing was heard for \d+ s; older values follow\n$")
+            self.assertRegex(line, r"^SILENT: no frames for \d+ s; older values follow\n$")
 
 
 class Usage(unittest.TestCase):

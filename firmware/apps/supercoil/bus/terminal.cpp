@@ -162,19 +162,18 @@ class Silence {
     const auto now = std::chrono::steady_clock::now();
     if (const std::uint64_t end = frame_history.end(); end != end_) {
       end_ = end;
-      heard_ = now;
+      newest_at_ = now;
     }
-    const auto silent = std::chrono::duration_cast<std::chrono::seconds>(now - heard_);
+    const auto silent = std::chrono::duration_cast<std::chrono::seconds>(now - newest_at_);
     if (end_ == 0 || silent < shown_from) return "";
-    return "SILENT: nothing was heard for " + std::to_string(silent.count()) +
-           " s; older values follow\n";
+    return "SILENT: no frames for " + std::to_string(silent.count()) + " s; older values follow\n";
   }
 
  private:
   static constexpr std::chrono::seconds shown_from{2};
 
   std::uint64_t end_ = 0;
-  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point newest_at_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace supercoil {
 
@@ -13,7 +14,8 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Capability&
   const double margin_W = margin_ratio * capability.range.max_W;
   // Where nothing pulls the muscle below rest, only its power is judged.
   const double reverse_m = capability.max_reverse_travel_m;
-  const double min_m = reverse_m > 0.0 ? lowest_m(reverse_m) : -INFINITY;
+  constexpr double unlimited_m = -std::numeric_limits<double>::infinity();
+  const double min_m = reverse_m > 0.0 ? lowest_m(reverse_m) : unlimited_m;
   control::ModelMotion<double> from = piece.at(piece.begins_s()).motion;
   for (int i = 1; i <= parts; ++i) {
     const control::ModelMotion<double> to = piece.at(piece.begins_s() + i * part_s).motion;

@@ -16,7 +16,7 @@ TEST_GROUP(LockFile) {
   TemporaryFolder folder;
 
   /// The lock is not taken, for this reason, and not because another process holds it.
-  void refused(std::string_view why) {
+  void refused(std::string_view why) const {
     const auto lock = LockFile::take(folder / "lock");
     CHECK_FALSE(lock.has_value());
     STRCMP_EQUAL((folder / "lock" + ": the lock file " + std::string(why)).c_str(),

@@ -123,12 +123,12 @@ the frame is of another version of the protocol"""
 
 
 class Unsuitable(RefusalError):
-    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint, whose scale is in its configuration, and of a bundle's other channels"""
+    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint, whose scale is configured, and for a channel of a bundle that does not lead"""
 
     number = 14
     name = "unsuitable"
     meaning = """\
-to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint, whose scale is in its configuration, and of a bundle's other channels"""
+to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint, whose scale is configured, and for a channel of a bundle that does not lead"""
 
 
 class Infeasible(RefusalError):

@@ -48,8 +48,11 @@ std::string allowed_text(const Key& key) {
   for (const std::string& name : key.names)
     names += (names.empty() ? "" : ", ") + name;
   if (!key.range) return names;
-  std::string range =
-      number_text(key.range->min, key_digits) + " to " + number_text(key.range->max, key_digits);
+  const auto shown = [&key](double limit) {
+    return key.type == "integer" ? std::to_string(static_cast<std::int64_t>(limit))
+                                 : number_text(limit, key_digits);
+  };
+  std::string range = shown(key.range->min) + " to " + shown(key.range->max);
   if (key.type != "numbers") return range;
   const std::string least = std::to_string(key.min_count);
   const bool fixed = key.min_count == key.max_count;

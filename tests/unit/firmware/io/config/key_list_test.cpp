@@ -77,6 +77,11 @@ TEST(KeyList, ChoiceHasItsNames) {
                line_of(small_board, "channel[1].limits.preset").c_str());
 }
 
+TEST(KeyList, IntegerHasAllItsDigits) {
+  STRCMP_EQUAL("0 to 2147483647",
+               allowed_text({.type = "integer", .range = Range{0.0, 2147483647.0}}).c_str());
+}
+
 TEST(KeyList, ListHasItsCount) {
   STRCMP_EQUAL(
       "channel[1].controller.initial [0, 0, 0, 0, 0, 1] [0, 0, 0, 0, 0, 0.3] 43 6 numbers, each "

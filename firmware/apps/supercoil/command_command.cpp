@@ -16,7 +16,6 @@
 #include "apps/supercoil/typed_command.hpp"
 #include "apps/supercoil/value_range.hpp"
 #include "text/command_text.hpp"
-#include "text/documentation.hpp"
 #include "text/refusal_words.hpp"
 #include "text/result_words.hpp"
 
@@ -134,9 +133,7 @@ int report_ending(BoardLink& board, const CommandOptions& options, const Channel
     std::printf("%s\n", json.dump().c_str());
   }
   const std::string all = line + " ended: " + result_text(result, notes, cause);
-  const std::string remedy = result == "interrupted"
-                                 ? ""
-                                 : "; for what to do see " + documentation_page("troubleshooting");
+  const std::string remedy = result == "interrupted" ? "" : result_remedy();
   if (result != "found") return fail(exit_failed, all + remedy);
   if (!notes.empty() && !options.json) std::printf("%s\n", all.c_str());
   return exit_done;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "text/documentation.hpp"
+
 namespace supercoil {
 
 const std::array<std::string_view, mode_result_names.size()> result_words{
@@ -59,6 +61,10 @@ std::string result_text(std::string_view result, std::string_view notes, std::st
 std::string result_text(ModeResult result, std::uint8_t notes) {
   return result_text(mode_result_names.at(static_cast<std::size_t>(result)),
                      describe_notes(notes, ","));
+}
+
+std::string result_remedy() {
+  return "; for what to do see " + documentation_page("troubleshooting");
 }
 
 }  // namespace supercoil

@@ -23,5 +23,7 @@ std::string result_text(std::string_view result, std::string_view notes,
                         std::string_view cause = "");
 /// The same for a result and notes as the board's rows carry them.
 std::string result_text(ModeResult result, std::uint8_t notes);
+/// After a bad end: "; for what to do see ...".
+std::string result_remedy();
 
 }  // namespace supercoil

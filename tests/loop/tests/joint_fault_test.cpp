@@ -162,7 +162,7 @@ TEST(JointFault, AWrongBeliefOfAStrongMuscleIsNoDisagreementOfAWeakOne) {
   constexpr double weak = 0.1;
   settings.board.channels[antagonist].plant.force_per_kelvin_N_per_K *= weak;
   settings.firmware.channels[antagonist].muscle.force_per_kelvin_N_per_K *= weak;
-  settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 0.6;
+  settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 0.35;
   Rig uneven(settings);
   begin(uneven);
   const auto faults = [&] {

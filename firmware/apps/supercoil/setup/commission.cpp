@@ -20,7 +20,6 @@
 #include "modes/calibrate.hpp"
 #include "modes/identify.hpp"
 #include "text/command_text.hpp"
-#include "text/documentation.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
 #include "text/result_words.hpp"
@@ -95,9 +94,8 @@ Commission::Done Commission::require_found(const std::string& mode, const Result
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
   const std::string fault = present_fault(board_, channel_);
-  return failure(
-      mode + " ended: " + result_text(*result, "", fault) +
-      (fault.empty() ? "; for what to do see " + documentation_page("troubleshooting") : ""));
+  return failure(mode + " ended: " + result_text(*result, "", fault) +
+                 (fault.empty() ? result_remedy() : ""));
 }
 
 Commission::Done Commission::reset_faults() {

@@ -22,40 +22,22 @@ constexpr config::Range any{-1e300, 1e300};
 /// Characters that would break a line of runs.csv.
 constexpr std::string_view separators = ",\"\n\r|";
 
-/// One name that is not empty, or a list of such names.
-std::vector<std::string> texts(Section& section, const std::string& key) {
-  section.allow({key});
-  std::vector<std::string> found;
-  if (!section.has(key)) return found;
-  const toml::node& node = *section.table()->get(key);
-  const auto add = [&](const toml::node& one) {
-    const auto text = one.value_exact<std::string>();
-    if (!text || text->empty()) return section.wrong(key, "must be a name or a list of names");
-    found.push_back(*text);
-  };
-  if (const toml::array* list = node.as_array()) {
-    for (const toml::node& one : *list)
-      add(one);
-  } else {
-    add(node);
-  }
-  return found;
-}
-
 /// "[a, b]", the second above the first.
 void read_ends(Section& section, const std::string& key, double lowest, Distribution& into) {
-  const auto ends = section.numbers(key, {1.0, 2.0}, {lowest, any.max}, 2, 2);
+  const auto ends = section.required_numbers(key, {lowest, any.max}, 2, 2);
+  if (ends.empty()) return;
   into.first = ends[0];
   into.second = ends[1];
   if (!(ends[0] < ends[1])) section.wrong(key, "the second value must be greater than the first");
 }
 
 void read_normal(Section& section, Distribution& into) {
-  const auto given = section.numbers("normal", {0.0, 1.0}, any, 2, 2);
+  const auto given = section.required_numbers("normal", any, 2, 2);
+  into.min = section.number("min", into.min, any);
+  into.max = section.number("max", into.max, any);
+  if (given.empty()) return;
   into.first = given[0];
   into.second = given[1];
-  into.min = section.number("min", into.min, {into.min, any.max});
-  into.max = section.number("max", into.max, {any.min, into.max});
   if (!(into.second > 0.0)) section.wrong("normal", "the standard deviation must be above 0");
   if (!(into.min < into.max)) return section.wrong("min", "must be below max");
   constexpr double low = 0.25;
@@ -65,19 +47,15 @@ void read_normal(Section& section, Distribution& into) {
 }
 
 toml::array read_list(Section& section, Distribution& into) {
-  section.allow({"list"});
-  const toml::array* list = section.table()->get_as<toml::array>("list");
-  const auto is_value = [](const toml::node& one) {
-    if (const auto text = one.value_exact<std::string>())
-      return text->find_first_of(separators) == std::string::npos;
-    return one.is_number() || one.is_boolean();
+  toml::array list = section.required_values("list");
+  const auto breaks_line = [](const toml::node& one) {
+    const auto text = one.value_exact<std::string>();
+    return text && text->find_first_of(separators) != std::string::npos;
   };
-  if (list == nullptr || list->empty() || !std::all_of(list->begin(), list->end(), is_value)) {
-    section.wrong("list", "must be a list of numbers, true, false, or texts without a comma");
-    return {};
-  }
-  into.values = list->size();
-  return *list;
+  if (std::any_of(list.begin(), list.end(), breaks_line))
+    section.wrong("list", "must not contain a text with a comma, quote, bar or line break");
+  into.values = list.size();
+  return list;
 }
 
 /// Exactly one of the keys that name a distribution must be there.
@@ -114,15 +92,15 @@ void read_distribution(Section& section, Draw& draw) {
 
 Draw read_draw(Section section) {
   Draw draw;
-  draw.keys = texts(section, "keys");
+  draw.keys = section.texts("keys");
   draw.name = section.text("name", draw.keys.empty() ? "" : draw.keys.front());
   if (draw.name.empty())
     section.wrong("keys", "is missing, and so is name: give at least one of them");
   if (draw.name.find_first_of(separators) != std::string::npos)
     section.wrong("name", "must not contain a comma, quote, bar or line break");
   read_distribution(section, draw);
-  draw.times = texts(section, "times");
-  draw.over = texts(section, "over");
+  draw.times = section.texts("times");
+  draw.over = section.texts("over");
   if (draw.distribution.kind == Distribution::Kind::list &&
       !(draw.times.empty() && draw.over.empty()))
     section.wrong("list", "is used as it is: it cannot be combined with times or over");
@@ -150,15 +128,15 @@ std::vector<Draw> read_draws(Section& top) {
 }
 
 std::vector<Goal> read_goals(Section section) {
+  const std::size_t faults = *find_quantity("faults");
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < quantity_count; ++i) {
     const std::string_view name = quantity(i).name;
-    const double max = section.number(name, 0.0, any);
-    if (section.has(name)) goals.push_back({i, max});
+    const auto max =
+        i == faults ? section.number(name, 0.0, any) : section.optional_number(name, any);
+    if (max && section.has(name)) goals.push_back({i, *max});
   }
-  const std::size_t faults = *find_quantity("faults");
-  const bool own = std::ranges::any_of(goals, [&](const Goal& g) { return g.quantity == faults; });
-  if (!own) goals.push_back({faults, 0.0});
+  if (!section.has("faults")) goals.push_back({faults, 0.0});
   section.finish();
   return goals;
 }
@@ -192,7 +170,7 @@ toml::table read_base(Section& study, const std::string& name, const std::filesy
 
 std::vector<compare::Document> read_contenders(Section& study,
                                                const std::filesystem::path& beside) {
-  std::vector<std::string> names = texts(study, "controllers");
+  std::vector<std::string> names = study.texts("controllers");
   if (names.empty()) return {{"scenario", ""}};
   for (std::string& name : names) {
     if (name.find_first_of("./") != std::string::npos) name = (beside / name).string();
@@ -248,8 +226,9 @@ void keep_what_makes_a_run(toml::table& document) {
 
 }  // namespace
 
-tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs) {
-  Diagnostics diagnostics(path);
+tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs,
+                                       config::KeyList* keys) {
+  Diagnostics diagnostics(path, keys);
   const auto& builtin = builtin_studies();
   const auto found = std::ranges::find(builtin, path, &BuiltinScenario::name);
   const std::string text =

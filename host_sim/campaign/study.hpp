@@ -58,7 +58,9 @@ struct Study {
 const std::vector<BuiltinScenario>& builtin_studies();
 
 /// path: a .toml file, or the name of a built-in study. runs: replaces the study's; 0: keeps it.
-/// The error is everything that is wrong with the study.
-tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs = 0);
+/// The error is everything that is wrong with the study. keys: gets all keys of the study, without
+/// those of its scenario, if not null.
+tl::expected<Study, Errors> read_study(const std::string& path, std::int64_t runs = 0,
+                                       config::KeyList* keys = nullptr);
 
 }  // namespace supercoil::host_sim::campaign

@@ -114,7 +114,8 @@ int campaign_command(const CampaignOptions& given) {
     return refuse(given.json, exit_wrong_input,
                   "campaign: no study given: name a TOML file or a study from --list");
   }
-  auto study = campaign::read_study(given.study, given.runs);
+  config::KeyList keys;
+  auto study = campaign::read_study(given.study, given.runs, given.keys ? &keys : nullptr);
   if (!study) return refuse_problems(given.json, study.error());
   CampaignOptions options = given;
   if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
@@ -135,6 +136,8 @@ int campaign_command(const CampaignOptions& given) {
     return refuse(options.json, exit_wrong_input,
                   given.study + ": has no [[draw]]: nothing to search over");
   }
+  if (options.keys) return print_keys(keys, options.json);
+  if (options.check) return print_study(*study, options);
   if (options.search > 0) return search_campaign(*study, draws, options);
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 

@@ -1,9 +1,11 @@
 #include "cli/campaign_results.hpp"
 
+#include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
 
+#include "apps/common/keys_json.hpp"
 #include "batch/kept_lines.hpp"
 #include "campaign/tables.hpp"
 #include "cli/kept_runs.hpp"
@@ -70,6 +72,35 @@ int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
   auto folder = OutputFolder::open(options.out);
   if (!folder) return refuse(options.json, exit_wrong_input, folder.error().text());
   return conclude_campaign(study, draws, outcomes, *folder, options);
+}
+
+int print_keys(const config::KeyList& keys, bool json) {
+  if (json) {
+    std::puts(keys_json(keys).dump(2).c_str());
+  } else {
+    std::fputs(config::to_text(keys).c_str(), stdout);
+  }
+  return exit_done;
+}
+
+int print_study(const campaign::Study& study, const CampaignOptions& options) {
+  if (!options.json) {
+    std::printf("%s: in order, %" PRId64 " runs, controllers: %zu, draws: %zu\n",
+                options.study.c_str(), study.runs, study.contenders.size(), study.draws.size());
+    return exit_done;
+  }
+  nlohmann::ordered_json controllers = nlohmann::ordered_json::array();
+  for (const compare::Document& one : study.contenders)
+    controllers.push_back(one.name);
+  nlohmann::ordered_json draws = nlohmann::ordered_json::array();
+  for (const campaign::Draw& one : study.draws)
+    draws.push_back(one.name);
+  nlohmann::ordered_json goals = nlohmann::ordered_json::object();
+  for (const campaign::Goal& one : study.goals)
+    goals[std::string(campaign::quantity(one.quantity).name)] = one.max;
+  print_results(
+      {{"runs", study.runs}, {"controllers", controllers}, {"draws", draws}, {"goals", goals}});
+  return exit_done;
 }
 
 int list_studies(bool json) {

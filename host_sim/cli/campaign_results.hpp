@@ -30,6 +30,10 @@ int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
 std::string replay(const campaign::Study& study, const campaign::Draws& draws,
                    const std::vector<double>& drawn, const campaign::Key& key);
 
+/// What --check prints of a study in order, and --keys. Return the program's exit status.
+int print_study(const campaign::Study& study, const CampaignOptions& options);
+int print_keys(const config::KeyList& keys, bool json);
+
 /// Lists the studies and quantities.
 int list_studies(bool json);
 

@@ -92,6 +92,8 @@ struct CampaignOptions {
   int slurm = 0;                   ///< parts of a job array; 0: runs here
   std::int64_t search = 0;         ///< runs per controller to search for the worst; 0: no search
   bool submit = true;              ///< submits the jobs, not only writes them
+  bool check = false;              ///< only reads the study
+  bool keys = false;               ///< and prints its keys
   int jobs = 0;                    ///< 0: as many as there are processors
   bool plot = true;
   bool json = false;

@@ -209,6 +209,14 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
       ->excludes(slurm)
       ->excludes(merge);
   campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
+  CLI::Option* check = campaign->add_flag("--check", options.check, "Only check the study")
+                           ->excludes(slurm)
+                           ->excludes(merge);
+  campaign
+      ->add_flag("--keys", options.keys,
+                 "With --check, print every key that applies to the study instead, with the "
+                 "value in force, its default and what is allowed")
+      ->needs(check);
   add_json(*campaign, options.json)->excludes(slurm);
   campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
   campaign->add_flag("--list", options.list, "List studies and quantities");

@@ -18,10 +18,11 @@ struct ValueText {
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return number_text(value, key_digits); }
   std::string operator()(const std::string& value) const { return '"' + value + '"'; }
-  std::string operator()(const std::vector<double>& values) const {
+  template <class Value>
+  std::string operator()(const std::vector<Value>& values) const {
     std::string list;
-    for (const double value : values)
-      list += (list.empty() ? "" : ", ") + number_text(value, key_digits);
+    for (const Value& value : values)
+      list += (list.empty() ? "" : ", ") + (*this)(value);
     return "[" + list + "]";
   }
 };

@@ -19,13 +19,14 @@ struct Range {
 };
 
 /// monostate: none. Numbers are finite, lists and texts are not empty.
-using KeyValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+using KeyValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                              std::vector<double>, std::vector<std::string>>;
 
 /// One key of a file, and what it may be.
 struct Key {
-  std::string name{};            ///< with its table: channel[1].limits.max_W
-  std::string_view type{};       ///< number, integer, numbers (a list), flag or text
+  std::string name{};  ///< with its table: channel[1].limits.max_W
+  /// number, integer, flag or text; numbers, texts or values: a list, of values also mixed
+  std::string_view type{};
   KeyValue fallback{};           ///< its default
   KeyValue value{};              ///< in force
   std::optional<Range> range{};  ///< of a number, or of each in a list

@@ -57,18 +57,24 @@ KeyValue value_of(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto flag = node.value_exact<bool>()) return *flag;
   if (auto text = node.value_exact<std::string>()) return std::move(*text);
-  std::vector<double> list;
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
   if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array)
-      list.push_back(element.value<double>().value_or(std::numeric_limits<double>::quiet_NaN()));
+    for (const toml::node& element : *array) {
+      const auto text = element.value_exact<std::string>();
+      texts.push_back(text ? *text : shown(element));
+      if (element.is_number()) numbers.push_back(*element.value<double>());
+    }
   }
-  return list;
+  if (numbers.size() < texts.size()) return texts;
+  return numbers;
 }
 
 /// A reader's mark for a key without a default or value.
 bool is_none(const KeyValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return !std::isfinite(*number);
   if (const auto* text = std::get_if<std::string>(&value)) return text->empty();
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return texts->empty();
   const auto* list = std::get_if<std::vector<double>>(&value);
   return list != nullptr && list->empty();
 }
@@ -226,6 +232,26 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
   return values;
 }
 
+std::vector<std::string> Section::texts(std::string_view key) {
+  note(key, {.type = "texts"});
+  const toml::node* node = find(key);
+  std::vector<std::string> found;
+  const auto add = [&](const toml::node& one) {
+    const auto text = one.value_exact<std::string>();
+    if (!text || text->empty()) return wrong(key, "must be a name or a list of names");
+    found.push_back(*text);
+  };
+  if (node == nullptr) return found;
+  if (const toml::array* list = node->as_array()) {
+    for (const toml::node& one : *list)
+      add(one);
+  } else {
+    add(*node);
+  }
+  if (KeyList* keys = diagnostics_->keys()) keys->back().value = found;
+  return found;
+}
+
 std::optional<double> Section::optional_number(std::string_view key, Range range) {
   const double value = number(key, std::numeric_limits<double>::quiet_NaN(), range);
   return std::isnan(value) ? std::nullopt : std::optional(value);
@@ -258,6 +284,22 @@ std::string Section::required_text(std::string_view key) {
     wrong(key, "must not be empty");
   }
   return given;
+}
+
+toml::array Section::required_values(std::string_view key) {
+  note(key, {.type = "values"});
+  const std::string rule = "a list of numbers, texts, true or false";
+  require(key, rule);
+  const toml::node* node = find(key);
+  if (node == nullptr) return {};
+  const auto is_value = [](const toml::node& one) {
+    return one.is_number() || one.is_string() || one.is_boolean();
+  };
+  const toml::array* list = node->as_array();
+  if (list != nullptr && !list->empty() && std::all_of(list->begin(), list->end(), is_value))
+    return *list;
+  wrong(key, "must be " + rule);
+  return {};
 }
 
 }  // namespace supercoil::config

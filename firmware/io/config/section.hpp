@@ -48,6 +48,8 @@ class Section {
   /// Between min_count and max_count numbers, each in range. An empty default is none.
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range range,
                               std::size_t min_count, std::size_t max_count);
+  /// One text that is not empty, or a list of them. Empty if the key is absent or wrong.
+  std::vector<std::string> texts(std::string_view key);
   /// One of a set of names.
   template <class Value, std::size_t N>
   Value choice(std::string_view key, Value fallback, const control::Names<Value, N>& names) {
@@ -78,6 +80,8 @@ class Section {
   std::int64_t required_integer(std::string_view key, std::int64_t min, std::int64_t max);
   /// As text(), but an empty string is a mistake.
   std::string required_text(std::string_view key);
+  /// A list of numbers, texts, true and false. Empty if the key is absent or wrong.
+  toml::array required_values(std::string_view key);
 
   /// Keys that are read elsewhere.
   void allow(std::initializer_list<std::string_view> keys) {

@@ -59,6 +59,8 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l slurm -x 
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-submit -d 'Write the scripts without submitting them'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l search -x -d 'Search instead for each controller'\''s worst run, in at most this many runs'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-plot -d 'Write no campaign.svg'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l check -d 'Only check the study'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l keys -d 'With --check, print every key that applies to the study instead, with the value in force, its default and what is allowed'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l json -d 'Print JSON instead of text'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l quiet -d 'Print nothing but errors'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l list -d 'List studies and quantities'

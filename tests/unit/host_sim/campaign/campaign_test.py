@@ -235,6 +235,25 @@ class Campaign(Batch, ProgramCase):
         self.assertIn("did you mean stiffness_N_per_m?", output)
         self.assertFalse((self.path / "none").exists())
 
+    def test_check_runs_nothing_and_prints_the_keys(self):
+        self.assertEqual(self.campaign("--check").stdout, "brief.toml: in order, 24 runs, controllers: 2, draws: 3\n")
+        checked = json.loads(self.campaign("--check", "--json").stdout)
+        self.assertEqual((checked["runs"], checked["controllers"], checked["draws"], checked["goals"]),
+                         (24, ["pi", "pd_ff"], ["plant.stiffness_N_per_m", "reference.offset_m", "noise"],
+                          {"tracking_rms_m": 1e-3, "faults": 0}))
+        text = self.campaign("--check", "--keys").stdout
+        self.assertRegex(text, r'\nstudy\.controllers +\["pi", "pd_ff"\] +none +5\n')
+        keys = {key["key"]: key for key in json.loads(self.campaign("--check", "--keys", "--json").stdout)["keys"]}
+        self.assertEqual([keys["study.runs"][name] for name in ("value", "default", "line", "min", "max")],
+                         [24, 1000, 3, 1, 1000000])
+        self.assertEqual((keys["study.window_s"]["default"], keys["study.window_s"]["max"]), ([1.5, 3], 3))
+        self.assertEqual((keys["draw[1].keys"]["type"], keys["draw[1].keys"]["value"]),
+                         ("texts", ["plant.stiffness_N_per_m"]))
+        self.assertEqual((keys["draw[3].list"]["type"], keys["draw[3].list"]["value"]), ("values", [1e-6, 1e-5]))
+        self.assertTrue(keys["draw[2].uniform"]["required"])
+        self.assertEqual([keys[f"goals.{name}"]["default"] for name in ("faults", "tracking_rms_m")], [0, None])
+        self.assertFalse((self.path / "supercoil-out").exists())
+
     def test_a_scenarios_file_is_named_where_it_is_wrong(self):
         (self.path / "base.toml").write_text("[plant]\nstiffness_N_per_m = = 3\n")
         (self.path / "brief.toml").write_text(STUDY.replace('"pwm"', '"base.toml"'))

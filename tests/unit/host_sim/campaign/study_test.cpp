@@ -95,8 +95,12 @@ TEST(Study, ErrorsNameTheProblemOfADraw) {
   check_problem("the standard deviation must be above 0", draw("normal = [1.0, 0.0]"));
   check_problem("min = 50: almost none of the distribution lies between min and max",
                 draw("normal = [0.0, 1.0]\nmin = 50.0\nmax = 51.0"));
-  check_problem("must be a list of numbers, true, false, or texts without a comma",
-                draw("list = ['a,b']"));
+  check_problem("list = ['a,b']: must not contain a text with a comma", draw("list = ['a,b']"));
+  check_problem("list = []: must be a list of numbers, texts, true or false", draw("list = []"));
+  check_problem("list = [[1]]: must be a list of numbers, texts, true or false",
+                draw("list = [[1.0]]"));
+  check_problem("uniform = 5: must be a list of 2 numbers", draw("uniform = 5"));
+  check_problem("normal = 5: must be a list of 2 numbers", draw("normal = 5"));
   check_problem("it cannot be combined with times or over", draw("list = [1.0]\ntimes = 'x'"));
   check_problem("needs group: the draws to correlate with",
                 draw("uniform = [1.0, 2.0]\ncorrelation = 0.5"));

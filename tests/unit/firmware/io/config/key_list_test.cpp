@@ -91,6 +91,25 @@ TEST(KeyList, ListHasItsCount) {
           .c_str());
 }
 
+TEST(KeyList, ListOfTextsOrOfMixedValuesIsShownAsWritten) {
+  const toml::table given = toml::parse("a = 'x'\nb = ['x', 2, true]\nc = [1, 0.5]");
+  KeyList keys;
+  Diagnostics diagnostics("b.toml", &keys);
+  Section section(&given, "", diagnostics);
+  CHECK(section.texts("a") == std::vector<std::string>{"x"});
+  CHECK(section.texts("absent").empty());
+  CHECK_EQUAL(std::size_t{3}, section.required_values("b").size());
+  section.required_values("c");
+  CHECK(diagnostics.empty());
+  STRCMP_EQUAL(
+      "key     value               default   line  allowed\n"
+      "a       [\"x\"]               none      1\n"
+      "absent  none                none\n"
+      "b       [\"x\", \"2\", \"true\"]  required  2\n"
+      "c       [1, 0.5]            required  3\n",
+      to_text(keys).c_str());
+}
+
 TEST(KeyList, KeyOfEveryChannelHasItsLineThere) {
   const std::string common =
       replaced(small_board, "[channel.heater]\ncold_resistance_Ohm = 10.0\n", "") +

@@ -1,4 +1,4 @@
-"""docs/configuration.md and docs/scenarios.md say of every key what the programs say; toolchain/generate-keys notices
+"""docs/configuration.md, scenarios.md and campaigns.md say of every key what the programs say; toolchain/generate-keys notices
 when they do not."""
 
 import os
@@ -11,14 +11,13 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROGRAMS = pathlib.Path(os.environ["PROGRAMS"])
 sys.path.insert(0, str(ROOT / "toolchain" / "keys"))
-from pages import Page
-from samples import boards, scenarios
+from pages import SEEN, Page
 
 
 class Keys(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.seen = {"configuration.md": boards(PROGRAMS), "scenarios.md": scenarios(PROGRAMS)}
+        cls.seen = {name: seen(PROGRAMS) for name, seen in SEEN.items()}
 
     def filled(self, name, old, new):
         """The page with a change of its text, and as the programs would have it."""
@@ -63,6 +62,14 @@ class Keys(unittest.TestCase):
                       self.said_of("configuration.md", "`late_in_a_row`", "`late_ms`"))
         self.assertIn("scenarios.md: has no row for controller.learn, kind learned_ff",
                       self.said_of("scenarios.md", "| `learn` |", "| `find_period` |"))
+
+    def test_keys_of_a_study_are_compared_too(self):
+        right = (ROOT / "docs/campaigns.md").read_text().splitlines()
+        page = self.filled("campaigns.md", "| `seed` | 1 | 0 to 2147483647 |", "| `seed` | 0 | |")
+        self.assertEqual([line for line in page.written if line not in right], [])
+        self.assertEqual(len(page.differences), 1)
+        self.assertIn("sample: is not a key of study", self.said_of("campaigns.md", "`sampling`", "`sample`"))
+        self.assertIn("has no row for draw.log_uniform", self.said_of("campaigns.md", "| `log_uniform` |", "| `list` |"))
 
     def test_part_of_a_default_or_range_that_depends_on_other_keys_is_compared(self):
         self.assertIn("`late_ms`: the range [0.01 to a tick] does not say 0.001",

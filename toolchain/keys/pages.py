@@ -4,10 +4,9 @@ import fnmatch
 import re
 import tomllib
 
-from samples import of_scenario
+from samples import boards, of_scenario, scenarios, studies
 
-CONFIGURATION = "docs/configuration.md"
-SCENARIOS = "docs/scenarios.md"
+SEEN = {"configuration.md": boards, "scenarios.md": scenarios, "campaigns.md": studies}
 
 HEADING = re.compile(r"^(##+) (.*)$")
 TABLE = re.compile(r"^\[+([\w.]+)\]+")
@@ -16,6 +15,7 @@ VALUE = re.compile(r'[-+\d.e]+|\[[-+\d.e, ]*\]|true|false|none|–|`".*"`')
 TOML_LINE = re.compile(r"^(?P<key>\w+) = (?P<value>[^#]+?)\s*(?:#\s*(?:\[(?P<range>[^\]]*)\] ?)?(?P<comment>.*))?$")
 COMMENT_COLUMN = 26  # at least two spaces after the value
 CHOICES = ("kind", "preset")
+UNLIMITED = (-1e300, 1e300)
 VARIES = object()
 
 
@@ -72,7 +72,7 @@ class Known:
 
     def is_free(self):
         """No range: the page may say what it likes."""
-        return self.type == "flag" or (self.type == "text" and not self.names)
+        return self.type in ("flag", "texts", "values") or (self.type == "text" and not self.names)
 
     def range_text(self, quote='`"{}"`', separator=", "):
         if self.names and self.names is not VARIES:
@@ -81,10 +81,11 @@ class Known:
         types = only([each.type for each in self.seen])
         if VARIES in (self.min, self.max, counts, types) or self.is_free():
             return VARIES
-        text = f"{shown(self.min)} to {shown(self.max)}"
+        text = "" if (self.min, self.max) == UNLIMITED else f"{shown(self.min)} to {shown(self.max)}"
         if self.type == "numbers":
             least, most = counts
-            text = f"{least if least == most else f'{least} to {most}'} values of {text}"
+            values = f"{least if least == most else f'{least} to {most}'} values"
+            text = f"{values} of {text}" if text else values
         return text
 
     def fixed_ends(self):

@@ -111,3 +111,14 @@ def scenarios(programs):
     for name, text in samples(of_scenario(programs, "", "empty")):
         add(all_seen, of_scenario(programs, text, name))
     return {path: seen for path, seen in all_seen.items() if not LIKE_ANOTHER.match(path)}
+
+
+def studies(programs):
+    """[goals] has a key for each quantity, which --list describes."""
+    all_seen = {}
+    distributions = ("uniform = [1, 2]", "log_uniform = [1, 2]", "normal = [1, 2]", "list = [1, 2]", "constant = 1")
+    texts = ["[study]\n" + "".join(f'[[draw]]\nname = "{line[:3]}"\n{line}\n' for line in distributions),
+             '[scenario.simulation]\nduration_s = 300\n[[draw]]\nkeys = "plant.load_N"\nuniform = [0, 1]\n']
+    for number, text in enumerate(texts):
+        add(all_seen, of_file([programs / "supercoil-sim", "campaign", "--check"], text, f"study-{number}"))
+    return {path: seen for path, seen in all_seen.items() if not path.startswith("goals.")}

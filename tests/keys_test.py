@@ -1,4 +1,4 @@
-"""docs/configuration.md, scenarios.md and campaigns.md say of every key what the programs say; toolchain/generate-keys notices
+"""docs/configuration.md, scenarios.md, campaigns.md and tuning.md say of every key what the programs say; toolchain/generate-keys notices
 when they do not."""
 
 import os
@@ -12,6 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROGRAMS = pathlib.Path(os.environ["PROGRAMS"])
 sys.path.insert(0, str(ROOT / "toolchain" / "keys"))
 from pages import SEEN, Page
+from tuning import TuningPage
 
 
 class Keys(unittest.TestCase):
@@ -26,7 +27,7 @@ class Keys(unittest.TestCase):
             text = (ROOT / "docs" / name).read_text()
             self.assertIn(old, text)
             page.write_text(text.replace(old, new, 1))
-            filled = Page(page, self.seen[name], PROGRAMS)
+            filled = Page(page, self.seen[name], PROGRAMS) if name in self.seen else TuningPage(page, PROGRAMS)
             filled.fill()
             return filled
 
@@ -70,6 +71,16 @@ class Keys(unittest.TestCase):
         self.assertEqual(len(page.differences), 1)
         self.assertIn("sample: is not a key of study", self.said_of("campaigns.md", "`sampling`", "`sample`"))
         self.assertIn("has no row for draw.log_uniform", self.said_of("campaigns.md", "| `log_uniform` |", "| `list` |"))
+
+    def test_what_a_tuned_value_may_be_is_filled_in(self):
+        right = (ROOT / "docs/tuning.md").read_text().splitlines()
+        page = self.filled("tuning.md", "| `window_s` | s | 0.1 to 3600 |", "| `window_s` | s | 0 to 60 |")
+        self.assertEqual(([line for line in page.written if line not in right], len(page.differences), page.problems),
+                         ([], 1, []))
+        self.assertIn("window_ms: must be values", self.said_of("tuning.md", "`window_s`", "`window_ms`"))
+        self.assertIn("has no row for change_W", self.said_of("tuning.md", "| `change_W` | W |", "| `hold_s` | s |"))
+        self.assertIn("change_W, hold_s: must be values that may be the same",
+                      self.said_of("tuning.md", "| `change_W` |", "| `change_W`, `hold_s` |"))
 
     def test_part_of_a_default_or_range_that_depends_on_other_keys_is_compared(self):
         self.assertIn("`late_ms`: the range [0.01 to a tick] does not say 0.001",

@@ -115,6 +115,9 @@ class Page:
             else:
                 number += 1
         self.find_undocumented()
+        return self.find_differences()
+
+    def find_differences(self):
         for number, (old, new) in enumerate(zip(self.lines, self.written), 1):
             if old != new:
                 self.differences.append(f"{self.path.name}:{number}: is\n  {old}\nbut by the program\n  {new}")

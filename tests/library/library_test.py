@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")  # a file, without its anchor
 EXAMPLES = ROOT / "examples/cpp"
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 WHOLE = "--whole" in sys.argv and not sys.argv.remove("--whole")
@@ -119,6 +120,12 @@ class Library(unittest.TestCase):
         unit = (prefix / "lib/systemd/system/supercoild.service").read_text()
         self.assertEqual(re.findall(r"^Exec\w+=(\S+)", unit, re.M), [f"{prefix}/bin/supercoild"] * 2)
         self.assertIn(f"file://{prefix}/share/doc/supercoil/running.md", unit)
+        pages = list((prefix / "share/doc/supercoil").rglob("*.md"))
+        links = [(page, target) for page in pages for target in LINK.findall(page.read_text()) if ":" not in target]
+        self.assertGreater(len(links), 1000)
+        dead = [f"{page.name}: {target}" for page, target in links if not (page.parent / target).is_file()]
+        self.assertEqual(dead, [])
+        self.assertIn("supercoil docs (`man supercoil-docs`)", (prefix / "share/doc/supercoil/packages.md").read_text())
         release = re.search(r"supercoil VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
         for program in ("supercoil", "supercoild", "supercoil-sim"):
             self.assertRegex(run(prefix / "bin" / program, "--version"),

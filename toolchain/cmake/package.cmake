@@ -23,6 +23,9 @@ foreach(section 1 8)
   endforeach()
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN man EXCLUDE)
+install(CODE "
+  set(documents \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${documents}\")
+  include(\"${PROJECT_SOURCE_DIR}/toolchain/cmake/installed_links.cmake\")")
 install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/io/can/supercoil.dbc
         DESTINATION ${documents}/examples)
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/docs_options.hpp"
 #include "apps/common/exit_status.hpp"
 #include "compare/plan.hpp"
 #include "report/trace_writer.hpp"
@@ -52,6 +53,9 @@ struct PageOptions {
   int port = 8080;  ///< of the page; 0: a free one
 };
 int page_command(const PageOptions& options);
+
+/// Serves the documentation, as supercoil docs does.
+int docs_command(const DocsOptions& options);
 
 struct ReproduceOptions {
   std::string out = "supercoil-out/reproduction";

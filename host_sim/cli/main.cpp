@@ -14,6 +14,7 @@
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "cli/results_json.hpp"
+#include "text/documentation.hpp"
 #include "text/program_version.hpp"
 
 namespace {
@@ -249,6 +250,7 @@ int run_program(int count, char** arguments) {
   app.require_subcommand(1);
   RunOptions run;
   PageOptions page;
+  DocsOptions docs;
   ReproduceOptions reproduce;
   CompareOptions compare;
   CampaignOptions campaign;
@@ -262,6 +264,7 @@ int run_program(int count, char** arguments) {
   bool list_as_json = false;
   add_json(*app.add_subcommand("list", "List built-in scenarios, presets and reference models"),
            list_as_json);
+  add_docs(app, docs);
   const bool json = wants_json(count, arguments);
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
     return refuse(json, exit_wrong_input, wrong);
@@ -274,6 +277,7 @@ int run_program(int count, char** arguments) {
   }
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("page")) return page_command(page);
+  if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("campaign")) return campaign_command(campaign);
@@ -284,6 +288,7 @@ int run_program(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  documentation_command = "supercoil-sim docs";
   try {
     const int status = run_program(count, arguments);
     if (status != exit_done || std::fflush(stdout) == 0) return status;

@@ -25,7 +25,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// The program that serves the page: the one of the same build, beside this one, or that of the
+/// The program that serves pages: the one of the same build, beside this one, or that of the
 /// simulator's package, which installs it where no other package has a file of that name.
 std::string page_program(const std::filesystem::path& own) {
   for (const char* place : {"supercoil", "../libexec/supercoil-sim/supercoil"}) {
@@ -33,6 +33,17 @@ std::string page_program(const std::filesystem::path& own) {
     if (access(file.c_str(), X_OK) == 0) return file;
   }
   return "";
+}
+
+int refuse_without_program(const std::filesystem::path& own) {
+  return fail(exit_failed, "the program supercoil, which serves the page, was not found beside " +
+                               own.string() + ": build or install it too");
+}
+
+/// Replaces this program.
+int become(std::vector<std::string> words) {
+  execv(words.front().c_str(), pointers_to(words).data());
+  return fail(exit_failed, "cannot start " + words.front() + ": " + std::strerror(errno));
 }
 
 struct Board {
@@ -79,10 +90,7 @@ int bus_port(const Board& board) {
 int page_command(const PageOptions& options) {
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
   const std::string page = page_program(own);
-  if (page.empty()) {
-    return fail(exit_failed, "the program supercoil, which serves the page, was not found beside " +
-                                 own.string() + ": build or install it too");
-  }
+  if (page.empty()) return refuse_without_program(own);
   const auto board = start_board(own, options);
   if (!board) {
     return fail(exit_failed,
@@ -94,14 +102,22 @@ int page_command(const PageOptions& options) {
     waitpid(board->process, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : exit_failed;
   }
-  std::vector<std::string> words{page, "monitor", "socketcand:" + std::to_string(port), "--port",
-                                 std::to_string(options.port)};
   std::puts("Open the address below, arm, and move the muscle. Ctrl-C ends it.");
   std::fflush(stdout);
-  // Replaces this program, so that the board notices its end, however that comes. The pipe from the
-  // board stays open: writing to it must not fail.
-  execv(page.c_str(), pointers_to(words).data());
-  return fail(exit_failed, "cannot start " + page + ": " + std::strerror(errno));
+  // So that the board notices the page's end, however that comes. The pipe from the board stays
+  // open: writing to it must not fail.
+  return become({page, "monitor", "socketcand:" + std::to_string(port), "--port",
+                 std::to_string(options.port)});
+}
+
+int docs_command(const DocsOptions& options) {
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string program = page_program(own);
+  if (program.empty()) return refuse_without_program(own);
+  std::vector<std::string> words{program,        "docs",   "--folder",
+                                 options.folder, "--port", std::to_string(options.port)};
+  if (options.open) words.emplace_back("--open");
+  return become(std::move(words));
 }
 
 }  // namespace supercoil::host_sim

@@ -14,14 +14,15 @@ import time
 import unittest
 
 SUPERCOIL = os.environ["SUPERCOIL"]
+SIMULATOR = pathlib.Path(SUPERCOIL).with_name("supercoil-sim")
 PATIENCE_S = 60.0
 
 
 class Docs:
     """The program, serving a folder on a free port until the context ends."""
 
-    def __init__(self, folder, *options, **environment):
-        self.process = subprocess.Popen([SUPERCOIL, "docs", "--folder", folder, "--port", "0", *options],
+    def __init__(self, folder, *options, program=SUPERCOIL, **environment):
+        self.process = subprocess.Popen([program, "docs", "--folder", folder, "--port", "0", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                         env={**os.environ, **environment})
         self.address = self.process.stdout.readline().strip()
@@ -108,6 +109,13 @@ class DocsTest(unittest.TestCase):
                 docs.process.send_signal(number)
                 said = docs.process.communicate(timeout=PATIENCE_S)
                 self.assertEqual((docs.process.returncode, *said), (0, "", ""))
+
+    def test_the_simulators_command_serves_the_same(self):
+        with Docs(self.site, program=SIMULATOR) as docs:
+            self.assertEqual(docs.request("/"), (200, "text/html; charset=utf-8", self.index))
+        done = subprocess.run([SIMULATOR, "docs", "--folder", self.folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("supercoil-doc", done.stderr)
 
     def test_without_a_site_it_names_what_to_install_or_build(self):
         done = subprocess.run([SUPERCOIL, "docs", "--folder", self.folder], capture_output=True, text=True)

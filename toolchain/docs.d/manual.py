@@ -5,7 +5,8 @@ import re
 from reference import inline
 
 OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
-DOCUMENT = re.compile(r"/usr/share/doc/supercoil/(\S+\.md)")
+# The simulator's package has no pages of its own.
+DOCUMENT = re.compile(r"/usr/share/doc/supercoil(?:/|-doc/html/docs/)(\S+)\.(?:md|html)")
 
 
 def plain(text):
@@ -27,7 +28,7 @@ def styled(macro, words, name):
     if macro == "Xr":
         return f"[{words[0]}({words[1]})]({words[0]}.{words[1]})"
     if macro == "Pa" and (document := DOCUMENT.fullmatch(text)):
-        return f"[{document[1]}](../{document[1]})"
+        return f"[{document[1]}.md](../{document[1]}.md)"
     if macro == "Fl":
         return f"`-{text.replace('Fl ', '-')}`"
     if macro == "Nm":

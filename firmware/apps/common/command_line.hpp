@@ -1,4 +1,4 @@
-// Checks of a command line that CLI11 does not make.
+// Command lines: checks that CLI11 does not make, and what several programs have in common.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common/docs_options.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil {
@@ -42,6 +43,18 @@ inline std::string wrong_command(const CLI::App& app, int count, char** argument
     return {};
   return "'" + written + "' is not a command; " +
          suggestion_or_all(written, names, "the commands are");
+}
+
+inline void add_docs(CLI::App& app, DocsOptions& options) {
+  CLI::App* docs = app.add_subcommand(
+      "docs", "Serve this documentation to a browser on this machine until Ctrl-C");
+  docs->add_option("--port", options.port, "Port of the site; 0 takes a free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  docs->add_flag("--open", options.open, "Open it in the browser too, with xdg-open");
+  docs->add_option("--folder", options.folder, "Folder of the site that toolchain/docs built")
+      ->type_name("DIR")
+      ->capture_default_str();
 }
 
 }  // namespace supercoil

@@ -11,6 +11,7 @@
 
 #include "supercoil/hal/error.hpp"
 
+#include "apps/common/docs_options.hpp"
 #include "apps/common/exit_status.hpp"
 #include "apps/supercoil/board_socket.hpp"
 #include "loop/settings.hpp"
@@ -130,11 +131,6 @@ struct DbcOptions {
 };
 int dbc_command(const DbcOptions& options);
 
-struct DocsOptions {
-  std::string folder = "/usr/share/doc/supercoil-doc/html";
-  int port = 8000;  ///< 0: a free one
-  bool open = false;
-};
 int docs_command(const DocsOptions& options);
 
 }  // namespace supercoil::operating

@@ -121,7 +121,7 @@ int docs_command(const DocsOptions& options) {
                 options.folder +
                     ": no documentation here (index.html); install the package supercoil-doc, or "
                     "build it from the sources with toolchain/docs and name its folder: "
-                    "supercoil docs --folder build/docs/html");
+                    "--folder build/docs/html");
   }
   watch_for_interrupts();
   httplib::Server server;

@@ -286,18 +286,6 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");
 }
 
-void add_docs(CLI::App& app, DocsOptions& options) {
-  CLI::App* docs = app.add_subcommand(
-      "docs", "Serve this documentation to a browser on this machine until Ctrl-C");
-  docs->add_option("--port", options.port, "Port of the site; 0 takes a free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  docs->add_flag("--open", options.open, "Open it in the browser too, with xdg-open");
-  docs->add_option("--folder", options.folder, "Folder of the site that toolchain/docs built")
-      ->type_name("DIR")
-      ->capture_default_str();
-}
-
 /// Works even if the options cannot be parsed.
 bool wants_json(int count, char** arguments) {
   return std::any_of(arguments, arguments + count,

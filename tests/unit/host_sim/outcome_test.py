@@ -160,7 +160,7 @@ class Outcome(ProgramCase):
         self.assertEqual((done.returncode, summary["mode_result"]["result"]), (1, "too_little_motion"))
         self.assertIn("too_little_motion: the muscle moved by less than 1 % of its travel", result_text)
         self.assertEqual(result_text.count("too_little_motion"), 1)
-        self.assertTrue(result_text.endswith("(see running in `supercoil docs`)"))
+        self.assertTrue(result_text.endswith("(see running in `supercoil-sim docs`)"))
         self.assertIn("the last identify or calibrate: " + result_text, done.stdout)
         self.assertIn("identify or calibrate found nothing: " + result_text, done.stderr)
         self.assertEqual(self.run_of(weak, "--allow-fault")[0].returncode, 0)
@@ -172,7 +172,7 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
         fault = summary["faults"][0]
         self.assertGreater(fault["limit"], fault["measured"])
-        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (see faults/heater_open in `supercoil docs`)", fault["text"])
+        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (see faults/heater_open in `supercoil-sim docs`)", fault["text"])
         self.assertIn(fault["text"] + "\n", done.stdout)
 
     def test_with_json_only_json_is_printed(self):

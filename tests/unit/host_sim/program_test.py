@@ -17,7 +17,7 @@ class Results(ProgramCase):
         text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ninjected_fault.heater_open = true\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
         self.assertEqual((done.returncode, done.stderr),
-                         (1, "supercoil-sim: the run ended in fault 20 heater_open; see faults/heater_open in `supercoil docs` (--allow-fault: "
+                         (1, "supercoil-sim: the run ended in fault 20 heater_open; see faults/heater_open in `supercoil-sim docs` (--allow-fault: "
                              "exit status 0)\n"))
         self.assertIn("fault 20 heater_open at 12.", done.stdout)
         self.assertIn("flight-1.scfr", done.stdout)

@@ -75,3 +75,8 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from estimators' -l quiet -
 complete -c supercoil-sim -n __fish_use_subcommand -f -a list -d 'List built-in scenarios, presets and reference models'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from list' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from list' -l json -d 'Print JSON instead of text'
+complete -c supercoil-sim -n __fish_use_subcommand -f -a docs -d 'Serve this documentation to a browser on this machine until Ctrl-C'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from docs' -s h -l help -d 'Print this help message and exit'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from docs' -l port -x -d 'Port of the site'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from docs' -l open -d 'Open it in the browser too, with xdg-open'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from docs' -l folder -r -F -d 'Folder of the site that toolchain/docs built'

@@ -2,50 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include <CppUTest/TestHarness.h>
 
 #include "storage/fields.hpp"
+#include "support/documented_ranges.hpp"
 
 using namespace supercoil;
 using namespace supercoil::storage;
-
-namespace {
-
-struct Documented {
-  std::string key;
-  double min;
-  double max;
-};
-
-/// The rows of the table in docs/storage.md: "| `a`, `b` | 0 to 10 | … |".
-std::vector<Documented> documented_ranges() {
-  std::ifstream page(SUPERCOIL_DOCS "/storage.md");
-  std::vector<Documented> all;
-  std::string line;
-  while (std::getline(page, line) && line != "| key | range | meaning |") {
-  }
-  std::getline(page, line);
-  while (std::getline(page, line) && line.starts_with("| `")) {
-    const std::size_t end = line.find(" | ");
-    double min = NAN;
-    double max = NAN;
-    std::sscanf(line.c_str() + end, " | %lf to %lf |", &min, &max);
-    for (std::size_t from = line.find('`'); from < end; from = line.find('`', from + 1)) {
-      const std::size_t to = line.find('`', from + 1);
-      all.push_back({line.substr(from + 1, to - from - 1), min, max});
-      from = to;
-    }
-  }
-  return all;
-}
-
-}  // namespace
 
 TEST_GROUP(Learned){};
 
@@ -86,9 +52,9 @@ TEST(Learned, RangeLimitsAreAllowedAndValuesJustBeyondAreNot) {
 // A gain beyond half or twice is a mistyped meter reading, 300 K a burnt muscle, -1 W a lost sign:
 // whatever wrote such a file, it must not set any bound.
 TEST(Learned, RangesAreThoseOfTheDocs) {
-  const std::vector<Documented> all = documented_ranges();
+  const auto all = test::documented_ranges(SUPERCOIL_DOCS "/storage.md");
   for (const Field& field : fields) {
-    const auto of_docs = std::ranges::find(all, field.key, &Documented::key);
+    const auto of_docs = std::ranges::find(all, field.key, &test::DocumentedRange::key);
     const std::string key(field.key);
     CHECK_EQUAL_TEXT(field.table != "muscle", of_docs != all.end(), key.c_str());
     if (of_docs == all.end()) continue;

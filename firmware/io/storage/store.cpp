@@ -164,7 +164,10 @@ Result<void> LearnedStore::replace(const Examined& current, const Examined& prev
 
 Result<void> LearnedStore::write_new(const std::string& content) {
   // Removed rather than truncated: after a power cut it may be another name of the current file.
-  if (auto removed = remove(new_path_); !removed) return removed;
+  auto removed = remove(new_path_);
+  // On a read-only disk it fails whether the file is there or not: that it cannot be created is why
+  // nothing is stored.
+  if (!removed && removed.error().code != std::errc::read_only_file_system) return removed;
   const auto file = files_->create(new_path_);
   if (!file) return tl::unexpected(file.error());
   auto result = files_->write(*file, content);

@@ -189,10 +189,19 @@ TEST(LearnedStore, RefusesAnInvalidSetAndTouchesNothing) {
 TEST(LearnedStore, ReportsWhyRemnantsCannotBeRemoved) {
   save(1);
   disk.change({path + ".new", std::make_shared<Inode>(), ""});
-  SimulatedFiles failing(disk, {2, EROFS, false, false});  // after both files were read
+  SimulatedFiles failing(disk, {2, EACCES, false, false});  // after both files were read
   const auto saved = LearnedStore("/d", 3, failing).save(nth_set(2));
   CHECK_FALSE(saved.has_value());
-  STRCMP_EQUAL("/d/learned-3.toml.new: simulated: Read-only file system",
+  STRCMP_EQUAL("/d/learned-3.toml.new: simulated: Permission denied", saved.error().text().c_str());
+}
+
+// Linux refuses to remove even a file that is not there.
+TEST(LearnedStore, OfAReadOnlyDiskItSaysThatNothingCanBeCreatedThere) {
+  save(1);
+  SimulatedFiles read_only(disk, {2, EROFS, true, false});  // after both files were read
+  const auto saved = LearnedStore("/d", 3, read_only).save(nth_set(2));
+  CHECK_FALSE(saved.has_value());
+  STRCMP_EQUAL("/d/learned-3.toml.new: simulated creation: Read-only file system",
                saved.error().text().c_str());
 }
 

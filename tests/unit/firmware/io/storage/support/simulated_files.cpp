@@ -10,8 +10,9 @@ using storage::NewFile;
 
 namespace {
 
-tl::unexpected<Error> failed(const std::string& path, int error) {
-  return failed_call(path + ": simulated", error);
+tl::unexpected<Error> failed(const std::string& path, int error,
+                             const std::string& what = "simulated") {
+  return failed_call(path + ": " + what, error);
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ Result<NewFile> SimulatedFiles::create(const std::string& path) {
     disk_.change({path, std::make_shared<Inode>(), ""});
     return 0;
   });
-  if (!made) return tl::unexpected(made.error());
+  if (!made) return failed(path, static_cast<int>(made.error().code), "simulated creation");
   return NewFile{0, path};
 }
 

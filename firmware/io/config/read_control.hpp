@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
@@ -29,6 +30,12 @@ control::ControllerSettings read_controller(
 /// Finishes the section. max_W: of the channel; NaN while that is missing.
 control::EstimatorSettings read_estimator(Section& section,
                                           const control::PhysicalParameters& muscle, double max_W);
+
+/// What a list in a file may hold: the same as `tune` accepts for one of its elements.
+inline Range range_of_tunable(std::string_view name) {
+  const control::Tunable& tunable = control::tunables()[control::tunable_named(name)];
+  return {tunable.min, tunable.max};
+}
 
 /// Reads the single values of a controller or an estimator; kinds, reference models and lists are
 /// read elsewhere. settings: their kind is known.

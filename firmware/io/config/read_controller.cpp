@@ -34,11 +34,13 @@ void read_bounds(Section& section, MracSettings& m) {
 
 /// Reads lists, and what else is not a tunable.
 void read_mrac_lists(Section& section, MracSettings& m) {
-  const auto alpha = section.numbers("alpha", {m.alpha[0], m.alpha[1]}, {1e-6, 1e6}, 2, 2);
+  const auto alpha =
+      section.numbers("alpha", {m.alpha[0], m.alpha[1]}, range_of_tunable("alpha_1"), 2, 2);
   m.alpha = {alpha[0], alpha[1]};
-  const auto lambda = section.numbers("lambda", {m.lambda[1], m.lambda[0]}, {-1e6, 1e6}, 2, 2);
+  const auto lambda =
+      section.numbers("lambda", {m.lambda[1], m.lambda[0]}, range_of_tunable("lambda_1"), 2, 2);
   m.lambda = {lambda[1], lambda[0], 1.0};
-  m.gain = read_six(section, "gain", m.gain, {-1e9, 1e9});
+  m.gain = read_six(section, "gain", m.gain, range_of_tunable("gain_1"));
   m.initial = read_six(section, "initial", m.initial, {-1e6, 1e6});
   m.initial_sigma = section.number("initial_sigma", m.initial_sigma, {-1e6, 1e6});
   read_bounds(section, m);

@@ -17,8 +17,7 @@ control::Theta read_four(Section& section, const char* key, const control::Theta
 
 /// Reads the values that are lists.
 void read_gradient(Section& section, control::GradientSettings& g) {
-  const control::Tunable& gain = control::tunables()[control::tunable_named("gain_1")];
-  g.gain = read_four(section, "gain", g.gain, {gain.min, gain.max});
+  g.gain = read_four(section, "gain", g.gain, range_of_tunable("gain_1"));
   g.initial = read_four(section, "initial", g.initial, {-1e9, 1e9});
   const auto lower = section.numbers("lower", {}, {-1e9, 1e9}, 4, 4);
   const auto upper = section.numbers("upper", {}, {-1e9, 1e9}, 4, 4);

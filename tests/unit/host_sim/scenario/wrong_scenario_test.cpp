@@ -179,6 +179,15 @@ TEST(WrongScenario, MracSaysWhichPremiseFails) {
                                .c_str());
 }
 
+TEST(WrongScenario, GainsOfMracAreWithinWhatTuneAccepts) {
+  const auto with_gain = [](const std::string& gain) {
+    return problems("controller = {kind = 'mrac', gain = [" + gain + ", 1, 1, 1, 1, 1]}");
+  };
+  STRCMP_EQUAL("in order", with_gain("1e12").c_str());
+  for (const char* wrong : {"-1.0", "0.0", "2e12"})
+    STRCMP_CONTAINS("must be a list of 6 numbers, each 1e-06 to 1e+12", with_gain(wrong).c_str());
+}
+
 TEST(WrongScenario, ValuesTooLargeForFixedPoint) {
   // Before these were refused, they silently became other controllers than in double.
   for (const char* text : {

@@ -110,6 +110,7 @@ class CsvReader {
       if (!found) return tl::unexpected(found.error());
       found_[i] = *found;
     }
+    if (auto alone = check_one_heater(); !alone) return alone;
     const auto channel = std::find(fields.begin(), fields.end(), "channel");
     if (channel != fields.end()) channel_at_ = static_cast<std::size_t>(channel - fields.begin());
     if (columns_.channel != 0 && !channel_at_) {
@@ -117,6 +118,22 @@ class CsvReader {
           Problem{lines_.number(), "has no column named channel: leave out --channel"});
     }
     return {};
+  }
+
+  /// A simulated joint's trace has the position that two heaters move.
+  tl::expected<void, Problem> check_one_heater() const {
+    constexpr std::string_view other = "antagonist_applied_power_W";
+    const Fields& fields = lines_.fields();
+    if (!columns_.power.name.empty() ||
+        std::find(fields.begin(), fields.end(), other) == fields.end())
+      return {};
+    const std::string& power = found_[2].name;
+    return tl::unexpected(
+        Problem{lines_.number(), "is of a joint: two heaters move it, by " + power + " and " +
+                                     std::string(other) +
+                                     ", and only one would be fitted. Record each muscle alone; "
+                                     "--power-column " +
+                                     power + " fits that one all the same"});
   }
 
   tl::expected<void, Problem> add_row() {

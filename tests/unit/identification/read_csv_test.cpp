@@ -62,6 +62,19 @@ TEST(ReadCsv, PrefersMeasuredPositionAndAppliedPower) {
   DOUBLES_EQUAL(4.0, r.power_W[0], 0.0);
 }
 
+TEST(ReadCsv, OfAJointsTwoHeatersOneMustBeNamed) {
+  const std::string trace =
+      "time_s,position_m,applied_power_W,antagonist_applied_power_W\n0,0.001,3,4\n";
+  check_problem(refused(trace), 1,
+                "is of a joint: two heaters move it, by applied_power_W and "
+                "antagonist_applied_power_W, and only one would be fitted");
+  Columns columns;
+  columns.power.name = "applied_power_W";
+  const auto named = read_csv(trace, columns);
+  CHECK(named.has_value());
+  DOUBLES_EQUAL(3.0, named->power_W[0], 0.0);
+}
+
 TEST(ReadCsv, SkipsCommentsEmptyLinesAndAByteOrderMark) {
   const Recording r =
       read_well("\xEF\xBB\xBF# bench 3\r\ntime_s\tposition_m\tpower_W\r\n\r\n0\t1\t2\r\n");

@@ -167,7 +167,7 @@ class Log(unittest.TestCase):
             done = self.log("cut.log")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(list(csv.DictReader(done.stdout.splitlines())), rows)
-            self.assertEqual("1 such lines are skipped" in done.stderr, first != "")
+            self.assertEqual("1 such line is skipped" in done.stderr, first != "")
 
     def test_errors_are_reported(self):
         (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])

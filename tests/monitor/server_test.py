@@ -276,7 +276,7 @@ class Sources(unittest.TestCase):
         self.addCleanup(program.stdout.close)
         self.addCleanup(program.wait)
         self.addCleanup(program.terminate)
-        self.assertIn("can.log:2: must begin with (SECONDS.MICROSECONDS); 1 such lines are skipped",
+        self.assertIn("can.log:2: must begin with (SECONDS.MICROSECONDS); 1 such line is skipped",
                       program.stderr.readline())
         port = int(program.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=SLACK_S)
@@ -321,7 +321,7 @@ class Sources(unittest.TestCase):
 
         tripped = ((1, "081#1703000000000000"), (1, f"0C1#{cause}"))
         text = text_of(*tripped, (61, "701#0317000000000410"))
-        self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", text)
+        self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267 m)", text)
         self.assertIn("proof of response (proof_of_response is false, or this muscle is one of a joint's two or follows in a bundle)", text)
         text = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
         self.assertIn(", FAULT over_temperature\n", text)

@@ -42,8 +42,7 @@ int can_log_command(const LogOptions& options) {
   if (!(options.from_s <= options.to_s))
     return fail(exit_wrong_input, "--from must not be later than --to");
   if (log->damaged_lines > 0) {
-    std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
-                 log->damaged_lines);
+    std::fprintf(stderr, "supercoil: %s\n", log->damage_text().c_str());
   }
   const CanSelection selection{options.from_s, options.to_s, options.node, options.message};
   const auto write_all = options.mcap ? mcap::from_can_log : can_to_csv;

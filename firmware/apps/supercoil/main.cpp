@@ -29,8 +29,10 @@ void add_log(CLI::App& app, LogOptions& options) {
   CLI::Option* out = log->add_option("--out", options.out, "Write to this file [standard output]");
   CLI::Option* from = log->add_option("--from", options.from_s,
                                       "Start at this time in s; in a recording relative to the "
-                                      "fault, in a CAN log the log's own time [the first]");
-  CLI::Option* to = log->add_option("--to", options.to_s, "End at this time in s [the last]");
+                                      "fault, in a CAN log the log's own time [the first]")
+                          ->check(is_finite);
+  CLI::Option* to =
+      log->add_option("--to", options.to_s, "End at this time in s [the last]")->check(is_finite);
   CLI::Option* channel =
       log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
           ->check(CLI::Range(1, 16));

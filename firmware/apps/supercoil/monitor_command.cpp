@@ -41,8 +41,7 @@ Result<Source> open_source(const MonitorOptions& options) {
     auto log = read_can_log(options.source);
     if (!log) return tl::unexpected(log.error());
     if (log->damaged_lines > 0) {
-      std::fprintf(stderr, "supercoil: %s; %zu such lines are skipped\n", log->damage.c_str(),
-                   log->damaged_lines);
+      std::fprintf(stderr, "supercoil: %s\n", log->damage_text().c_str());
     }
     if (!log->goes_back.empty()) {
       std::fprintf(stderr,

@@ -12,6 +12,7 @@
 
 #include "apps/supercoil/fault_history.hpp"
 #include "recorder/names.hpp"
+#include "text/margin_unit.hpp"
 
 namespace supercoil::operating {
 
@@ -91,11 +92,18 @@ double of(float value) {
   return static_cast<double>(value);
 }
 
+/// A converter's counts less its offset leave -4e-16 where nothing flows. No quantity here is
+/// resolved to a billionth of its unit.
+double without_rounding(float value) {
+  constexpr double resolved = 1e-9;
+  return std::abs(of(value)) < resolved ? 0.0 : of(value);
+}
+
 /// "?" for what could not be measured.
 std::string number(float value) {
   if (std::isnan(value)) return "?";
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", of(value));
+  std::snprintf(text.data(), text.size(), "%.4g", without_rounding(value));
   return text.data();
 }
 
@@ -138,9 +146,11 @@ void print_margins(Lines& lines, const ChannelHistory& c, const recorder::Record
   if (c.margins.empty()) return;
   lines.add("  last margins up to the fault, largest first:");
   for (const Row* row : c.ranked_margins()) {
-    lines.add("    %-24s %6.0f %% used: %.5g of %.5g, at %.3f s",
+    const std::string unit = margin_unit_after(static_cast<Fault>(row->margin_selector));
+    lines.add("    %-24s %6.0f %% used: %.5g of %.5g%s, at %.3f s",
               recorder::fault_name(row->margin_selector).c_str(), 100.0 * of(row->margin_used),
-              of(row->margin_measured), of(row->margin_limit), recording.time_s(*row));
+              without_rounding(row->margin_measured), without_rounding(row->margin_limit),
+              unit.c_str(), recording.time_s(*row));
   }
 }
 

@@ -14,6 +14,11 @@ struct CanLogFile {
   std::size_t foreign_lines = 0;      ///< frames that supercoil never sends
   std::string damage;                 ///< what is wrong with the first line that cannot be read
   std::size_t damaged_lines = 0;
+  /// What was left out of a damaged log: for damaged_lines > 0.
+  std::string damage_text() const {
+    return damage + "; " + std::to_string(damaged_lines) +
+           (damaged_lines == 1 ? " such line is skipped" : " such lines are skipped");
+  }
   std::string goes_back;  ///< the first line that is much earlier than the one before; empty: none
 };
 

@@ -13,6 +13,7 @@
 #include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/opcodes.hpp"
+#include "text/margin_unit.hpp"
 #include "text/result_words.hpp"
 
 namespace supercoil::operating {
@@ -65,7 +66,9 @@ std::string margin_text(const Newest& node) {
   const double limit = value(node, "FirstCause", "limit");
   if (std::isnan(limit)) return "";
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), " (measured %.3g, limit %.3g)", measured, limit);
+  const auto fault = static_cast<Fault>(value(node, "Status", "fault"));
+  std::snprintf(text.data(), text.size(), " (measured %.3g, limit %.3g%s)", measured, limit,
+                margin_unit_after(fault).c_str());
   return text.data();
 }
 

@@ -9,6 +9,7 @@ import pathlib
 import pty
 import re
 import resource
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -197,7 +198,15 @@ class Log(unittest.TestCase):
         margins = done.stdout.split("largest first:\n")[1].splitlines()
         self.assertEqual([line.split()[0] for line in margins],
                          ["over_temperature", "under_voltage", "over_travel"])
-        self.assertIn("99 % used: 159 of 160, at -0.020 s", margins[0])
+        self.assertIn("99 % used: 159 of 160 C, at -0.020 s", margins[0])
+
+    def test_the_summary_rounds_what_a_converter_leaves_to_zero(self):
+        rows = bytearray(self.recording[HEADER:])
+        current_A = 44  # in a row
+        for at in range(current_A, len(rows), ROW):
+            rows[at:at + 4] = struct.pack("<f", -4.441e-16)
+        (self.path / "d.scfr").write_bytes(self.recording[:HEADER] + rows)
+        self.assertIn("supply 12 V, current 0 A, resistance", self.log("d.scfr", "--damaged", "--summary").stdout)
 
     def test_the_summary_has_a_json_form(self):
         done = self.log("r.scfr", "--summary", "--json")
@@ -302,7 +311,7 @@ class Log(unittest.TestCase):
         self.refused("the recording has channels 1 to 2", "r.scfr", "--channel", 3)
         self.refused("--channel", "r.scfr", "--channel", 0)
         self.refused("--from must not be later than --to", "r.scfr", "--from", 1, "--to", 0)
-        self.refused("--from must not be later than --to", "r.scfr", "--from", "nan")
+        self.refused("--from: nan: must be a finite number", "r.scfr", "--from", "nan")
         self.refused("--from", "r.scfr", "--from", "soon")
         self.refused("has no rows for that channel and time", "r.scfr", "--from", 5)
         self.refused("excludes", "r.scfr", "--summary", "--out", "out.csv")

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/command_line.hpp"
+#include "apps/common/output_written.hpp"
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "cli/results_json.hpp"
@@ -271,6 +272,8 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_option(app, error); !unknown.empty())
+      return refuse(json, exit_wrong_input, unknown);
     if (json && error.get_exit_code() != 0) return refuse(json, exit_wrong_input, error.what());
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
@@ -291,8 +294,7 @@ int main(int count, char** arguments) {
   documentation_command = "supercoil-sim docs";
   try {
     const int status = run_program(count, arguments);
-    if (status != exit_done || std::fflush(stdout) == 0) return status;
-    return fail(exit_failed, "cannot write to standard output");
+    return output_written() ? status : fail(exit_failed, "cannot write to standard output");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "supercoil-sim: %s\n", error.what());
     return exit_failed;

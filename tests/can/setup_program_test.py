@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from live import DEADLINE_S
-from setup_case import ANSWERS, EXAMPLE, RESTART, SUPERCOILD, SetupCase, Terminal
+from setup_case import ANSWERS, EXAMPLE, RESTART, SUPERCOIL, SUPERCOILD, SetupCase, Terminal
 
 
 class SetupProgram(SetupCase):
@@ -25,6 +25,12 @@ class SetupProgram(SetupCase):
             self.assertIn(f" {line}\n", checked.stdout)
         self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
         self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
+
+    def test_output_that_cannot_be_written_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([SUPERCOIL, "setup", "describe", "--config", self.board, *self.script()], stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=DEADLINE_S)
+        self.assertEqual((done.returncode, done.stderr), (1, "supercoil: cannot write to standard output\n"))
 
     def test_a_script_is_notified_that_the_board_must_restart(self):
         done = self.setup_program(*self.script(), "--json")

@@ -57,4 +57,15 @@ inline void add_docs(CLI::App& app, DocsOptions& options) {
       ->capture_default_str();
 }
 
+/// The option that does not exist, where CLI11 would only say that something else is missing;
+/// empty: none.
+inline std::string unknown_option(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) return {};
+  for (const std::string& written : app.remaining(true)) {
+    if (written.starts_with('-'))
+      return written + " is not an option; --help lists those that there are";
+  }
+  return {};
+}
+
 }  // namespace supercoil

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/command_line.hpp"
+#include "apps/common/output_written.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/options.hpp"
 #include "apps/supercoil/setup/options.hpp"
@@ -326,6 +327,8 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_option(app, error); !unknown.empty())
+      return refuse(json, exit_wrong_input, unknown);
     const int status = app.exit(error);
     if (status == 0) return exit_done;
     if (json) print_error(error.what());
@@ -350,8 +353,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);
-    if (status != exit_done || std::fflush(stdout) == 0) return status;
-    return fail(exit_failed, "cannot write to standard output");
+    return output_written() ? status : fail(exit_failed, "cannot write to standard output");
   } catch (const std::exception& error) {
     return fail(exit_failed, error.what());
   }

@@ -8,6 +8,7 @@
 
 #include "apps/common/command_line.hpp"
 #include "apps/common/exit_status.hpp"
+#include "apps/common/output_written.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "text/program_version.hpp"
@@ -107,7 +108,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    if (output_written()) return status;
     std::fputs("supercoild: cannot write to standard output\n", stderr);
     return exit_failed;
   } catch (const std::exception& error) {

@@ -159,6 +159,10 @@ class Errors(ProgramCase):
         self.assertEqual(self.run_program("fly").returncode, 2)
         self.assertEqual(self.run_program().returncode, 2)
         self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
+        for words in (("--foo",), ("run", "--foo")):
+            done = self.run_program(*words)
+            self.assertEqual((done.returncode, done.stderr.splitlines()[0]),
+                             (2, "supercoil-sim: --foo is not an option; --help lists those that there are"))
 
     def test_a_misspelt_name_suggests_the_nearest_one(self):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")

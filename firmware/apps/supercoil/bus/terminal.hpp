@@ -18,7 +18,7 @@ std::string state_text(const FrameHistory& frame_history,
                        const std::map<int, std::string>& controller_kinds = {});
 
 /// Redraws it five times a second on a terminal, once a second elsewhere, until `ended`; shows a
-/// log once. Returns the exit status.
+/// log once. Returns the exit status; a program reports output that was not written at its end.
 int show_on_terminal(const FrameHistory& frame_history, bool log,
                      const std::function<bool()>& ended);
 

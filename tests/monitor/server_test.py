@@ -95,6 +95,8 @@ class Live(OnServedBoard):
                 self.assertIn("must be a JSON object", answer["error"])
         said = served.post("/api/command", '{"node":1,"opcode":"store"}')[1]["error"]
         self.assertEqual(said, "store needs a value: 1 stores the muscle, 0 clears it, 2 stores the tuning, 3 clears it")
+        said = served.post("/api/command", '{"node":1,"opcode":"power","value":-1}')
+        self.assertEqual(said, (400, {"error": "power must be 0 W or more"}))
         for path in ("/api/history?from_s=x", "/api/history?to_s=1e300", "/api/history?from_s=nan"):
             self.assertEqual(served.get(path)[0], 400, path)
         self.assertEqual(served.get("/api/fault/no_such")[0], 404)
@@ -300,6 +302,14 @@ class Sources(unittest.TestCase):
         log.write_text(f"(0000000001.000000) can0 701#02000000FF00{int(own):02X}02\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertNotIn("version", done.stdout)
+
+    def test_text_that_cannot_be_written_is_an_error(self):
+        log = self.path / "can.log"
+        log.write_text("(0000000001.000000) can0 281#102700000000FFFF\n")
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], stdout=full, stderr=subprocess.PIPE, text=True,
+                                  timeout=SLACK_S)
+        self.assertEqual((done.returncode, done.stderr), (1, "supercoil: cannot write to standard output\n"))
 
     def test_text_shows_the_boards_program_version(self):
         log = self.path / "can.log"

@@ -128,7 +128,7 @@ class TuneCommand(PageCase):
                             (("estimator", "none"), "1 estimator none: there is no estimator none; there is 0 (gradient)")):
             done = command(self.source, "1", *words)
             self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {expected}\n"))
-        self.assertIn("'x': must be state, or a channel, as in '1 arm'", command(self.source, "x", "tune", "0").stderr)
+        self.assertIn("'x': must be state, or a node, as in '1 arm'", command(self.source, "x", "tune", "0").stderr)
         self.assertEqual(self.values()["kind"]["in_use"], "mrac")
         self.assertIn("no answer from node 2", self.tune(channel="2").stderr)
 

@@ -104,11 +104,25 @@ class LocalPlay(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("channel 2: position 0.003000: refused: wrong_state", done.stderr)
         done = self.supercoil("play", motion(self.folder, {3: 1.0}))
-        self.assertIn("channel 3: position 0.003000: wrong: channel '3': must be 1 to 2", done.stderr)
+        self.assertIn("channel 3: position 0.003000: channel '3': must be 1 to 2", done.stderr)
         self.path = f"{self.folder}/nothing"
         done = self.supercoil("play", motion(self.folder, {1: 1.0}))
         self.assertEqual(done.returncode, 1)
         self.assertIn("is supercoild running?", done.stderr)
+
+    def test_wrong_usage_ends_with_status_2_and_the_reason_alone(self):
+        for words, why in ((("command", "3", "arm"), "supercoil: 3 arm: channel '3': must be 1 to 2\n"),
+                           (("command", "1", "fly"), "supercoil: 1 fly: 'fly' is not a command; there are: arm, "),
+                           (("command", "1", "power", "-1"), "supercoil: 1 power -1: power must be 0 W or more\n"),
+                           (("command", "3", "tune", "pi"), "supercoil: 3 tune pi: channel '3': must be 1 to 2\n"),
+                           (("command", "3", "position", "5deg"),
+                            "supercoil: 3 position 5deg: channel '3': must be 1 to 2\n"),
+                           (("tune", "3"), "supercoil: channel '3': must be 1 to 2\n"),
+                           (("tune", "3", "proportional_W_per_m=1"), "supercoil: channel '3': must be 1 to 2\n")):
+            with self.subTest(words):
+                done = self.supercoil(*words)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertEqual(done.stderr[:len(why)], why)
 
     def test_the_muscle_cools_after_the_player_is_killed(self):
         for _ in range(TRIES):

@@ -82,7 +82,7 @@ class LocalBoardLink final : public BoardLink {
   explicit LocalBoardLink(BoardSocket socket, std::string path = default_socket)
       : socket_(std::move(socket)), path_(std::move(path)) {}
   std::string words() const override { return socket_words(path_); }
-  Answer ask(const std::string& line) override { return socket_.ask(line); }
+  Answer ask(const std::string& line) override;
   Answer state() override { return socket_.ask("state"); }
   Answer state_json() override;
   Result<Status> status(const std::string& channel) override;
@@ -98,7 +98,8 @@ class LocalBoardLink final : public BoardLink {
   Result<double> progress(const std::string& channel) override;
 
  private:
-  /// A channel's line from the answer for all channels.
+  /// A channel's line from the answer for all channels. The error has the code invalid_argument for
+  /// a channel that the board does not have.
   Answer line_of(const std::string& request, const std::string& channel);
 
   BoardSocket socket_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "supercoil/hal/error.hpp"
@@ -14,6 +15,16 @@ inline constexpr const char* default_socket = "/run/supercoil/commands";
 /// " --socket PATH", as a command takes it; empty: path is the default.
 inline std::string socket_words(const std::string& path) {
   return path == default_socket ? "" : " --socket " + path;
+}
+
+/// Whether supercoild answers that the line itself is wrong.
+inline bool is_wrong_line(std::string_view answer) {
+  return answer.starts_with("wrong: ");
+}
+
+/// The answer as a person is told it.
+inline std::string unmarked(const std::string& answer) {
+  return is_wrong_line(answer) ? answer.substr(answer.find(' ') + 1) : answer;
 }
 
 /// The socket for local commands (docs/running.md). Move-only.

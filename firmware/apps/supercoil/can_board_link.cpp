@@ -26,7 +26,7 @@ CanBoardLink::~CanBoardLink() {
 }
 
 BoardLink::Answer CanBoardLink::ask(const std::string& line) {
-  const auto command = parse_command(line, can::max_nodes);
+  const auto command = parse_command(line, can::max_nodes, "node");
   if (!command) return command.error().text();
   const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
   if (!node) return tl::unexpected(node.error());

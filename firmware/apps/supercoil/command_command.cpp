@@ -203,13 +203,17 @@ int print_state(BoardLink& board, const CommandOptions& options) {
 /// For a position in degrees: reads the joint, which its channel must be in. Returns an exit
 /// status.
 int read_joint(BoardLink& board, CommandOptions& options) {
-  if (!is_angle(options)) return exit_done;
+  // Whoever parses the line reports a wrong channel.
+  if (!is_angle(options) || !is_channel(options.words[0])) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
-  if (!muscle) return refused(options, exit_failed, muscle.error().text());
+  if (!muscle) {
+    return refused(options, exit_for(muscle.error()),
+                   line_of(options.words) + ": " + muscle.error().text());
+  }
   options.joint = joint_from(*muscle);
   if (options.joint.direction == 0) {
     return refused(options, exit_wrong_input,
-                   line_of(options.words) + ": channel " + options.words[0] +
+                   line_of(options.words) + ": " + addressed(options) + " " + options.words[0] +
                        " is in no joint: its position is in metres");
   }
   return exit_done;
@@ -267,6 +271,8 @@ int command_command(CommandOptions options) {
                    line_of(options.words) + ": state covers all channels: leave out '" +
                        options.words[1] + "'");
   }
+  if (const std::string problem = hold_problem(options); !problem.empty())
+    return refused(options, exit_wrong_input, problem);
   if (options.sine_period_s > 0.0) {
     if (const std::string problem = sine_problem(options); !problem.empty())
       return refused(options, exit_wrong_input, problem);

@@ -9,6 +9,7 @@
 #include "apps/common/state_words.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "loop/snapshot.hpp"
+#include "text/command_text.hpp"
 
 namespace supercoil::operating {
 
@@ -27,13 +28,21 @@ Result<StateWords> words_of(const std::string& line) {
 
 }  // namespace
 
+BoardLink::Answer LocalBoardLink::ask(const std::string& line) {
+  return socket_.ask(line).map(unmarked);
+}
+
 BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std::string& channel) {
   const auto lines = socket_.ask(request);
   if (!lines) return tl::unexpected(lines.error());
+  if (is_wrong_line(*lines)) return failure(unmarked(*lines));
   std::istringstream text(*lines);
-  for (std::string line; std::getline(text, line);) {
+  std::size_t channels = 0;
+  for (std::string line; std::getline(text, line); ++channels) {
     if (line.starts_with(channel + " ")) return line;
   }
+  const auto known = parse_channel(channel, channels);
+  if (!known) return tl::unexpected(known.error());
   return failure("nothing is known about channel " + channel);
 }
 
@@ -118,13 +127,15 @@ Result<double> LocalBoardLink::tuning(const std::string& channel, int place, std
   if (!answer) return tl::unexpected(answer.error());
   char* end = nullptr;
   const double value = std::strtod(answer->c_str(), &end);
+  if (is_wrong_line(*answer)) return failure(unmarked(*answer), std::errc::invalid_argument);
   if (end == answer->c_str()) return failure("tuning: " + *answer);
   return value;
 }
 
 BoardLink::Answer LocalBoardLink::prepare(const std::string& channel, int place,
                                           const std::string& name, const std::string& value) {
-  return socket_.ask("prepare " + channel + " " + std::to_string(place) + " " + name + " " + value);
+  return socket_.ask("prepare " + channel + " " + std::to_string(place) + " " + name + " " + value)
+      .map(unmarked);
 }
 
 Result<double> LocalBoardLink::error_m(const std::string& channel) {

@@ -1,11 +1,14 @@
 #include "apps/supercoil/typed_command.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "can/nodes.hpp"
 #include "loop/command.hpp"
+#include "text/command_text.hpp"
 #include "text/number_text.hpp"
 #include "text/words.hpp"
 
@@ -60,7 +63,12 @@ std::optional<double> typed_number(std::string_view text) {
 
 bool is_channel(std::string_view text) {
   const auto channel = typed_number(text);
-  return channel && *channel >= 1.0 && *channel <= can::max_nodes;
+  return channel && *channel >= 1.0 && *channel <= can::max_nodes &&
+         *channel == std::floor(*channel);
+}
+
+std::string addressed(const CommandOptions& options) {
+  return options.can.empty() ? "channel" : "node";
 }
 
 std::vector<std::string> split_words(const std::vector<std::string>& quoted) {
@@ -73,10 +81,11 @@ std::vector<std::string> split_words(const std::vector<std::string>& quoted) {
 }
 
 std::string first_word_problem(const CommandOptions& options) {
-  if (options.words.empty()) return "no command: it must be state, or a channel and a command";
+  if (options.words.empty())
+    return "no command: it must be state, or a " + addressed(options) + " and a command";
   const std::string& first = options.words[0];
   if (first == "state" || typed_number(first)) return "";
-  return "'" + first + "': must be state, or a channel, as in '1 arm'";
+  return "'" + first + "': must be state, or a " + addressed(options) + ", as in '1 arm'";
 }
 
 bool is_angle(const CommandOptions& options) {
@@ -118,6 +127,23 @@ std::string position_range(const CommandOptions& options, const KnownMuscle& kno
          " are in range";
 }
 
+std::string hold_problem(const CommandOptions& options) {
+  constexpr std::array<Verb, 5> renewed{Verb::position, Verb::power, Verb::renew, Verb::identify,
+                                        Verb::calibrate};
+  const std::string& verb_word = options.words[options.words.size() > 1 ? 1 : 0];
+  const bool is_known = verb_word == "state" || verb_word == "clear" ||
+                        std::ranges::find(plain_verb_names, verb_word) != plain_verb_names.end();
+  const bool is_renewed =
+      std::ranges::any_of(renewed, [&](Verb verb) { return verb_word == name(verb); });
+  // Whoever parses the line reports an unknown command.
+  if (options.hold_s == 0.0 || !is_known || is_renewed) return "";
+  std::string verbs;
+  for (const Verb verb : renewed)
+    verbs.append(verbs.empty() ? "" : verb == renewed.back() ? " and " : ", ").append(name(verb));
+  return line_of(options.words) + (std::isinf(options.hold_s) ? " --hold" : " --for") +
+         ": nothing to renew; it applies to " + verbs;
+}
+
 std::string sine_problem(const CommandOptions& options) {
   const auto middle = value_of(options.words);
   if (!middle) return line_of(options.words) + ": a sine needs a number as its middle";
@@ -131,6 +157,11 @@ std::string sine_problem(const CommandOptions& options) {
            ": both must have the same unit; for an angle both are in degrees, such as 5deg and "
            "3deg";
   }
+  const bool of_power = options.words[1] == name(Verb::power);
+  const double lowest = std::min(value_at(options, -1.0), value_at(options, 1.0));
+  if (const std::string problem = of_power ? value_problem(Verb::power, lowest) : "";
+      !problem.empty())
+    return line_of(options.words) + " --amplitude " + options.sine_amplitude + ": " + problem;
   return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
 }
 

@@ -15,6 +15,9 @@ namespace supercoil::operating {
 std::vector<std::string> split_words(const std::vector<std::string>& quoted);
 std::string line_of(const std::vector<std::string>& words);
 
+/// What the first number of a line is: "channel", or "node" on a bus.
+std::string addressed(const CommandOptions& options);
+
 /// Empty: it is not a finite number.
 std::optional<double> typed_number(std::string_view text);
 bool is_channel(std::string_view text);
@@ -22,6 +25,8 @@ bool is_angle(const CommandOptions& options);
 
 /// What is wrong with the first word; empty: nothing.
 std::string first_word_problem(const CommandOptions& options);
+/// Why a command cannot be renewed, if that is wanted; empty: it can.
+std::string hold_problem(const CommandOptions& options);
 /// What is wrong with a sine; empty: nothing.
 std::string sine_problem(const CommandOptions& options);
 

@@ -52,12 +52,11 @@ std::optional<std::string> answer_tuning_request(std::string_view text, Loop& lo
   const std::string_view place_word = next_word(text);
   const std::string_view name = next_word(text);
   const std::string_view last = next_word(text);
-  const auto channel = number(channel_word);
-  if (!channel || !(*channel >= 1.0 && *channel <= static_cast<double>(loop.channels())))
-    return wrong_text(channel_word, "channel");
+  const auto channel = parse_channel(channel_word, loop.channels());
+  if (!channel) return "wrong: " + channel.error().text();
   const auto place = number(place_word);
   if (!place || !(*place >= 0.0 && *place <= 255.0)) return wrong_text(place_word, "controller");
-  Tuner& tuner = loop.channel(static_cast<std::size_t>(*channel) - 1).tuner();
+  Tuner& tuner = loop.channel(*channel).tuner();
   const auto at = static_cast<std::size_t>(*place);
   if (request == "prepare") return prepare_value(tuner, at, name, last);
   const auto set = set_named(last);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include "text/nearest.hpp"
 #include "text/number_text.hpp"
@@ -35,20 +36,13 @@ std::vector<std::string> known_verbs() {
   return all;
 }
 
-std::string no_command(std::string_view word) {
-  if (word.empty()) return "no command after the channel; there are: " + joined(known_verbs());
+std::string no_command(std::string_view word, std::string_view addressed) {
+  if (word.empty()) {
+    return "no command after the " + std::string(addressed) +
+           "; there are: " + joined(known_verbs());
+  }
   return "'" + std::string(word) + "' is not a command; " +
          suggestion_or_all(word, known_verbs(), "there are");
-}
-
-/// Counted from 0.
-Result<std::uint8_t> channel_in(std::string_view word, std::size_t channels) {
-  const auto channel = number<std::size_t>(word);
-  if (channel && *channel >= 1 && *channel <= channels)
-    return static_cast<std::uint8_t>(*channel - 1);
-  const bool no_number = !word.empty() && !number<double>(word);
-  return failure("channel '" + std::string(word) + "': must be 1 to " + std::to_string(channels) +
-                 (no_number ? "; it comes first, as in '1 arm'" : ""));
 }
 
 Result<double> finite_number(std::string_view word, Verb verb, std::string_view needs) {
@@ -68,6 +62,22 @@ std::string unexpected_word(std::string_view typed, Verb verb, std::string_view 
 }
 
 }  // namespace
+
+Result<std::uint8_t> parse_channel(std::string_view word, std::size_t channels,
+                                   std::string_view addressed) {
+  const auto channel = number<std::size_t>(word);
+  if (channel && *channel >= 1 && *channel <= channels)
+    return static_cast<std::uint8_t>(*channel - 1);
+  const bool no_number = !word.empty() && !number<double>(word);
+  return failure(std::string(addressed) + " '" + std::string(word) + "': must be 1 to " +
+                     std::to_string(channels) +
+                     (no_number ? "; it comes first, as in '1 arm'" : ""),
+                 std::errc::invalid_argument);
+}
+
+std::string value_problem(Verb verb, double value) {
+  return verb == Verb::power && value < 0.0 ? "power must be 0 W or more" : "";
+}
 
 std::string_view needed_value(Verb verb) {
   switch (verb) {
@@ -91,8 +101,9 @@ std::string_view needed_value(Verb verb) {
   }
 }
 
-Result<Command> parse_command(std::string_view text, std::size_t channels) {
-  const auto channel = channel_in(next_word(text), channels);
+Result<Command> parse_command(std::string_view text, std::size_t channels,
+                              std::string_view addressed) {
+  const auto channel = parse_channel(next_word(text), channels, addressed);
   if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
   // `clear` is the word for storing nothing.
@@ -102,7 +113,7 @@ Result<Command> parse_command(std::string_view text, std::size_t channels) {
   const Verb verb = found == plain_verb_names.end()
                         ? Verb::none
                         : static_cast<Verb>(std::distance(plain_verb_names.begin(), found));
-  if (verb == Verb::none) return failure(no_command(verb_word));
+  if (verb == Verb::none) return failure(no_command(verb_word, addressed));
   const bool stores = verb == Verb::store && !clears;
   Command command{*channel, verb, stores ? 1.0 : 0.0};
   std::string_view value_word = next_word(text);
@@ -116,6 +127,8 @@ Result<Command> parse_command(std::string_view text, std::size_t channels) {
     if (!value) return tl::unexpected(value.error());
     command.value = *value;
   }
+  if (std::string problem = value_problem(verb, command.value); !problem.empty())
+    return failure(std::move(problem));
   const std::string_view rest = needs.empty() ? value_word : next_word(text);
   if (!rest.empty()) return failure(unexpected_word(verb_word, verb, rest));
   return command;
@@ -127,7 +140,7 @@ std::optional<Result<Command>> parse_trajectory_command(std::string_view text,
   const std::string_view verb_word = next_word(text);
   const bool is_knot = verb_word == name(Verb::knot);
   if (!is_knot && verb_word != name(Verb::start)) return std::nullopt;
-  const auto channel = channel_in(channel_word, channels);
+  const auto channel = parse_channel(channel_word, channels);
   if (!channel) return tl::unexpected(channel.error());
   Command command{*channel, is_knot ? Verb::knot : Verb::start};
   const std::array<double*, 1> of_start{&command.value};

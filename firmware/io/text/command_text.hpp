@@ -1,6 +1,7 @@
 // Commands as a person or a script writes them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,8 +13,17 @@
 namespace supercoil {
 
 /// "1 position 0.01": a channel from 1, a verb, and a value where the verb has one, in SI units.
-/// channels: how many the board has. The error says what is wrong and what is allowed.
-Result<Command> parse_command(std::string_view text, std::size_t channels);
+/// channels: how many the board has. addressed: what an error calls the first number; a master on a
+/// bus addresses nodes. The error says what is wrong and what is allowed.
+Result<Command> parse_command(std::string_view text, std::size_t channels,
+                              std::string_view addressed = "channel");
+
+/// A channel as it is written, from 1; the result is counted from 0.
+Result<std::uint8_t> parse_channel(std::string_view word, std::size_t channels,
+                                   std::string_view addressed = "channel");
+
+/// Why no board can obey this value, e.g. a negative power; empty: one may.
+std::string value_problem(Verb verb, double value);
 
 /// "1 knot 0.02 0.01 0.001": s after the previous knot, m, m/s; "1 start 12.345": at this time of
 /// the board's clock, in s. Empty: the text is neither.

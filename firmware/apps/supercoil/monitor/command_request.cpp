@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -57,6 +58,8 @@ Result<CommandRequest> parse_command_request(const std::string& text) {
     if (!given->is_number() || !std::isfinite(given->get<double>()))
       return failure("value must be a number");
     value = given->get<double>();
+    if (std::string problem = value_problem(verb, value); !problem.empty())
+      return failure(std::move(problem));
   } else if (std::string missing = missing_value(verb); !missing.empty()) {
     return failure(std::move(missing));
   }

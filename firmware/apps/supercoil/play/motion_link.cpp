@@ -31,7 +31,7 @@ MotionLink::Answered LocalMotionLink::command(const std::string& words) {
   const auto answer = socket_.ask(channel_ + " " + words);
   if (!answer) return tl::unexpected(answer.error());
   const auto reply = parse_answer(*answer);
-  if (!reply) return failure(*answer);
+  if (!reply) return failure(unmarked(*answer));
   return *reply;
 }
 
@@ -77,7 +77,7 @@ Result<LocalMotionLink::Status> LocalMotionLink::read_status() {
     status.played.room = static_cast<std::uint8_t>(room);
     return status;
   }
-  return failure("no state of its trajectory is reported: " + *lines);
+  return failure("no state of its trajectory is reported: " + unmarked(*lines));
 }
 
 MotionLink::Played LocalMotionLink::playback() {

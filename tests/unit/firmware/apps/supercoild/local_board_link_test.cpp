@@ -113,6 +113,20 @@ TEST(LocalBoardLink, ReportsTheWholeStateAsJson) {
   STRCMP_EQUAL("", channel["notes"].get<std::string>().c_str());
 }
 
+TEST(LocalBoardLink, TellsWhatIsWrongWithALine) {
+  const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
+  LocalBoardLink link = board.link();
+  const char* why = "channel '7': must be 1 to 2";
+  STRCMP_EQUAL(why, link.ask("7 arm").value().c_str());
+  STRCMP_EQUAL(why, link.prepare("7", 0, "kind", "1").value().c_str());
+  const auto tuning = link.tuning("7", 0, 0, TuningSet::in_use);
+  const auto muscle = link.muscle("7");
+  for (const Error& error : {tuning.error(), muscle.error()}) {
+    STRCMP_EQUAL(why, error.text().c_str());
+    CHECK(error.code == std::errc::invalid_argument);
+  }
+}
+
 TEST(LocalBoardLink, ReportsASlackMuscle) {
   Row row = row_of_mode(Mode::position, ModeResult::none, 0);
   row.flags = row_slack;

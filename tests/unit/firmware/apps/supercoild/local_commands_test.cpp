@@ -182,7 +182,7 @@ TEST(LocalCommands, TheReasonForAnUnsuitableControllerIsGiven) {
         std::pair{"prepare 1 0 volume 1", "refused: out_of_range"},
         std::pair{"prepare 1 0 kind pi", "wrong: 'pi' is not a number"},
         std::pair{"prepare 1 0 all mine", "wrong: 'mine' is not a set of values"},
-        std::pair{"prepare 9 0 kind 1", "wrong: '9' is not a channel"},
+        std::pair{"prepare 9 0 kind 1", "wrong: channel '9': must be 1 to 2"},
         std::pair{"tuning 1 x kind in_use", "wrong: 'x' is not a controller"},
         std::pair{"tuning 1 0 kind", "wrong: '' is not a set of values"},
         std::pair{"tuning 1 0 volume in_use", "nan"}})

@@ -66,6 +66,7 @@ TEST(CommandText, ErrorsNameTheProblem) {
   check_wrong(
       "1 controller 1.5",
       "controller needs a whole number, its place in the configuration from 0; '1.5' is not one");
+  check_wrong("1 power -0.001", "power must be 0 W or more");
   check_wrong("1 position 0.01 5", "position takes one value: leave out '5'");
   check_wrong("1 arm now", "arm takes no value: leave out 'now'");
   check_wrong("1 heat",
@@ -74,6 +75,12 @@ TEST(CommandText, ErrorsNameTheProblem) {
               "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
   check_wrong("1 store 1", "store takes no value: leave out '1'");
   check_wrong("1 clear 5", "clear takes no value: leave out '5'");
+}
+
+TEST(CommandText, ErrorsOnABusSpeakOfNodes) {
+  for (const auto& [text, why] : {std::pair{"0 arm", "node '0': must be 1 to 63"},
+                                  std::pair{"1", "no command after the node; there are: arm"}})
+    STRCMP_CONTAINS(why, parse_command(text, 63, "node").error().text().c_str());
 }
 
 TEST(CommandText, KnotsAndStartsOfATrajectoryAreOnlyForTheSocket) {

@@ -1,6 +1,7 @@
 """What a session does when a board misbehaves: another version, damaged or no answers, lost leases."""
 
 import asyncio
+import math
 import threading
 import unittest
 from unittest import mock
@@ -226,8 +227,30 @@ class Sessions(unittest.TestCase):
                 command()
         with muscle:
             for wrong in ("0.01", None, [0.01, 0.02]):
-                with self.assertRaisesRegex(TypeError, "position is .*; it must be a number"):
+                with self.assertRaisesRegex(TypeError, "position_m is .*; it must be a number"):
                     muscle.set_position(wrong)
+            for bad in (math.nan, math.inf, -math.inf):
+                for argument, call in (
+                        ("timeout_s", muscle.arm), ("position_m", muscle.set_position), ("power_W", muscle.set_power),
+                        ("position_m", muscle.move_to), ("seconds", muscle.hold), ("timeout_s", muscle.identify),
+                        ("timeout_s", muscle.calibrate), ("true_position_m", muscle.scale),
+                        ("place", muscle.use_controller), ("place", muscle.use_estimator),
+                        ("volts", muscle.compare_supply), ("amperes", muscle.compare_current),
+                        ("kelvins", muscle.compare_rise),
+                        ("tolerance_m", lambda value: muscle.move_to(0.001, tolerance_m=value)),
+                        ("timeout_s", lambda value: muscle.move_to(0.001, timeout_s=value)),
+                        ("max_power_W", lambda value: muscle.change("max_power_W", value)),
+                        ("integral_W_per_m_s", lambda value: muscle.prepare(integral_W_per_m_s=value)),
+                        ("position_m", lambda value: sync.cycle([muscle.make_position(value)])),
+                        ("settle_s", lambda value: muscle.play([0.0, 1.0], [0.0, 0.0], settle_s=value)),
+                        ("seconds", lambda value: sync.discover(f"virtual:{self.channel}", seconds=value)),
+                        ("deadline_s", lambda value: sync.Muscle(f"virtual:{self.channel}", NODE, deadline_s=value))):
+                    why = f"^{argument} is -?(nan|inf); it must be a finite number$"
+                    with self.subTest(argument, value=bad), self.assertRaisesRegex(ValueError, why):
+                        call(bad)
+            for call in (muscle.set_power, lambda value: sync.cycle([muscle.make_power(value)])):
+                with self.assertRaisesRegex(ValueError, "power_W is -0.001; it must be 0 or more"):
+                    call(-0.001)
             with self.assertRaisesRegex(ValueError, "no setting is called 'max_power_w'; did you mean max_power_W?"):
                 muscle.change("max_power_w", 1.0)
             with self.assertRaisesRegex(TypeError, "max_power_W is '1'; it must be a number"):

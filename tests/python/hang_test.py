@@ -32,6 +32,27 @@ with supercoil.Muscle(sys.argv[1], deadline_s=1e6) as muscle:
     muscle.arm()
     muscle.play([i * 0.1 for i in range(600)], [0.002 + i * 2e-6 for i in range(600)], settle_s=0.0)
 """
+# End without close().
+ENDS = """
+import sys, supercoil
+muscle = supercoil.sync.Muscle(sys.argv[1], deadline_s=1e6).connect()
+if muscle.state == supercoil.State.fault:
+    muscle.reset()
+muscle.arm()
+muscle.set_position(0.002)
+muscle.hold(0.5)
+"""
+ENDS_ASYNCIO = """
+import asyncio, sys, supercoil
+async def main():
+    muscle = await supercoil.Muscle(sys.argv[1], deadline_s=1e6).connect()
+    if muscle.state == supercoil.State.fault:
+        await muscle.reset()
+    await muscle.arm()
+    await muscle.set_position(0.002)
+    await muscle.hold(0.5)
+asyncio.run(main())
+"""
 # Prints where its simulation serves, and waits.
 SIMULATES = """
 import sys, time
@@ -107,6 +128,24 @@ class Hang(unittest.TestCase):
         self.assertEqual(answers[-1].playback, Playback.playing)
         self.assertGreater(answers[-1].buffered_s, 3.0)
         self.assert_raises_when_resumed(process)
+
+    def check_disarms(self, program):
+        with self.observer.record() as recording:
+            process = self.running(program, lambda m: m.state == State.active)
+            errors = process.communicate(timeout=DEADLINE_S)[1]
+            self.observe(lambda m: m.state in (State.disarmed, State.fault) and not m.telemetry.status.leased)
+        if self.observer.fault == supercoil.Fault.command_timeout:
+            raise supercoil.faults.CommandTimeout(self.observer.node)
+        self.assertEqual((process.returncode, errors), (0, ""))
+        self.assertIn(Opcode.disarm, [message.opcode for message in recording.of(messages.Acknowledge)])
+
+    @patient
+    def test_a_program_that_ends_without_close_disarms_its_muscle(self):
+        self.check_disarms(ENDS)
+
+    @patient
+    def test_asyncio_run_disarms_what_was_not_closed(self):
+        self.check_disarms(ENDS_ASYNCIO)
 
 
 class Orphan(unittest.TestCase):

@@ -71,8 +71,8 @@ class Knots(unittest.TestCase):
             muscle.play([0.0, 0.0], [0.0, 0.0])
         motion = muscle.make_motion([0.0, 1.0], [0.0, 0.0])
         for motions, options, why in (([motion, motion], {}, "a muscle has two motions"),
-                                      ([motion], {"settle_s": -1.0}, "settle_s -1.0: must be 0 or more"),
-                                      ([motion], {"settle_s": math.nan}, "settle_s nan")):
+                                      ([motion], {"settle_s": -1.0}, "settle_s is -1; it must be 0 or more"),
+                                      ([motion], {"settle_s": math.nan}, "settle_s is nan")):
             with self.subTest(why), self.assertRaisesRegex(ValueError, why):
                 sync.play(motions, **options)
         with self.assertRaisesRegex(RuntimeError, "node 1 is not connected"):

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import math
 import time
 from collections.abc import AsyncGenerator
 from types import TracebackType
@@ -29,6 +30,10 @@ _FIRST_HEARTBEAT_S = 2.0
 HEARTBEAT_S = 2.0
 # Before this many heartbeats have come, the newest may be an old one that waited in the board's queue.
 FRESH_BEATS = 2
+# As its value is called in the methods' signatures.
+_ARGUMENTS = {Opcode.position: "position_m", Opcode.power: "power_W", Opcode.scale: "true_position_m",
+              Opcode.controller: "place", Opcode.estimator: "place"}
+_LEAST = {Opcode.power: 0.0}
 
 
 class Connection:
@@ -38,7 +43,7 @@ class Connection:
         kept where it is while the program is silent."""
         if node not in _NODES:
             raise ValueError(f"node {node!r}: must be a whole number, 1 to 63")
-        if not deadline_s > 0:
+        if not number("deadline_s", deadline_s) > 0:
             raise ValueError(f"deadline_s {deadline_s}: must be above 0")
         self.node = node
         self.deadline_s = deadline_s
@@ -46,7 +51,6 @@ class Connection:
         self._options = options
         self._open_link: Link | None = None
         self._keeper: Keeper | None = None
-        self._commanded = False
 
     async def connect(self) -> Self:
         """Waits for the board's heartbeat, and compares versions."""
@@ -85,13 +89,8 @@ class Connection:
             return
         keeper = self._kept
         link, self._open_link = self._open_link, None
-        await keeper.stop()
         try:
-            # The lease may have been released at the deadline; another master that now has it is not stopped.
-            leased = link.heartbeat.status is not None and link.heartbeat.status.leased
-            if link.holds_lease or (self._commanded and not leased):
-                await link.disarm()
-                await link.release()
+            await keeper.end()
         finally:
             await link.close()
 
@@ -169,11 +168,11 @@ class Connection:
 
     async def _obey(self, opcode: Opcode, value: float = 0.0) -> None:
         """Raises a refusal because of a fault as that fault."""
-        carried = number(opcode.name, value)
+        carried = number(_ARGUMENTS.get(opcode, opcode.name), value, _LEAST.get(opcode, -math.inf))
         self._kept.alive()
         try:
             await self._link.command(opcode, carried)
-            self._commanded = True
+            self._kept.commanded()
         except refusals.WrongState:
             await self._wait_for_fault()
             if opcode != Opcode.reset:

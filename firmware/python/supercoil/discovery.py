@@ -14,6 +14,7 @@ from supercoil.generated.names import Fault, State
 from supercoil.generated.version import PROTOCOL_VERSION
 from supercoil.link import CanLink, Link
 from supercoil.local import SocketLink
+from supercoil.named import number
 
 
 class Found(NamedTuple):
@@ -33,6 +34,7 @@ class Found(NamedTuple):
 
 async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options: object) -> list[Found]:
     """Every node whose heartbeat is heard within this time. A board sends ten heartbeats a second."""
+    number("seconds", seconds)
     statuses: dict[int, messages.Status] = {}
 
     def receive(node: int, base: int, time_s: float, data: bytes) -> None:

@@ -10,6 +10,7 @@ from supercoil.connection import FRESH_BEATS, HEARTBEAT_S
 from supercoil.errors import NoAnswerError, NotReachedError, OutcomeError
 from supercoil.generated import messages, results
 from supercoil.generated.names import Mode, Opcode, Result, State
+from supercoil.named import number
 
 _FRICTION = 1 << results.NOTES.index("friction")  # its bit is in another message than the others
 
@@ -32,7 +33,7 @@ class Learning(Commands):
 
     async def _learn(self, opcode: Opcode, mode: Mode, timeout_s: float) -> Outcome:
         heartbeat = self._link.heartbeat
-        end = time.monotonic() + timeout_s
+        end = time.monotonic() + number("timeout_s", timeout_s)
         await self._heat(opcode)
         fresh_at = heartbeat.beats + FRESH_BEATS
         while heartbeat.beats < fresh_at or heartbeat.status is None or (
@@ -85,18 +86,18 @@ class Learning(Commands):
 
     async def compare_supply(self, volts: float) -> None:
         """What a meter shows at the supply's terminals during steady power; 0 forgets the comparison."""
-        if not 0.0 <= volts < RISES_FROM:
+        if not 0.0 <= number("volts", volts) < RISES_FROM:
             raise ValueError(f"{volts} V: must be 0 or more")
         await self._obey(Opcode.compare, volts)
 
     async def compare_current(self, amperes: float) -> None:
         """What a meter shows in the channel's line."""
-        if not amperes > 0.0:
+        if not number("amperes", amperes) > 0.0:
             raise ValueError(f"{amperes} A: must be above 0")
         await self._obey(Opcode.compare, -amperes)
 
     async def compare_rise(self, kelvins: float) -> None:
         """How much warmer than the air a thermometer shows the muscle in steady heat; 0 forgets it."""
-        if not kelvins >= 0.0:
+        if not number("kelvins", kelvins) >= 0.0:
             raise ValueError(f"{kelvins} K: must be 0 or more")
         await self._obey(Opcode.compare, RISES_FROM + kelvins)

@@ -2,6 +2,7 @@
 
 import difflib
 import enum
+import math
 from collections.abc import Iterable
 from typing import Self
 
@@ -22,14 +23,19 @@ class Named(enum.IntEnum):
         return self.name
 
 
-def number(what: str, value: object) -> float:
-    """The value of an argument, which may be any kind of number, also numpy's."""
+def number(what: str, value: object, least: float = -math.inf) -> float:
+    """The value of an argument, which may be any kind of number, also numpy's, but must be finite."""
     try:
         if isinstance(value, str | bytes):
             raise TypeError
-        return float(value)  # type: ignore[arg-type]
+        carried = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise TypeError(f"{what} is {value!r}; it must be a number") from None
+    if not math.isfinite(carried):
+        raise ValueError(f"{what} is {carried}; it must be a finite number")
+    if carried < least:
+        raise ValueError(f"{what} is {carried:g}; it must be {least:g} or more")
+    return carried
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> ValueError:

@@ -1,12 +1,12 @@
 """Trajectories: knots that a board receives ahead of time, so that it moves from one to the next by itself."""
 
 import asyncio
-import math
 import time
 from collections.abc import Iterable, Sequence
 
 from supercoil.cycles import all_of
 from supercoil.knots import knots_of
+from supercoil.named import number
 from supercoil.player import Motion, Player
 from supercoil.tuning import Tuning
 
@@ -51,8 +51,7 @@ async def play(motions: Sequence[Motion], *, settle_s: float = 3.0, hold: bool =
     muscles = [motion.muscle for motion in motions]
     if len(set(map(id, muscles))) < len(muscles):
         raise ValueError("a muscle has two motions")
-    if not 0.0 <= settle_s < math.inf:
-        raise ValueError(f"settle_s {settle_s}: must be 0 or more")
+    number("settle_s", settle_s, 0.0)
     players = [Player(motion) for motion in motions]
     try:
         await _play(players, settle_s)
@@ -70,8 +69,8 @@ async def _play(players: Sequence[Player], settle_s: float) -> None:
     clocks = {player.clock for player in players}
     numbers = {clock: clock.next_number() for clock in clocks}
     await all_of(player.start(numbers[player.clock]) for player in players)
-    for clock, number in numbers.items():
-        await clock.sync(number)
+    for clock, sync_number in numbers.items():
+        await clock.sync(sync_number)
     synced_at = time.monotonic()
     while not all(player.has_ended() for player in players):
         await all_of(player.go_on() for player in players)

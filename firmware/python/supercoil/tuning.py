@@ -8,7 +8,7 @@ from supercoil.codec import FIRST_ESTIMATOR, FORGET_TUNING, STORE_TUNING, TUNES_
 from supercoil.generated import tunables
 from supercoil.generated.names import Opcode, Set, Tunable
 from supercoil.learning import Learning
-from supercoil.named import unknown
+from supercoil.named import number, unknown
 
 Value = float | bool | str | None
 _FLAG = ("false", "true")
@@ -66,7 +66,7 @@ def _number_of(tunable: Tunable, choices: tuple[str, ...] | None, value: float |
         return choices.index(value)
     if choices is not None and choices != _FLAG:
         raise ValueError(f"{tunable} = {value}: must be one of {', '.join(choices)}")
-    return float(value)
+    return number(str(tunable), value)
 
 
 def _tunable_of(place: _Place, name: str) -> Tunable:

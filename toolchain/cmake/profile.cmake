@@ -1,6 +1,6 @@
 # For supercoil-sim as packages have it: g++ optimises it for what supercoil-profile-runs does, and across files. Two
 # configurations of one build folder (toolchain/profile-guided): generate, with which supercoil-profile-runs counts how
-# often each branch is taken, and then use. Simulations take two thirds of the time, with the same results to the bit.
+# often each branch is taken, and then use. The results are the same to the bit.
 set(SUPERCOIL_PROFILE "" CACHE STRING "Profile-guided optimisation by g++: generate or use")
 set_property(CACHE SUPERCOIL_PROFILE PROPERTY STRINGS "" generate use)
 if(SUPERCOIL_PROFILE AND NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)

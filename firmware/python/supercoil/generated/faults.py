@@ -122,8 +122,8 @@ they repeat."""
 The position does not change at all; not even the noise of a working sensor is visible. The readings are new, so they are not stale, but
 they repeat."""
     remedy = """\
-1. Look at the value: a reading that equals position.min_m or max_m to the last digit is an end of the range. Move the sensor, or reduce
-   the load.
+1. Look at the value: a reading that equals position.min_m or max_m to the last digit is an end of the range. Look whether the muscle is whole;
+   then move the sensor, or reduce the load.
 2. Record one second of a working sensor at rest and compute its standard deviation. Put that, but at least a third of a converter step, into
    position.noise_rms_m.
 3. If the sensor really shows no noise, set noise_rms_m to 0. The detector is then off, and you rely on
@@ -145,14 +145,14 @@ more than 5 K above the air, in every state. So the muscle counts as hot for 15 
 
 - a driver or bus thread that repeats its last value
 - a converter that hangs
-- the position is at an end of the sensor's range: for example a load pulls the muscle longer than the sensor can measure, so that every
-  reading is the end value
+- the position is at an end of the sensor's range, so that every reading is the end value: for example the muscle is torn, or a load pulls
+  it longer than the sensor can measure
 - a sensor that is quieter than `position.noise_rms_m`: a filter was added, or the noise was guessed
 
 ## Remedy
 
-1. Look at the value: a reading that equals `position.min_m` or `max_m` to the last digit is an end of the range. Move the sensor, or reduce
-   the load.
+1. Look at the value: a reading that equals `position.min_m` or `max_m` to the last digit is an end of the range. Look whether the muscle is whole;
+   then move the sensor, or reduce the load.
 2. Record one second of a working sensor at rest and compute its standard deviation. Put that, but at least a third of a converter step, into
    `position.noise_rms_m`.
 3. If the sensor really shows no noise, set `noise_rms_m` to 0. The detector is then off, and you rely on

@@ -3,6 +3,7 @@
 import asyncio
 import math
 import threading
+import time
 import unittest
 from unittest import mock
 
@@ -15,6 +16,7 @@ from supercoil import sync
 from supercoil.address import open_bus
 from supercoil.generated import messages
 from supercoil.generated.names import Playback, Refusal, State, When
+from supercoil.session import LEASE_LASTS_S
 
 
 @patient_tests
@@ -163,6 +165,29 @@ class Sessions(unittest.TestCase):
             with self.assertRaisesRegex(supercoil.refusals.NotLeaseHolder, "lease is refused"):
                 muscle.arm()
             self.assertEqual([command[0] for command in board.commands], ["lease"])
+
+    def test_a_master_that_took_an_expired_lease_is_not_disarmed_at_the_end(self):
+        board = self.board()
+
+        async def blocks_its_event_loop(close):
+            muscle = await supercoil.Muscle(f"virtual:{self.channel}", NODE, deadline_s=60.0).connect()
+            await muscle.set_power(0.5)
+            await muscle.rest()
+            board.commands.clear()
+            board.obey = lambda opcode, *_: (0 if opcode == "disarm" else Refusal.not_lease_holder, 0)
+            board.status["leased"] = 1
+            end = time.monotonic() + LEASE_LASTS_S
+            while time.monotonic() <= end or not muscle.telemetry.status.leased:
+                time.sleep(0.01)  # noqa: ASYNC251
+            if close:
+                await muscle.close()
+
+        for close in (True, False):
+            with self.subTest(close=close):
+                board.obey = Leased()
+                board.status["leased"] = 0
+                asyncio.run(blocks_its_event_loop(close))
+                self.assertEqual([command[0] for command in board.commands], ["lease"])
 
     def test_an_old_board_without_leases_is_a_mismatch(self):
         self.board(lambda *_: (Refusal.no_lease, 0))

@@ -16,6 +16,7 @@ from typing import ClassVar
 from supercoil.errors import DeadlineError, NoAnswerError, RefusalError, SupercoilError
 from supercoil.generated.names import Opcode
 from supercoil.link import Link
+from supercoil.session import LEASE_LASTS_S
 
 RENEW_EVERY_S = 0.06  # three renewals fit into 250 ms
 _KEEP_PERIOD_S = 0.3
@@ -58,7 +59,11 @@ class Keeper:
         await self._disarm()
 
     async def _disarm(self) -> None:
-        # The lease may have been released at the deadline; another master that now has it is not stopped.
+        # The lease may have been released at the deadline, or have run out while the event loop was blocked; another
+        # master that now has it is not stopped.
+        if self._link.holds_lease and self._link.lease_age_s > LEASE_LASTS_S:
+            with contextlib.suppress(NoAnswerError):
+                await self._link.keep()
         leased = self._link.heartbeat.status is not None and self._link.heartbeat.status.leased
         if self._link.holds_lease or (self._commanded and not leased):
             await self._link.disarm()

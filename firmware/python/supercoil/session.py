@@ -15,7 +15,7 @@ from supercoil.layout import Layout
 
 ANSWER_WITHIN_S = 0.5
 # A lease lasts a second by default; one that may have run out is claimed again first.
-_LEASE_LASTS_S = 0.4
+LEASE_LASTS_S = 0.4
 # RefusedValue follows the answer at once, if the board sends it.
 _NEAREST_WITHIN_S = 0.05
 _MAX_CLAIMS = 4
@@ -200,7 +200,7 @@ class Session:
     async def _hold_lease(self) -> None:
         if not self.holds_lease:
             await self._claim(0)
-        elif self.lease_age_s > _LEASE_LASTS_S:
+        elif self.lease_age_s > LEASE_LASTS_S:
             await self.keep()
             if not self.holds_lease:
                 await self._claim(0)

@@ -4,7 +4,7 @@ Every fault has a page with its name, headed by its number, and a row in docs/fa
 scope. Links in README.md and docs/ are followed to the file and the heading; web addresses are not. The list of all
 pages, which is the site's navigation, has each page of docs/ once, and each manual page with its own description.
 The drawing of the wiring is what its program draws. Whatever an operator is told to check or to set is a key of the
-board's file or a signal on CAN, not a name in the code.
+board's file or a signal on CAN, not a name in the code. Margins are shown in the units of the faults' pages.
 """
 
 import pathlib
@@ -147,6 +147,24 @@ def problems_of_messages():
                     yield f"{where}: there is no page {page}"
 
 
+def problems_of_units():
+    """Programs and the monitor's page show a margin in the unit that its fault's page gives."""
+    units = {"metres": "m", "seconds": "s", "amperes": "A", "volts": "V", "kelvin": "K", "°C": "C", "joules": "J", "ohms": "Ohm",
+             "watts": "W", "steps": "steps"}
+    pages = {page.stem: re.search(r"^## Margin\n\n(?:In ([\w°]+))?", page.read_text(), re.M)[1] for page in FAULTS.glob("[a-z]*.md")}
+    documented = {name: units.get(word, word) for name, word in pages.items() if word}
+    source = (ROOT / "firmware/io/text/margin_unit.hpp").read_text()
+    code = {name: unit for names, unit in re.findall(r'((?:\s*case Fault::\w+:)+)\s*return "([^"]+)"', source)
+            for name in re.findall(r"::(\w+)", names)}
+    script = (ROOT / "firmware/apps/supercoil/monitor/page/margins.js").read_text()
+    shown = dict(re.findall(r'(\w+): "([^"]*)"', re.search(r"UNITS = \{(.*?)\}", script, re.S)[1]))
+    shown = {name: {"°C": "C", "Ω": "Ohm"}.get(unit, unit) for name, unit in shown.items()}
+    for where, given in (("margin_unit.hpp", code), ("margins.js", shown)):
+        for name in sorted(documented.keys() | given.keys()):
+            if documented.get(name) != given.get(name):
+                yield f"{where}: {name} is in {given.get(name)}; on its page in {documented.get(name)}"
+
+
 def problems_of_keys():
     """For pages that help an operator to repair a board: words with a unit, in backquotes."""
     docs = ROOT / "docs"
@@ -163,6 +181,6 @@ def problems_of_keys():
 
 if __name__ == "__main__":
     found = [*problems_of_faults(), *problems_of_results(), *problems_of_links(), *problems_of_navigation(),
-             *problems_of_drawing(), *problems_of_messages(), *problems_of_keys()]
+             *problems_of_drawing(), *problems_of_messages(), *problems_of_units(), *problems_of_keys()]
     print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

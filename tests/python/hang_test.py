@@ -53,6 +53,21 @@ async def main():
     await muscle.hold(0.5)
 asyncio.run(main())
 """
+ENDS_SIMULATION = """
+import sys, supercoil
+from supercoil import sync
+from supercoil.keeper import Keeper
+end = Keeper.end
+async def reported(keeper):
+    try:
+        await end(keeper)
+        print("disarmed", flush=True)
+    except supercoil.NoAnswerError:
+        print("no answer", flush=True)
+Keeper.end = reported
+simulation = sync.Simulation(sys.argv[1]).start()
+simulation.muscle.arm()
+"""
 # Prints where its simulation serves, and waits.
 SIMULATES = """
 import sys, time
@@ -149,6 +164,14 @@ class Hang(unittest.TestCase):
 
 
 class Orphan(unittest.TestCase):
+    @patient
+    def test_a_muscle_is_disarmed_before_its_simulation_is_killed(self):
+        done = subprocess.run([sys.executable, "-c", ENDS_SIMULATION, QUICK], capture_output=True, text=True,
+                              timeout=DEADLINE_S)
+        if done.returncode != 0 or done.stdout == "no answer\n":
+            raise supercoil.NoAnswerError(done.stderr)
+        self.assertEqual(done.stdout, "disarmed\n", done.stderr)
+
     def test_a_simulation_ends_with_its_killed_parent(self):
         process = subprocess.Popen([sys.executable, "-c", SIMULATES, str(QUICK)], stdout=subprocess.PIPE, text=True)
         self.addCleanup(process.stdout.close)

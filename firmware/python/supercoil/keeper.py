@@ -47,6 +47,9 @@ class Keeper:
     def start(self) -> None:
         self._task = asyncio.create_task(self._run())
         self._connected.add(self)
+        # Last in, first out: before the exit handler that kills a simulation, whose muscle this may be.
+        atexit.unregister(Keeper.end_all)
+        atexit.register(Keeper.end_all)
 
     async def end(self) -> None:
         """Renews nothing any more, disarms the muscle if it was commanded, and releases the lease."""
@@ -163,6 +166,3 @@ class Keeper:
                          self._deadline_s)
             await self._link.command(Opcode.rest, 0.0)
         await self._link.release()
-
-
-atexit.register(Keeper.end_all)

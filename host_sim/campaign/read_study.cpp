@@ -69,6 +69,7 @@ void read_distribution(Section& section, Draw& draw) {
   std::string found;
   for (const auto& [name, kind] : kinds) {
     if (!section.has(name)) continue;
+    section.allow({name});
     if (!found.empty())
       section.wrong(name, "conflicts with " + found + ": give exactly one distribution");
     found = name;
@@ -121,7 +122,8 @@ std::vector<Draw> read_draws(Section& top) {
     const auto twice = std::count_if(draws.begin(), draws.end(), [&](const Draw& other) {
       return other.name == draws.back().name;
     });
-    if (twice > 1) section.wrong("name", draws.back().name + " is drawn twice");
+    if (twice > 1 && !draws.back().name.empty())
+      section.wrong("name", draws.back().name + " is drawn twice");
     if (draws.size() > max_draws) section.wrong("name", "there are more than 500 draws");
   }
   return draws;

@@ -235,19 +235,17 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
 std::vector<std::string> Section::texts(std::string_view key) {
   note(key, {.type = "texts"});
   const toml::node* node = find(key);
+  if (node == nullptr) return {};
   std::vector<std::string> found;
   const auto add = [&](const toml::node& one) {
     const auto text = one.value_exact<std::string>();
-    if (!text || text->empty()) return wrong(key, "must be a name or a list of names");
+    if (!text || text->empty()) return false;
     found.push_back(*text);
+    return true;
   };
-  if (node == nullptr) return found;
-  if (const toml::array* list = node->as_array()) {
-    for (const toml::node& one : *list)
-      add(one);
-  } else {
-    add(*node);
-  }
+  const toml::array* list = node->as_array();
+  const bool right = list == nullptr ? add(*node) : std::all_of(list->begin(), list->end(), add);
+  if (!right) wrong(key, "must be a name or a list of names");
   if (KeyList* keys = diagnostics_->keys()) keys->back().value = found;
   return found;
 }

@@ -110,6 +110,17 @@ TEST(Study, ErrorsNameTheProblemOfADraw) {
                 draw("uniform = [1.0, 2.0]") + draw("uniform = [1.0, 2.0]"));
 }
 
+TEST(Study, EachMistakeIsToldOnce) {
+  const auto problems = [](const std::string& text) {
+    const StudyFile file(text);
+    return read_study(file.path()).error().size();
+  };
+  CHECK_EQUAL(std::size_t{1}, problems("[study]\ncontrollers = ['pi', 3, '']"));
+  CHECK_EQUAL(std::size_t{1}, problems(draw("uniform = [1.0, 2.0]\nconstant = 1.0")));
+  CHECK_EQUAL(std::size_t{1}, problems(draw("normal = [1.0, 2.0]\nuniform = [1.0, 2.0]")));
+  CHECK_EQUAL(std::size_t{2}, problems("[[draw]]\nconstant = 1.0\n[[draw]]\nconstant = 1.0"));
+}
+
 TEST(Study, AnUnknownNameSuggestsTheNearestStudy) {
   const auto study = read_study("folows");
   CHECK(!study);

@@ -13,6 +13,7 @@
 #include "runner/mode_outcome.hpp"
 #include "runner/scenario_promise.hpp"
 #include "text/documentation.hpp"
+#include "text/margin_unit.hpp"
 #include "text/number_text.hpp"
 #include "text/program_version.hpp"
 
@@ -108,7 +109,7 @@ std::string Summary::FaultEvent::text() const {
   if (std::isfinite(margin.measured) && std::isfinite(margin.limit)) {
     const bool rounding = std::abs(margin.measured) < 1e-9 * std::abs(margin.limit);
     line += ": " + number_text(rounding ? 0.0 : margin.measured, 3) + " measured, limit ";
-    line += number_text(margin.limit, 3);
+    line += number_text(margin.limit, 3) + margin_unit_after(fault);
   }
   return line + " (see " + explanation_of(fault) + ")";
 }

@@ -90,7 +90,7 @@ class Summary {
     Fault fault;
     double time_s;
     detectors::Margin margin;
-    /// "fault 20 heater_open at 1.234 s: 0.1 measured, limit 0.27 (see faults/...)"
+    /// "fault 20 heater_open at 1.234 s: 0.1 measured, limit 0.27 A (see faults/...)"
     std::string text() const;
   };
   /// In the order in which they latched.

@@ -172,7 +172,7 @@ class Outcome(ProgramCase):
         done, summary = self.run_of(SHORT + "injected_fault.heater_open = true\n", "--allow-fault")
         fault = summary["faults"][0]
         self.assertGreater(fault["limit"], fault["measured"])
-        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} (see faults/heater_open in `supercoil-sim docs`)", fault["text"])
+        self.assertIn(f": 0 measured, limit {fault['limit']:.3g} A (see faults/heater_open in `supercoil-sim docs`)", fault["text"])
         self.assertIn(fault["text"] + "\n", done.stdout)
 
     def test_with_json_only_json_is_printed(self):

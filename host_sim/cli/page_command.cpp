@@ -36,7 +36,7 @@ std::string page_program(const std::filesystem::path& own) {
 }
 
 int refuse_without_program(const std::filesystem::path& own) {
-  return fail(exit_failed, "the program supercoil, which serves the page, was not found beside " +
+  return fail(exit_failed, "the program supercoil, which serves pages, was not found beside " +
                                own.string() + ": build or install it too");
 }
 

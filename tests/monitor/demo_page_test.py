@@ -43,9 +43,10 @@ class DemoPage(unittest.TestCase):
             (prefix / "libexec/supercoil-sim").mkdir(parents=True)
             shutil.copy(PROGRAMS / "supercoil-sim", prefix / "bin")
             words = [prefix / "bin/supercoil-sim", "page", "--port", "0", "--out", prefix / "out"]
-            done = subprocess.run(words, capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stdout), (1, ""))
-            self.assertIn("the program supercoil, which serves the page, was not found beside", done.stderr)
+            for served in (words, [words[0], "docs"]):
+                done = subprocess.run(served, capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stdout), (1, ""))
+                self.assertIn("the program supercoil, which serves pages, was not found beside", done.stderr)
             shutil.copy(SUPERCOIL, prefix / "libexec/supercoil-sim")
             page = Program(words, r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
             self.addCleanup(page.stop)

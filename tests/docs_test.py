@@ -149,10 +149,12 @@ def problems_of_messages():
 
 def problems_of_units():
     """Programs and the monitor's page show a margin in the unit that its fault's page gives."""
-    units = {"metres": "m", "seconds": "s", "amperes": "A", "volts": "V", "kelvin": "K", "°C": "C", "joules": "J", "ohms": "Ohm",
-             "watts": "W", "steps": "steps"}
-    pages = {page.stem: re.search(r"^## Margin\n\n(?:In ([\w°]+))?", page.read_text(), re.M)[1] for page in FAULTS.glob("[a-z]*.md")}
-    documented = {name: units.get(word, word) for name, word in pages.items() if word}
+    units = {"metres": "m", "seconds": "s", "amperes": "A", "volts": "V", "kelvin": "K", "°C": "C", "joules": "J",
+             "ohms": "Ohm", "watts": "W", "steps": "steps"}
+    documented = {}
+    for page in FAULTS.glob("[a-z]*.md"):
+        if unit := re.search(r"^## Margin\n\n(?:In ([\w°]+))?", page.read_text(), re.M)[1]:
+            documented[page.stem] = units.get(unit, unit)
     source = (ROOT / "firmware/io/text/margin_unit.hpp").read_text()
     code = {name: unit for names, unit in re.findall(r'((?:\s*case Fault::\w+:)+)\s*return "([^"]+)"', source)
             for name in re.findall(r"::(\w+)", names)}

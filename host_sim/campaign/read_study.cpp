@@ -15,16 +15,16 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
+using config::any_number;
 using config::Diagnostics;
 using config::Section;
 
-constexpr config::Range any{-1e300, 1e300};
 /// Characters that would break a line of runs.csv.
 constexpr std::string_view separators = ",\"\n\r|";
 
 /// "[a, b]", the second above the first.
 void read_ends(Section& section, const std::string& key, double lowest, Distribution& into) {
-  const auto ends = section.required_numbers(key, {lowest, any.max}, 2, 2);
+  const auto ends = section.required_numbers(key, {lowest, any_number.max}, 2, 2);
   if (ends.empty()) return;
   into.first = ends[0];
   into.second = ends[1];
@@ -32,9 +32,9 @@ void read_ends(Section& section, const std::string& key, double lowest, Distribu
 }
 
 void read_normal(Section& section, Distribution& into) {
-  const auto given = section.required_numbers("normal", any, 2, 2);
-  into.min = section.number("min", into.min, any);
-  into.max = section.number("max", into.max, any);
+  const auto given = section.required_numbers("normal", any_number, 2, 2);
+  into.min = section.number("min", into.min, any_number);
+  into.max = section.number("max", into.max, any_number);
   if (given.empty()) return;
   into.first = given[0];
   into.second = given[1];
@@ -77,7 +77,7 @@ void read_distribution(Section& section, Draw& draw) {
   }
   switch (draw.distribution.kind) {
     case Kind::uniform:
-      return read_ends(section, "uniform", any.min, draw.distribution);
+      return read_ends(section, "uniform", any_number.min, draw.distribution);
     case Kind::log_uniform:
       return read_ends(section, "log_uniform", 1e-300, draw.distribution);
     case Kind::normal:
@@ -88,7 +88,7 @@ void read_distribution(Section& section, Draw& draw) {
     case Kind::constant:
       break;
   }
-  draw.distribution.first = section.required_number("constant", any);
+  draw.distribution.first = section.required_number("constant", any_number);
 }
 
 Draw read_draw(Section section) {
@@ -134,8 +134,8 @@ std::vector<Goal> read_goals(Section section) {
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < quantity_count; ++i) {
     const std::string_view name = quantity(i).name;
-    const auto max =
-        i == faults ? section.number(name, 0.0, any) : section.optional_number(name, any);
+    const auto max = i == faults ? section.number(name, 0.0, any_number)
+                                 : section.optional_number(name, any_number);
     if (max && section.has(name)) goals.push_back({i, *max});
   }
   if (!section.has("faults")) goals.push_back({faults, 0.0});

@@ -49,16 +49,17 @@ std::string allowed_text(const Key& key) {
   for (const std::string& name : key.names)
     names += (names.empty() ? "" : ", ") + name;
   if (!key.range) return names;
+  const bool limited = !is_any(*key.range);
   const auto shown = [&key](double limit) {
     return key.type == "integer" ? std::to_string(static_cast<std::int64_t>(limit))
                                  : number_text(limit, key_digits);
   };
   std::string range = shown(key.range->min) + " to " + shown(key.range->max);
-  if (key.type != "numbers") return range;
+  if (key.type != "numbers") return limited ? range : "";
   const std::string least = std::to_string(key.min_count);
   const bool fixed = key.min_count == key.max_count;
-  return (fixed ? least : least + " to " + std::to_string(key.max_count)) + " numbers, each " +
-         range;
+  return (fixed ? least : least + " to " + std::to_string(key.max_count)) + " numbers" +
+         (limited ? ", each " + range : "");
 }
 
 std::string to_text(const KeyList& keys) {

@@ -18,6 +18,12 @@ struct Range {
   double max;
 };
 
+/// Any number. Whoever says what is allowed leaves this range out.
+inline constexpr Range any_number{-1e300, 1e300};
+constexpr bool is_any(const Range& range) {
+  return range.min <= any_number.min && range.max >= any_number.max;
+}
+
 /// monostate: none. Numbers are finite, lists and texts are not empty.
 using KeyValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
                               std::vector<double>, std::vector<std::string>>;
@@ -39,7 +45,7 @@ struct Key {
 
 using KeyList = std::vector<Key>;
 
-/// What a key may be: "0 to 255"; empty: any text.
+/// What a key may be: "0 to 255"; empty: any number or text.
 std::string allowed_text(const Key& key);
 
 /// A line each: value, default, the file's line, and what is allowed.

@@ -48,7 +48,11 @@ std::string list_rule(Range range, std::size_t min_count, std::size_t max_count)
   const std::string count = min_count == max_count
                                 ? std::to_string(min_count)
                                 : std::to_string(min_count) + " to " + std::to_string(max_count);
-  return "a list of " + count + " numbers, each " + shown(range);
+  return "a list of " + count + " numbers" + (is_any(range) ? "" : ", each " + shown(range));
+}
+
+std::string number_rule(const Range& range) {
+  return is_any(range) ? "a number" : "a number, " + shown(range);
 }
 
 /// monostate: a table, or what no reader accepts.
@@ -145,7 +149,7 @@ double Section::number(std::string_view key, double fallback, Range range) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   if (!node->is_number()) {
-    wrong(key, "must be a number, " + shown(range));
+    wrong(key, "must be " + number_rule(range));
     return fallback;
   }
   const double value = *node->value<double>();
@@ -257,7 +261,7 @@ std::optional<double> Section::optional_number(std::string_view key, Range range
 
 double Section::required_number(std::string_view key, Range range) {
   const double value = number(key, std::numeric_limits<double>::quiet_NaN(), range);
-  require(key, "a number, " + shown(range));
+  require(key, number_rule(range));
   return value;
 }
 

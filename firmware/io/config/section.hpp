@@ -48,8 +48,8 @@ class Section {
   /// Between min_count and max_count numbers, each in range. An empty default is none.
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range range,
                               std::size_t min_count, std::size_t max_count);
-  /// One text that is not empty, or a list of them. Empty if the key is absent; of a wrong list, the
-  /// texts before the mistake.
+  /// One text that is not empty, or a list of them. Empty if the key is absent; of a wrong list,
+  /// the texts before the mistake.
   std::vector<std::string> texts(std::string_view key);
   /// One of a set of names.
   template <class Value, std::size_t N>

@@ -243,6 +243,8 @@ class Campaign(Batch, ProgramCase):
                           {"tracking_rms_m": 1e-3, "faults": 0}))
         text = self.campaign("--check", "--keys").stdout
         self.assertRegex(text, r'\nstudy\.controllers +\["pi", "pd_ff"\] +none +5\n')
+        self.assertRegex(text, r"\ngoals\.peak_m +none +none\n")
+        self.assertRegex(text, r"\ndraw\[2\]\.uniform .* 2 numbers\n")
         keys = {key["key"]: key for key in json.loads(self.campaign("--check", "--keys", "--json").stdout)["keys"]}
         self.assertEqual([keys["study.runs"][name] for name in ("value", "default", "line", "min", "max")],
                          [24, 1000, 3, 1, 1000000])

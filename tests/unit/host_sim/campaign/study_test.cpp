@@ -86,7 +86,7 @@ TEST(Study, ErrorsNameTheProblemAndItsLine) {
 }
 
 TEST(Study, ErrorsNameTheProblemOfADraw) {
-  check_problem("draw[1].constant: is missing", draw(""));
+  check_problem("draw[1].constant: is missing: it must be a number\n", draw(""));
   check_problem("log_uniform = [1, 2]: conflicts with uniform: give exactly one distribution",
                 draw("uniform = [1.0, 2.0]\nlog_uniform = [1.0, 2.0]"));
   check_problem("draw[1].uniform = [2, 1]: the second value must be greater than the first",
@@ -99,8 +99,9 @@ TEST(Study, ErrorsNameTheProblemOfADraw) {
   check_problem("list = []: must be a list of numbers, texts, true or false", draw("list = []"));
   check_problem("list = [[1]]: must be a list of numbers, texts, true or false",
                 draw("list = [[1.0]]"));
-  check_problem("uniform = 5: must be a list of 2 numbers", draw("uniform = 5"));
-  check_problem("normal = 5: must be a list of 2 numbers", draw("normal = 5"));
+  check_problem("uniform = 5: must be a list of 2 numbers\n", draw("uniform = 5"));
+  check_problem("normal = 5: must be a list of 2 numbers\n", draw("normal = 5"));
+  check_problem("min = 'low': must be a number\n", draw("normal = [0.0, 1.0]\nmin = 'low'"));
   check_problem("it cannot be combined with times or over", draw("list = [1.0]\ntimes = 'x'"));
   check_problem("needs group: the draws to correlate with",
                 draw("uniform = [1.0, 2.0]\ncorrelation = 0.5"));

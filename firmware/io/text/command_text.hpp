@@ -22,8 +22,8 @@ Result<Command> parse_command(std::string_view text, std::size_t channels,
 Result<std::uint8_t> parse_channel(std::string_view word, std::size_t channels,
                                    std::string_view addressed = "channel");
 
-/// Why a command with this value is not sent, e.g. a negative power, which no heater can give; empty:
-/// it is.
+/// Why a command with this value is not sent, e.g. a negative power, which no heater can give;
+/// empty: it is.
 std::string value_problem(Verb verb, double value);
 
 /// "1 knot 0.02 0.01 0.001": s after the previous knot, m, m/s; "1 start 12.345": at this time of

@@ -10,7 +10,7 @@ from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
 from supercoil.joints import QUANTITIES, Joint, joint_of
-from supercoil.named import number, unknown
+from supercoil.named import duration, number, unknown
 
 _POLL_PERIOD_S = 0.02
 _SETTLED_S = 0.2
@@ -35,7 +35,7 @@ class Order(NamedTuple):
 class Commands(Connection):
     async def arm(self, timeout_s: float = 5.0) -> None:
         """Waits for a board that is not ready yet. On return, the heater is measured and ready to heat."""
-        end = time.monotonic() + number("timeout_s", timeout_s)
+        end = time.monotonic() + duration("timeout_s", timeout_s)
         while True:
             try:
                 await self._obey(Opcode.arm)
@@ -85,7 +85,7 @@ class Commands(Connection):
     async def move_to(self, position_m: float, *, tolerance_m: float = 2e-4, timeout_s: float = 30.0) -> None:
         """Returns when the muscle has been within the tolerance for 0.2 s. Raises at once what hold() raises."""
         number("tolerance_m", tolerance_m, 0.0)
-        number("timeout_s", timeout_s)
+        duration("timeout_s", timeout_s)
         await self.set_position(position_m)
         end = time.monotonic() + timeout_s
         there_since: float | None = None
@@ -103,7 +103,7 @@ class Commands(Connection):
         """Waits, and meanwhile keeps the muscle where it is. Raises at once: a fault; the refusal of the renewed
         command, because another program has disarmed the muscle or taken its lease; BusError or NoAnswerError, if the
         bus or, for 2 s, the board is gone."""
-        end = time.monotonic() + number("seconds", seconds)
+        end = time.monotonic() + duration("seconds", seconds)
         self._kept.raise_if_let_go()
         while (rest := end - time.monotonic()) > 0:
             await self._wait_held(min(rest, _POLL_PERIOD_S))

@@ -10,7 +10,7 @@ from supercoil.connection import FRESH_BEATS, HEARTBEAT_S
 from supercoil.errors import NoAnswerError, NotReachedError, OutcomeError
 from supercoil.generated import messages, results
 from supercoil.generated.names import Mode, Opcode, Result, State
-from supercoil.named import number
+from supercoil.named import duration, number
 
 _FRICTION = 1 << results.NOTES.index("friction")  # its bit is in another message than the others
 
@@ -33,7 +33,7 @@ class Learning(Commands):
 
     async def _learn(self, opcode: Opcode, mode: Mode, timeout_s: float) -> Outcome:
         heartbeat = self._link.heartbeat
-        end = time.monotonic() + number("timeout_s", timeout_s)
+        end = time.monotonic() + duration("timeout_s", timeout_s)
         await self._heat(opcode)
         fresh_at = heartbeat.beats + FRESH_BEATS
         while heartbeat.beats < fresh_at or heartbeat.status is None or (

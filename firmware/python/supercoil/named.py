@@ -38,6 +38,11 @@ def number(what: str, value: object, least: float = -math.inf) -> float:
     return carried
 
 
+def duration(what: str, value: object) -> float:
+    """Likewise, in s; math.inf is without end."""
+    return math.inf if value == math.inf else number(what, value)
+
+
 def unknown(what: str, name: str, known: Iterable[str]) -> ValueError:
     """what: "message"; the error names the one that was probably meant, or all."""
     names = list(known)

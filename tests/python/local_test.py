@@ -133,7 +133,7 @@ class Local(unittest.TestCase):
                 muscle.change(Setting.max_power_W, 1.0)
             self.daemon.answers["playback"] = "wrong: channel 'playback': must be 1 to 2"  # an older board
             with self.assertRaisesRegex(supercoil.BusError,
-                                        "nothing is known about channel 2: wrong: channel 'playback'"):
+                                        "nothing is known about channel 2: channel 'playback'"):
                 muscle.play([0.0, 1.0], [0.003, 0.003], settle_s=0.0)
 
     def test_tuning_reports_the_boards_reason_for_a_refusal(self):

@@ -21,6 +21,11 @@ _MAX_BYTES = 8192
 _SENSES = (Setting.supply_gain, Setting.current_gain, Setting.sense_error_ratio)
 
 
+def _unmarked(answer: str) -> str:
+    """As a person is told it: supercoild marks what is wrong with a line."""
+    return answer.removeprefix("wrong: ")
+
+
 class SocketLink:
     """The socket has no lease: whoever can open it can command. The state is requested ten times a second."""
 
@@ -180,7 +185,7 @@ class SocketLink:
             channel, *words = line.split()
             if channel == str(self._channel):
                 return words
-        raise BusError(f"{self._path}: nothing is known about channel {self._channel}: {answer}")
+        raise BusError(f"{self._path}: nothing is known about channel {self._channel}: {_unmarked(answer)}")
 
     async def _numbers(self, request: str) -> list[float]:
         return [float(word) for word in await self._words(request)]
@@ -188,7 +193,7 @@ class SocketLink:
     def _refused(self, line: str, answer: str) -> SupercoilError:
         verdict, _, rest = answer.partition(": ")
         if verdict != "refused":
-            return SupercoilError(f"channel {self._channel}: {line}: {answer}")
+            return SupercoilError(f"channel {self._channel}: {line}: {_unmarked(answer)}")
         name, _, reason = rest.partition(": ")
         name, _, instead = name.partition("; ")
         refusal = Refusal.__members__.get(name, Refusal.queue_full)

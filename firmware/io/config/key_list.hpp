@@ -20,6 +20,7 @@ struct Range {
 
 /// Any number. Whoever says what is allowed leaves this range out.
 inline constexpr Range any_number{-1e300, 1e300};
+/// Whether it limits nothing.
 constexpr bool is_any(const Range& range) {
   return range.min <= any_number.min && range.max >= any_number.max;
 }

@@ -1,5 +1,5 @@
-"""docs/configuration.md, scenarios.md, campaigns.md and tuning.md say of every key what the programs say; toolchain/generate-keys notices
-when they do not."""
+"""docs/configuration.md, scenarios.md, campaigns.md and tuning.md say of every key what the programs say;
+toolchain/generate-keys notices when they do not."""
 
 import os
 import pathlib

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/command_line.hpp"
-#include "apps/common/output_written.hpp"
+#include "apps/common/exit_status.hpp"
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "cli/results_json.hpp"

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/command_line.hpp"
-#include "apps/common/output_written.hpp"
+#include "apps/common/exit_status.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/options.hpp"
 #include "apps/supercoil/setup/options.hpp"

@@ -8,7 +8,6 @@
 
 #include "apps/common/command_line.hpp"
 #include "apps/common/exit_status.hpp"
-#include "apps/common/output_written.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "text/program_version.hpp"

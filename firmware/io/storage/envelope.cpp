@@ -41,7 +41,7 @@ std::string difference(std::string_view line, std::string_view body) {
   if (!take_number(line, format)) return damaged_line;
   if (format > file_format) {
     return "is of format " + std::to_string(format) +
-           ", written by a newer firmware; this one reads formats 1 and " +
+           ", written by a newer firmware; this one reads formats 1 to " +
            std::to_string(file_format);
   }
   std::size_t bytes = 0;

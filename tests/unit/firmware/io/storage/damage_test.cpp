@@ -124,7 +124,7 @@ TEST(Damage, IsDescribedInWords) {
 
 TEST(Damage, AFileOfANewerFirmwareIsNotCalledDamaged) {
   STRCMP_EQUAL(
-      "is of format 3, written by a newer firmware; this one reads formats 1 and 2",
+      "is of format 3, written by a newer firmware; this one reads formats 1 to 2",
       answer("# supercoil learned, format 3, sealed in another way\nversion = 1\n").c_str());
 }
 

@@ -15,7 +15,6 @@ VALUE = re.compile(r'[-+\d.e]+|\[[-+\d.e, ]*\]|true|false|none|–|`".*"`')
 TOML_LINE = re.compile(r"^(?P<key>\w+) = (?P<value>[^#]+?)\s*(?:#\s*(?:\[(?P<range>[^\]]*)\] ?)?(?P<comment>.*))?$")
 COMMENT_COLUMN = 26  # at least two spaces after the value
 CHOICES = ("kind", "preset")
-UNLIMITED = (-1e300, 1e300)
 VARIES = object()
 
 
@@ -81,7 +80,7 @@ class Known:
         types = only([each.type for each in self.seen])
         if VARIES in (self.min, self.max, counts, types) or self.is_free():
             return VARIES
-        text = "" if (self.min, self.max) == UNLIMITED else f"{shown(self.min)} to {shown(self.max)}"
+        text = "" if self.min is None else shown(self.min) + (" or more" if self.max is None else f" to {shown(self.max)}")
         if self.type == "numbers":
             least, most = counts
             values = f"{least if least == most else f'{least} to {most}'} values"

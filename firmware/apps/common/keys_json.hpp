@@ -31,10 +31,9 @@ inline nlohmann::ordered_json keys_json(const config::KeyList& keys) {
                                  {"default", value_json(key.fallback)},
                                  {"required", key.required},
                                  {"line", key.line}};
-    if (key.range) {
-      entry["min"] = key.range->min;
-      entry["max"] = key.range->max;
-    }
+    // An end that limits nothing is left out.
+    if (key.range && key.range->min > config::any_number.min) entry["min"] = key.range->min;
+    if (key.range && key.range->max < config::any_number.max) entry["max"] = key.range->max;
     if (key.max_count > 0) {
       entry["min_count"] = key.min_count;
       entry["max_count"] = key.max_count;

@@ -8,9 +8,7 @@
 
 #include "apps/common/feasibility_json.hpp"
 #include "config/describe.hpp"
-#include "runner/board_of.hpp"
-#include "runner/reference_feasibility.hpp"
-#include "runner/scenario_promise.hpp"
+#include "runner/scenario_forecast.hpp"
 
 namespace supercoil::host_sim {
 
@@ -33,22 +31,24 @@ void print_lines(const char* title, const std::vector<std::string>& lines) {
 }  // namespace
 
 void print_forecast(const Scenario& scenario) {
-  const BoardSettings board = forecast_board_of(scenario);
+  const ScenarioForecast forecast(scenario);
+  const BoardSettings& board = forecast.board;
   print_lines("muscle", config::describe_feasibility(board, 0));
   print_lines("muscle", {describe_rest(scenario)});
   print_lines("recommended", config::describe_recommendation(board, 0));
-  print_lines("reference", {describe_reference(scenario), describe_passed(scenario),
-                            describe_out_of_range(scenario), describe_ceiling(scenario),
-                            describe_scenario_promise(scenario)});
+  print_lines("reference", {describe_reference(forecast.reference, scenario),
+                            describe_passed(forecast.reference), describe_out_of_range(scenario),
+                            describe_ceiling(scenario), describe_promise(forecast.promise)});
   print_lines("advice", advice_of(scenario, board));
 }
 
 nlohmann::ordered_json forecast_json(const Scenario& scenario) {
   using Json = nlohmann::ordered_json;
-  const BoardSettings board = forecast_board_of(scenario);
+  const ScenarioForecast forecast(scenario);
+  const BoardSettings& board = forecast.board;
   Json reference;
-  if (const auto f = reference_feasibility(scenario)) {
-    const auto promise = scenario_promise(scenario);
+  if (const auto& f = forecast.reference) {
+    const auto& promise = forecast.promise;
     reference = {{"feasible", f->feasible()},
                  {"first_s", json_number(f->first_s)},
                  {"first_lasts_s", json_number(f->first_duration_s)},
@@ -70,7 +70,7 @@ nlohmann::ordered_json forecast_json(const Scenario& scenario) {
                  {"promised_rms_m", promise ? Json(promise->parts.error_m()) : Json()},
                  {"out_of_range", describe_out_of_range(scenario)},
                  {"above_ceiling", describe_ceiling(scenario)},
-                 {"text", describe_reference(scenario)}};
+                 {"text", describe_reference(f, scenario)}};
   }
   return {{"scenario", scenario.name},
           {"ticks", scenario.ticks()},

@@ -67,13 +67,14 @@ int NodeRun::conclude(double wall_s, const LearnedFolder& learned) {
       return fail(exit_failed, (folder_->path() / finished.error().text()).string());
   }
   if (plot_) write_svg(*folder_, plot_->figure(), "plot.svg");
-  auto concluded =
-      host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
+  const ScenarioForecast forecast(scenario_);
+  auto concluded = host_sim::conclude(summary_, scenario_, forecast, simulation_, wall_s, *folder_,
+                                      options_->quiet);
   if (!concluded) return fail(exit_failed, concluded.error().text());
   summary_json_ = std::move(*concluded);
   if (!learned.complete()) return exit_failed;  // the loss was reported
   if (options_->real_time && !ever_arms(scenario_)) return exit_done;
-  return report_outcome(summary_, scenario_, simulation_, *options_);
+  return report_outcome(summary_, scenario_, forecast, simulation_, *options_);
 }
 
 }  // namespace supercoil::host_sim

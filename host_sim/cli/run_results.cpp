@@ -128,7 +128,8 @@ bool arms_later(const Scenario& scenario) {
 }
 
 void print_summary(const Summary& summary, const Scenario& scenario,
-                   const nlohmann::ordered_json& json, const std::string& folder) {
+                   const ScenarioForecast& forecast, const nlohmann::ordered_json& json,
+                   const std::string& folder) {
   std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
               json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
@@ -139,7 +140,7 @@ void print_summary(const Summary& summary, const Scenario& scenario,
                 json["window_s"][0].get<double>(), json["window_s"][1].get<double>());
   }
   print_promise(json);
-  if (const std::string passed = describe_passed(scenario);
+  if (const std::string passed = describe_passed(forecast.reference);
       !passed.empty() && !json["off_reference_rms_m"].is_null()) {
     std::printf("it was %.3g mm rms from the reference itself: %s\n",
                 1e3 * json["off_reference_rms_m"].get<double>(), passed.c_str());
@@ -194,15 +195,15 @@ void finish(recorder::FlightRecorder& recorder, const RunOptions& options) {
 }
 
 Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
-                             const Simulation& simulation, double wall_s, OutputFolder& folder,
-                             bool quiet) {
-  const auto json = summary.to_json(scenario, simulation, wall_s);
+                             const ScenarioForecast& forecast, const Simulation& simulation,
+                             double wall_s, OutputFolder& folder, bool quiet) {
+  const auto json = summary.to_json(scenario, forecast.promise, simulation, wall_s);
   const std::string text =
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (auto written = folder.write("summary.json", text); !written)
     return tl::unexpected(written.error());
   if (auto done = folder.commit(); !done) return tl::unexpected(done.error());
-  if (!quiet) print_summary(summary, scenario, json, folder.path().string());
+  if (!quiet) print_summary(summary, scenario, forecast, json, folder.path().string());
   return text;
 }
 
@@ -210,12 +211,13 @@ bool ever_arms(const Scenario& scenario) {
   return arms(scenario.start.action) || arms_later(scenario);
 }
 
-int report_outcome(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+int report_outcome(const Summary& summary, const Scenario& scenario,
+                   const ScenarioForecast& forecast, const Simulation& simulation,
                    const RunOptions& options) {
   const Fault fault = summary.ended_in();
   const auto& motion = simulation.first_motion();
   const bool unfinished = motion && std::isnan(motion->rms_m());
-  const std::string unfollowed = summary.did_not_follow_because(scenario);
+  const std::string unfollowed = summary.did_not_follow_because(scenario, forecast.promise);
   const std::string nothing_found = mode_failed_because(scenario, simulation);
   const bool ended_well = summary.armed() && fault == Fault::none && !unfinished;
   if (ended_well && unfollowed.empty() && nothing_found.empty()) return exit_done;

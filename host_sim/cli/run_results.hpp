@@ -30,15 +30,16 @@ void finish(recorder::FlightRecorder& recorder, const RunOptions& options);
 /// Writes summary.json to the folder and commits the folder; prints the figures unless quiet.
 /// Returns the content of summary.json.
 Result<std::string> conclude(const Summary& summary, const Scenario& scenario,
-                             const Simulation& simulation, double wall_s, OutputFolder& folder,
-                             bool quiet);
+                             const ScenarioForecast& forecast, const Simulation& simulation,
+                             double wall_s, OutputFolder& folder, bool quiet);
 
 /// Whether the operator arms the muscle at some time, so that there is something to judge.
 bool ever_arms(const Scenario& scenario);
 
 /// Prints what else there is to say of the run; it is an error if nothing was followed. Returns the
 /// program's exit status.
-int report_outcome(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+int report_outcome(const Summary& summary, const Scenario& scenario,
+                   const ScenarioForecast& forecast, const Simulation& simulation,
                    const RunOptions& options);
 
 /// Draws the figure into the folder and returns it, or reports why not and returns nothing: results

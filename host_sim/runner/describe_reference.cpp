@@ -94,8 +94,8 @@ std::string motion_text(const ReferenceFeasibility& f) {
 
 }  // namespace
 
-std::string describe_reference(const Scenario& scenario) {
-  const auto f = reference_feasibility(scenario);
+std::string describe_reference(const std::optional<ReferenceFeasibility>& f,
+                               const Scenario& scenario) {
   if (!f) return {};
   if (f->feasible()) return feasible_text(*f);
   std::string line = infeasible_text(*f, scenario.start);
@@ -114,8 +114,7 @@ std::string describe_reference(const Scenario& scenario) {
                      : "; shaping does not account for plant.load_N");
 }
 
-std::string describe_passed(const Scenario& scenario) {
-  const auto f = reference_feasibility(scenario);
+std::string describe_passed(const std::optional<ReferenceFeasibility>& f) {
   if (!f || !f->attenuates()) return {};
   std::string text = "the reference model passes " + in_digits(f->passed_ratio);
   text += " of its amplitude: a muscle that follows the model is " + in_mm(f->off_reference_rms_m);

@@ -56,10 +56,11 @@ bool follows_position(const Conditions& c);
 std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario);
 
 /// The same in words; empty if there is no position to follow.
-std::string describe_reference(const Scenario& scenario);
+std::string describe_reference(const std::optional<ReferenceFeasibility>& f,
+                               const Scenario& scenario);
 
 /// Warns that the reference model passes little of the reference; empty: it passes most.
-std::string describe_passed(const Scenario& scenario);
+std::string describe_passed(const std::optional<ReferenceFeasibility>& f);
 
 /// Warns that the reference goes, at the start or after an event, where the board refuses to go;
 /// empty: it does not, or a joint's other muscle takes it there.

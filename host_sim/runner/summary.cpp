@@ -11,7 +11,6 @@
 #include "supercoil/control/actuator/conversions.hpp"
 
 #include "runner/mode_outcome.hpp"
-#include "runner/scenario_promise.hpp"
 #include "text/documentation.hpp"
 #include "text/margin_unit.hpp"
 #include "text/number_text.hpp"
@@ -125,11 +124,11 @@ std::string Summary::never_armed_because(const Scenario& scenario,
              : "the self-test did not finish";
 }
 
-std::string Summary::did_not_follow_because(const Scenario& scenario) const {
+std::string Summary::did_not_follow_because(const Scenario& scenario,
+                                            const std::optional<ScenarioPromise>& promise) const {
   // A motion that has just begun is small, and its error is largest at the beginning.
   constexpr double min_s = 10.0;
   if (static_cast<double>(tracking_.count()) * scenario.step_s() < min_s) return {};
-  const auto promise = scenario_promise(scenario);
   const double limit_m = unfollowed_m(promise, motion_.size_m());
   if (!(tracking_.rms() > limit_m)) return {};
   std::string text = number_text(1e3 * tracking_.rms(), 3) +
@@ -162,8 +161,9 @@ bool Summary::behind_by_reference() const {
   return infeasible_.found() && infeasible_tracking_.square_sum() > most * tracking_.square_sum();
 }
 
-ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simulation,
-                              double wall_s) const {
+ordered_json Summary::to_json(const Scenario& scenario,
+                              const std::optional<ScenarioPromise>& promise,
+                              const Simulation& simulation, double wall_s) const {
   const bool measured = tracking_.count() > 0;
   ordered_json json;
   json["schema_version"] = schema_version;
@@ -184,13 +184,12 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["tracking_max_m"] = measured ? finite(tracking_.max()) : nullptr;
   json["off_reference_rms_m"] = measured ? finite(off_reference_.rms()) : nullptr;
   json["tracking_shown_rms_m"] = measured ? finite(shown_.rms()) : nullptr;
-  const auto promise = scenario_promise(scenario);
   json["promised_rms_m"] = promise ? finite(promise->parts.error_m()) : nullptr;
   json["promised_by"] = nullptr;
   if (promise) json["promised_by"] = promise->of_own_controller ? "own" : "recommended";
   json["promised_on"] = nullptr;
   if (promise) json["promised_on"] = promise->of_reference ? "reference" : "first_motion";
-  const std::string unfollowed = did_not_follow_because(scenario);
+  const std::string unfollowed = did_not_follow_because(scenario, promise);
   json["did_not_follow_because"] = unfollowed.empty() ? ordered_json() : ordered_json(unfollowed);
   if (scenario.start.joint) {
     const double deg_per_m =

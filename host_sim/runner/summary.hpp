@@ -13,6 +13,7 @@
 #include "runner/infeasible_time.hpp"
 #include "runner/limit_cycle.hpp"
 #include "runner/run_meters.hpp"
+#include "runner/scenario_forecast.hpp"
 #include "runner/simulation.hpp"
 #include "supervisor/detectors/margin.hpp"
 
@@ -134,11 +135,13 @@ class Summary {
   std::string never_armed_because(const Scenario& scenario, const Simulation& simulation) const;
 
   /// In words, with the error; empty: it followed, or followed nothing (docs/simulation.md).
-  std::string did_not_follow_because(const Scenario& scenario) const;
+  std::string did_not_follow_because(const Scenario& scenario,
+                                     const std::optional<ScenarioPromise>& promise) const;
 
   /// summary.json; wall_s: how long the run took.
-  nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
-                                 double wall_s) const;
+  nlohmann::ordered_json to_json(const Scenario& scenario,
+                                 const std::optional<ScenarioPromise>& promise,
+                                 const Simulation& simulation, double wall_s) const;
 
  private:
   static constexpr double diverged_ratio = 0.05;

@@ -21,6 +21,10 @@ const std::string slow =
     "simulation.duration_s = 120.0\n[plant]\nthermal_mass_J_per_K = 2.0\n"
     "[muscle]\nthermal_mass_J_per_K = 2.0\n[controller]\nkind = 'learned_ff'\n";
 
+std::string described(const Scenario& scenario) {
+  return describe_reference(reference_feasibility(scenario), scenario);
+}
+
 double infeasible_ratio(const Scenario& scenario) {
   return reference_feasibility(scenario)->infeasible_ratio;
 }
@@ -48,7 +52,7 @@ TEST(ReferenceFeasibility, TheDefaultsAreFeasible) {
   CHECK_TRUE(f->feasible());
   DOUBLES_EQUAL(0.0, f->infeasible_ratio, 0.001);
   DOUBLES_EQUAL(1.0, f->feasible_motion_ratio, 0.0);
-  STRCMP_CONTAINS("no more than", describe_reference(read("")).c_str());
+  STRCMP_CONTAINS("no more than", described(read("")).c_str());
 }
 
 TEST(ReferenceFeasibility, ASlowMusclesSineIsAsFeasibleAsReported) {
@@ -72,13 +76,13 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsAsFeasibleAsReported) {
   CHECK_COMPARE(with(1.05 * f->feasible_motion_ratio, 1.0), >, 5.0 * coming_up);
   CHECK_COMPARE(with(1.0, f->feasible_slowing), <, coming_up);
   CHECK_COMPARE(with(1.0, 0.9 * f->feasible_slowing), >, 2.0 * coming_up);
-  const std::string text = describe_reference(read(slow));
+  const std::string text = described(read(slow));
   STRCMP_CONTAINS(
       "0.224 of its motion about the middle is feasible, or all of it 7.99 times as slow",
       text.c_str());
   STRCMP_CONTAINS("with shape_reference = true", text.c_str());
   const Scenario shaped = read(slow + "shape_reference = true\n");
-  STRCMP_CONTAINS("; it is shaped", describe_reference(shaped).c_str());
+  STRCMP_CONTAINS("; it is shaped", described(shaped).c_str());
 }
 
 /// The controller uses the same muscle.
@@ -116,18 +120,18 @@ TEST(ReferenceFeasibility, ReportsASetPointThatMayBecomeTooHotToHold) {
       "(limited_by temperature); it falls behind by up to 5.91 mm; the reference is infeasible for "
       "94.9 % of the "
       "time; the muscle holds 12.1 mm indefinitely (limited_by temperature)",
-      describe_reference(high).c_str());
-  STRCMP_CONTAINS("limited_by temperature)", describe_reference(high).c_str());
+      described(high).c_str());
+  STRCMP_CONTAINS("limited_by temperature)", described(high).c_str());
   // A position that is reported as held is held.
   const Scenario held = steps_of(std::to_string(0.999 * f->held_m));
   DOUBLES_EQUAL(0.0, infeasible_ratio(held), 0.01);
-  STRCMP_EQUAL("asks for no more than the muscle can do", describe_reference(held).c_str());
+  STRCMP_EQUAL("asks for no more than the muscle can do", described(held).c_str());
   // A sine may exceed it for a short time, or stay below.
   const auto sine_about = [&](const std::string& offset_m) {
     return read(hot + "[reference]\nkind = 'sine'\namplitude_m = 0.005\noffset_m = " + offset_m);
   };
   STRCMP_CONTAINS("because it does not stay at its maximum, 12.3 mm: the muscle holds 12.1 mm",
-                  describe_reference(sine_about("0.0075")).c_str());
+                  described(sine_about("0.0075")).c_str());
   const auto too_high = reference_feasibility(sine_about("0.009"));
   DOUBLES_EQUAL((f->held_m - 0.009) / 0.005, too_high->feasible_motion_ratio, 1e-3);
   CHECK_TRUE(std::isinf(too_high->feasible_slowing));
@@ -150,13 +154,12 @@ TEST(ReferenceFeasibility, ReportsTheFaultOfASetPointBeyondTheHeldTravel) {
     CHECK(summary.ended_in() == Fault::controller_invalid);
     printf("predicted %g, ended at %g s\n", f->invalid_s, summary.faults().front().time_s);
     DOUBLES_EQUAL(summary.faults().front().time_s, f->invalid_s, 3.0);
-    STRCMP_CONTAINS("; it ends in controller_invalid at about ",
-                    describe_reference(scenario).c_str());
+    STRCMP_CONTAINS("; it ends in controller_invalid at about ", described(scenario).c_str());
     const Scenario shaped = step_to(to_m, "true");
     CHECK_TRUE(std::isnan(reference_feasibility(shaped)->invalid_s));
     CHECK_FALSE(reference_feasibility(shaped)->feasible());
     STRCMP_CONTAINS("; it is shaped, so that the muscle follows it as far as it can",
-                    describe_reference(shaped).c_str());
+                    described(shaped).c_str());
   }
   CHECK_TRUE(std::isnan(reference_feasibility(step_to("0.024", "false"))->invalid_s));
 }
@@ -196,12 +199,12 @@ TEST(ReferenceFeasibility, ReportsWhatAnIdentifiedMuscleCannotProve) {
   STRCMP_EQUAL(
       "asks for no more than the muscle can do until it is identified; from then on it holds 6.1 "
       "mm indefinitely (limited_by unproven), not the 11 mm that the reference leads to",
-      describe_reference(scenario).c_str());
+      described(scenario).c_str());
   scenario.known[0].muscle_identified = true;
   CHECK(reference_feasibility(scenario)->limited_by == LimitedBy::unproven);
   const double found = infeasible_ratio_of_run(scenario);
   DOUBLES_EQUAL(found, infeasible_ratio(scenario), 0.05);
-  const std::string text = describe_reference(scenario);
+  const std::string text = described(scenario);
   STRCMP_CONTAINS("more power than its proof of response allows (limited_by unproven)",
                   text.c_str());
   STRCMP_CONTAINS("; the muscle holds ", text.c_str());
@@ -209,7 +212,7 @@ TEST(ReferenceFeasibility, ReportsWhatAnIdentifiedMuscleCannotProve) {
 
 TEST(ReferenceFeasibility, TooWeakAMuscleCannotEvenHoldTheMiddle) {
   const std::string weak = "force_per_kelvin_N_per_K = 0.0002\n";
-  const std::string text = describe_reference(read("[plant]\n" + weak + "[muscle]\n" + weak));
+  const std::string text = described(read("[plant]\n" + weak + "[muscle]\n" + weak));
   STRCMP_CONTAINS(
       "first at 0 s, and the muscle does not catch up, when it would have to be heated with up to",
       text.c_str());
@@ -234,7 +237,7 @@ TEST(ReferenceFeasibility, AnInfeasibleStepStaysInfeasibleInALongRun) {
   STRCMP_CONTAINS(
       "first at 0.065 s for 1.36 s until the muscle has caught up, when it would have to be "
       "heated with up to 2.45 W more than 4.5 W; it falls behind by up to 2.89 mm",
-      describe_reference(step_for("1500.0", "false")).c_str());
+      described(step_for("1500.0", "false")).c_str());
   const InfeasibleTime ran = found_in_run(step_for("100.0", "false"));
   CHECK_TRUE(ran.found());
   DOUBLES_EQUAL(long_run->first_duration_s, ran.first_duration_s(), 0.5);
@@ -272,7 +275,7 @@ TEST(ReferenceFeasibility, IsAbsentWithoutAPositionReference) {
   CHECK_FALSE(reference_feasibility(read("[joint]")).has_value());
   const std::string open_loop = "controller.kind = 'power'\nreference.kind = 'power'";
   CHECK_FALSE(reference_feasibility(read(open_loop)).has_value());
-  STRCMP_EQUAL("", describe_reference(read("[joint]")).c_str());
+  STRCMP_EQUAL("", described(read("[joint]")).c_str());
 }
 
 TEST(ReferenceFeasibility, ReportsALoadBelowTheSensorsRange) {

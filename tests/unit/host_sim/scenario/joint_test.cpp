@@ -334,7 +334,7 @@ TEST(JointScenario, ItsRecordsHaveTheAntagonist) {
   LONGS_EQUAL(0, summary.outside_interval_ticks());
   DOUBLES_EQUAL(simulation.joint()->position_m(), record.position_m, 0.0);
   DOUBLES_EQUAL(record.position_m, record.measured_m, 1e-4);
-  const auto json = summary.to_json(s, simulation, 1.0);
+  const auto json = summary.to_json(s, std::nullopt, simulation, 1.0);
   DOUBLES_EQUAL(json["tracking_max_m"].get<double>() / 0.015 * 180.0 / std::numbers::pi,
                 json["tracking_max_deg"].get<double>(), 1e-12);
   CHECK_COMPARE(json["hottest_temperature_rise_K"].get<double>(), >=,

@@ -1,4 +1,4 @@
-#include "runner/scenario_promise.hpp"
+#include "runner/scenario_forecast.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "config/describe.hpp"
 #include "config/recommended_controller.hpp"
 #include "runner/board_of.hpp"
-#include "runner/reference_feasibility.hpp"
 
 namespace supercoil::host_sim {
 
@@ -18,8 +17,8 @@ namespace {
 constexpr double far_above_promise = 10.0;
 constexpr double large_part = 0.25;
 
-std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario) {
-  const auto f = reference_feasibility(scenario);
+std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario,
+                                            const std::optional<ReferenceFeasibility>& f) {
   if (!f || f->feasible_motion_ratio < 1.0 || f->leads_too_far()) return std::nullopt;
   if (!describe_out_of_range(scenario).empty()) return std::nullopt;
   const Reference& reference = scenario.start.reference;
@@ -32,14 +31,12 @@ std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario) {
                      2.0 * std::numbers::pi / std::abs(sine.angular_frequency_rad_per_s)};
 }
 
-}  // namespace
-
-std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
+std::optional<ScenarioPromise> promise_of(const Scenario& scenario, const BoardSettings& board,
+                                          const std::optional<ReferenceFeasibility>& reference) {
   if (!follows_position(scenario.start)) return std::nullopt;
-  const BoardSettings board = forecast_board_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   ScenarioPromise promise;
-  const auto sine = feasible_sine_of(scenario);
+  const auto sine = feasible_sine_of(scenario, reference);
   promise.of_reference = sine.has_value();
   promise.motion =
       sine.value_or(plan_first_motion(feasibility(channel, board), channel.unexplained_ratio));
@@ -53,8 +50,14 @@ std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
   return promise;
 }
 
-std::string describe_scenario_promise(const Scenario& scenario) {
-  const auto promise = scenario_promise(scenario);
+}  // namespace
+
+ScenarioForecast::ScenarioForecast(const Scenario& scenario)
+    : board(forecast_board_of(scenario)),
+      reference(reference_feasibility(scenario)),
+      promise(promise_of(scenario, board, reference)) {}
+
+std::string describe_promise(const std::optional<ScenarioPromise>& promise) {
   if (!promise || !promise->of_reference) return {};
   return std::string(promise->of_own_controller ? "promised is"
                                                 : "the recommended controller promises") +

@@ -272,8 +272,8 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    if (const std::string unknown = unknown_option(app, error); !unknown.empty())
-      return refuse(json, exit_wrong_input, unknown);
+    if (const std::string unexpected = unexpected_argument(app, error); !unexpected.empty())
+      return refuse(json, exit_wrong_input, unexpected);
     if (json && error.get_exit_code() != 0) return refuse(json, exit_wrong_input, error.what());
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;

@@ -57,15 +57,37 @@ inline void add_docs(CLI::App& app, DocsOptions& options) {
       ->capture_default_str();
 }
 
-/// The option that does not exist, where CLI11 would only say that something else is missing;
-/// empty: none.
-inline std::string unknown_option(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) return {};
-  for (const std::string& written : app.remaining(true)) {
-    if (written.starts_with('-'))
-      return written + " is not an option; --help lists those that there are";
+/// The first of these arguments that is an option, without "=VALUE"; empty: none is.
+inline std::string first_option(const std::vector<std::string>& arguments) {
+  const auto found = std::find_if(arguments.begin(), arguments.end(),
+                                  [](const std::string& each) { return each.starts_with('-'); });
+  return found == arguments.end() ? std::string() : found->substr(0, found->find('='));
+}
+
+/// What the command line has that no command expects, where CLI11 would say no more, or only that
+/// something else is missing; empty: nothing.
+inline std::string unexpected_argument(const CLI::App& app, const CLI::ParseError& error) {
+  const bool too_many = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (!too_many && dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) return {};
+  const std::vector<std::string> unexpected = app.remaining(true);
+  const auto without_dashes = [](const std::string& name) {
+    return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  };
+  if (const std::string option = first_option(unexpected); !option.empty()) {
+    const auto commands = app.get_subcommands();
+    const CLI::App& command = commands.empty() ? app : *commands.front();
+    std::vector<std::string> names;
+    for (const CLI::Option* const each : command.get_options()) {
+      if (each->nonpositional()) names.push_back(without_dashes(each->get_name()));
+    }
+    const std::string nearest = nearest_name(without_dashes(option), names).name;
+    return option + " is not an option; " +
+           (nearest.empty() ? "--help lists those that there are"
+                            : "did you mean --" + nearest + "?");
   }
-  return {};
+  if (!too_many || unexpected.empty()) return {};
+  return "'" + unexpected.front() +
+         "' is one argument too many; --help lists those that are expected";
 }
 
 }  // namespace supercoil

@@ -327,8 +327,8 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    if (const std::string unknown = unknown_option(app, error); !unknown.empty())
-      return refuse(json, exit_wrong_input, unknown);
+    if (const std::string unexpected = unexpected_argument(app, error); !unexpected.empty())
+      return refuse(json, exit_wrong_input, unexpected);
     const int status = app.exit(error);
     if (status == 0) return exit_done;
     if (json) print_error(error.what());

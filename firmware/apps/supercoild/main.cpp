@@ -85,6 +85,10 @@ int run_program(int count, char** arguments) {
     if (as_json && !measures && app.count("--check") == 0)
       throw CLI::RequiresError("--json", "--check or --latency");
   } catch (const CLI::ParseError& error) {
+    if (const std::string unexpected = unexpected_argument(app, error); !unexpected.empty()) {
+      std::fprintf(stderr, "supercoild: %s\n", unexpected.c_str());
+      return exit_wrong_input;
+    }
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }

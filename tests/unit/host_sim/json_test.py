@@ -111,7 +111,7 @@ class Json(ProgramCase):
                 ("", "/proc/none: cannot be created", ("estimators", "--out", "/proc/none")),
                 ("", "/proc/none: cannot be created", ("reproduce", "--out", "/proc/none")),
                 ("", "--slurm excludes --json", ("campaign", "study.toml", "--slurm", 2)),
-                ("", "not expected", ("compare", "--bogus")),
+                ("", "--bogus is not an option", ("compare", "--bogus")),
                 ("", "'fly' is not a command", ("fly",))):
             with self.subTest(arguments=arguments):
                 done = self.run_program(*arguments, "--json")

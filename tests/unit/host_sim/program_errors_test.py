@@ -158,8 +158,7 @@ class Errors(ProgramCase):
         self.assertEqual(self.run_program("run").returncode, 2)
         self.assertEqual(self.run_program("fly").returncode, 2)
         self.assertEqual(self.run_program().returncode, 2)
-        self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
-        for words in (("--foo",), ("run", "--foo")):
+        for words in (("--foo",), ("run", "--foo"), ("run", "sine", "--foo=3")):
             done = self.run_program(*words)
             self.assertEqual((done.returncode, done.stderr.splitlines()[0]),
                              (2, "supercoil-sim: --foo is not an option; --help lists those that there are"))
@@ -167,6 +166,8 @@ class Errors(ProgramCase):
     def test_a_misspelt_name_suggests_the_nearest_one(self):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is not a command; the commands are: run, page, reproduce, ", "fly")
+        self.check_refused("supercoil-sim: --evry is not an option; did you mean --every?", "run", "sine", "--evry", "3")
+        self.check_refused("'2' is one argument too many; --help lists those that are expected", "reproduce", "2", "2")
         self.check_refused("sin: there is no such file, and no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
         self.check_refused("no built-in scenario has that name; the built-in scenarios are: b, bench, ", "run", "zzz", "--out", "out")
 

@@ -71,7 +71,11 @@ class Page(Browser):
         field = self.find(".value input")
         field.clear()
         field.send_keys(str(position_mm), Keys.ENTER)
-        self.wait(lambda: self.state() == "active", 10.0, "active")
+        self.wait(self.has_begun, 10.0, "active")
+
+    def has_begun(self):
+        """Whether the muscle is active, or was: when the machine stalls, the command may expire before anybody looks."""
+        return self.state() in ("active", "fault")
 
     def arrive(self, position_mm):
         self.wait(lambda: self.state() != "active" or abs(self.value("position") - position_mm) < NEAR_MM, ARRIVES_S,
@@ -94,7 +98,7 @@ class Page(Browser):
             self.arm()
             self.click("input[value=identify] + span")
             self.click(".go")
-            self.wait(lambda: self.state() == "active", 10.0, "identifies")
+            self.wait(self.has_begun, 10.0, "identifies")
             self.wait(lambda: self.state() != "active", IDENTIFIES_S, "has identified")
             if self.state() == "armed":
                 return

@@ -120,8 +120,9 @@ class Page(Browser):
         raise AssertionError(f"was not stopped in {TRIES} tries")
 
     def stop_is_confirmed(self):
-        """Whether STOP is confirmed, by its own port or by the other way when this machine is busy for half a second."""
-        return self.text("#stop-notice").startswith(("stopped node", "disarmed each node by a command"))
+        """Whether STOP is confirmed, by its own port, or by the other ways when this machine is busy for half a second or two."""
+        return self.text("#stop-notice").startswith(
+            ("stopped node", "disarmed each node by a command", "every node reports its muscle off"))
 
     def stop_port(self):
         return self.run("return fetch('/api/about').then((answer) => answer.json())")["stop_port"]

@@ -67,7 +67,7 @@ class Scripts(OnSimulatedBoard):
                                     (("--foo",), 2, "--foo is not an option; --help lists those that there are"),
                                     (("tune", "--foo"), 2, "--foo is not an option; --help lists those that there are"),
                                     (("doctor", "--confg", "board.toml"), 2, "--confg is not an option; did you mean --config?"),
-                                    (("docs", "can"), 2, "'can' is one argument too many; --help lists those that are expected"),
+                                    (("doctor", "board.toml"), 2, "'board.toml' is one argument too many; --help lists those that are expected"),
                                     (("command", "2", "position", "5deg", "--can", self.source), 1, "no answer from node 2"),
                                     (("command", "1", "power", "5deg", "--can", self.source), 2, "power needs a number"),
                                     (("command", "1", "power", "1deg", "--amplitude", "1", "--period", "2", "--for", "5", "--can", self.source), 2,

@@ -111,6 +111,7 @@ class Page(Browser):
             self.move(TARGET_MM)
             if self.state() != "active":
                 continue
+            self.run("document.querySelector('#stop-notice').textContent = ''")  # an earlier STOP confirms nothing
             begin_s = time.monotonic()
             act()
             self.wait(lambda: self.state() != "active" and self.value("power") == 0.0, patience_s, "off")

@@ -54,9 +54,7 @@ std::string allowed_text(const Key& key) {
     return key.type == "integer" ? std::to_string(static_cast<std::int64_t>(limit))
                                  : number_text(limit, key_digits);
   };
-  const bool open_ended = key.range->max >= any_number.max;
-  const std::string range =
-      shown(key.range->min) + (open_ended ? " or more" : " to " + shown(key.range->max));
+  const std::string range = range_text(*key.range, shown(key.range->min), shown(key.range->max));
   if (key.type != "numbers") return limited ? range : "";
   const std::string least = std::to_string(key.min_count);
   const bool fixed = key.min_count == key.max_count;

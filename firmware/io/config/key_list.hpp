@@ -25,6 +25,11 @@ constexpr bool is_any(const Range& range) {
   return range.min <= any_number.min && range.max >= any_number.max;
 }
 
+/// "0 to 255" or "1 or more". min, max: the range's ends as text.
+inline std::string range_text(const Range& range, const std::string& min, const std::string& max) {
+  return range.max >= any_number.max ? min + " or more" : min + " to " + max;
+}
+
 /// monostate: none. Numbers are finite, lists and texts are not empty.
 using KeyValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
                               std::vector<double>, std::vector<std::string>>;

@@ -19,7 +19,7 @@ std::string shown(double value) {
 }
 
 std::string shown(const Range& range) {
-  return shown(range.min) + " to " + shown(range.max);
+  return range_text(range, shown(range.min), shown(range.max));
 }
 
 std::string joined_path(const std::string& path, std::string_view key) {

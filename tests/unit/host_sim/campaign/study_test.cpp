@@ -91,7 +91,9 @@ TEST(Study, ErrorsNameTheProblemOfADraw) {
                 draw("uniform = [1.0, 2.0]\nlog_uniform = [1.0, 2.0]"));
   check_problem("draw[1].uniform = [2, 1]: the second value must be greater than the first",
                 draw("uniform = [2.0, 1.0]"));
-  check_problem("draw[1].log_uniform", draw("log_uniform = [0.0, 1.0]"));
+  check_problem(
+      "draw[1].log_uniform = [0, 1]: must be a list of 2 numbers, each 1e-300 or more; 0 is not",
+      draw("log_uniform = [0.0, 1.0]"));
   check_problem("the standard deviation must be above 0", draw("normal = [1.0, 0.0]"));
   check_problem("min = 50: almost none of the distribution lies between min and max",
                 draw("normal = [0.0, 1.0]\nmin = 50.0\nmax = 51.0"));
